@@ -7,7 +7,8 @@ overlaps.py RUN.h5 --blocks BLOCKS.h5 --trn BED.tif [--every N] [--from T] [--to
 Nothing of the engine is used but the files. In every frame that is looked at:
 - two blocks: all pairs of their convex parts by separating axes, faces and all products of edges.
   Of bodies of several parts the overlap is the least path, along any of those axes, that takes one
-  out of all parts of the other: out of one part may be into the next.
+  out of all near parts of the other: out of one part may be into the next. Health takes the least
+  displacement in any direction, which may be less.
 - a block and the bed: the distance from the bed of its vertices below it, and the distance from the
   block's surface of points of the bed inside of it: nodes, and points SAMPLE_M apart between them.
 Overlaps below FLOOR of the thinner block's thickness along a face are not looked into further.
