@@ -177,9 +177,9 @@ GDALDataset* open_checked(Guarded kind, Open original, GDALOpenInfo* info) {
   return is_refused ? nullptr : dataset.release();
 }
 
-// GDAL ends with a fault where one is destroyed (3.6), so they stay.
+// GDAL ends with a fault where one is destroyed (3.6), so they stay to the end.
 void take_out(const char* driver_name) {
-  static std::vector<GDALDriverH> taken;
+  static auto& taken = *new std::vector<GDALDriverH>;
   const GDALDriverH driver = GDALGetDriverByName(driver_name);
   if (driver == nullptr) return;
   GDALDeregisterDriver(driver);
