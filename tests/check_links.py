@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks the pages: every relative link of a *.md leads to a file or folder, and its #anchor to a
 heading there; every page that sources, scripts and tests name as docs/... exists, and so does its
-heading; every page under docs/ is reached from docs/index.md."""
+heading; every page under docs/ is reached from docs/index.md; no page or source holds the marks of an
+unfinished merge."""
 import pathlib
 import re
 import sys
@@ -9,6 +10,7 @@ import sys
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 NAMED = re.compile(r"\bdocs/(?:[\w-]+/)*[\w-]+\.md(?:#[\w-]+)?")
 HEADING = re.compile(r"^#+ +(.*)$", re.MULTILINE)
+MERGE_MARK = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
 FENCED = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
 KINDS = {".cpp", ".hpp", ".in", ".py", ".sh", ".mk", ".smk", ".js", ".toml", ".txt", ".cmake", ".md"}
 
@@ -39,6 +41,8 @@ def problems_of(root):
     linked = {}
     for path in files_of(root):
         name, text = path.relative_to(root), path.read_text()
+        if mark := MERGE_MARK.search(text):
+            yield f"{name}:{text.count(chr(10), 0, mark.start()) + 1}: an unfinished merge"
         if path.suffix == ".md":
             for link in LINK.findall(text):
                 if re.match(r"[a-z]+:", link):
