@@ -58,6 +58,10 @@ RowArm arm_on(const Scene& scene, const GroundClass& ground, int b) {
   return {rolling * radius, (ground.spinning < 0 ? rolling : ground.spinning) * radius};
 }
 
+double turn_damping(const Scene& scene, const BlockNumbers& c, double h) {
+  return law::stiffest_lone * law::recovery_steps * (h / scene.settings.dt) * c.inertia.maxCoeff();
+}
+
 int add_turn(const Scene& scene, int b, const BlockNumbers& c, double h,
              std::span<const ContactRow> rows, std::vector<AngularRow>& turns,
              std::vector<RowArm>& arms) {
@@ -70,9 +74,7 @@ int add_turn(const Scene& scene, int b, const BlockNumbers& c, double h,
   AngularRow turn;
   turn.row_end = static_cast<int>(rows.size());
   turn.arm_begin = static_cast<int>(arms.size());
-  // as firm as the stiffest contact of a lone block
-  turn.damping =
-      law::stiffest_lone * law::recovery_steps * (h / scene.settings.dt) * c.inertia.maxCoeff();
+  turn.damping = turn_damping(scene, c, h);
   turn.inertia = c.inertia.minCoeff();
   for (const ContactRow& row : rows) arms.push_back(arm_on(scene, class_of_row(row), b));
   turns.push_back(turn);

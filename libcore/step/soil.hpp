@@ -39,6 +39,10 @@ namespace talus {
 /// q)), at most 0.5.
 [[nodiscard]] RowArm arm_on(const Scene& scene, const GroundClass& ground, int b);
 
+/// Damping of the couple over a step of `h`: as firm as the stiffest contact of a lone block
+/// [kg m2].
+[[nodiscard]] double turn_damping(const Scene& scene, const BlockNumbers& c, double h);
+
 /// Adds the angular row of block b beside `rows`, and the arms of these, where one of them is on
 /// ground that resists rolling. `arms` and `turns` grow; returns the row's index, -1: none.
 int add_turn(const Scene& scene, int b, const BlockNumbers& c, double h,

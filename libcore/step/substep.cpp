@@ -493,6 +493,11 @@ void fall_asleep(const Scene& scene, size_t b, State& state) {
   state.motion[b].angular_momentum.setZero();
 }
 
+bool is_below_ground(const Scene& scene, int b, const Vec3& centroid) {
+  const double radius = scene.blocks.shapes.radius[b];
+  return centroid.z() + radius < elevation_at(scene.ground.trn, centroid.x(), centroid.y());
+}
+
 bool left_ground(const Scene& scene, const Vec3& x) {
   return std::isnan(elevation_at(scene.ground.trn, x.x(), x.y()));
 }

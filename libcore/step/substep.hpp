@@ -115,6 +115,9 @@ void fall_asleep(const Scene& scene, std::size_t b, State& state);
 /// Kinetic energy of block b in motion `m` [J].
 [[nodiscard]] double kinetic_energy(const Scene& scene, std::size_t b, const Motion& m);
 
+/// Whether block b is wholly below the ground under its centroid.
+[[nodiscard]] bool is_below_ground(const Scene& scene, int b, const Vec3& centroid);
+
 [[nodiscard]] bool left_ground(const Scene& scene, const Vec3& x);
 
 /// Stops block b where it left the known terrain, and counts it.

@@ -33,20 +33,8 @@ void set_motion(const Vec3& normal, double gap, const Vec3& arm, const Vec3& dri
   row.slip_start = row.slip_speed > 0 ? Vec3(tangent / row.slip_speed) : Vec3(Vec3::Zero());
 }
 
-// Whether block b is wholly below the ground under its centroid.
-bool is_below_ground(const Scene& scene, int b, const Vec3& centroid) {
-  const double radius = scene.blocks.shapes.radius[b];
-  return centroid.z() + radius < elevation_at(scene.ground.trn, centroid.x(), centroid.y());
-}
-
 double approach_of(const ContactRow& row, double h) {
   return std::min(row.speed_start, row.normal.dot(row.free_move) / h);
-}
-
-// Of one pair of bodies, whatever the keys say of them.
-bool has_features(const ContactKey& now, const ContactKey& then) {
-  return now.mode == then.mode && now.feature_a == then.feature_a &&
-         now.feature_b == then.feature_b;
 }
 
 // Holds a contact of a bond without limit; check_substep() compares what it carries.
@@ -131,7 +119,7 @@ struct ContactMaker {
     system.waiting.clear();
     system.has_bonds = system.fell_through = system.is_hard = false;
     system.outsider = -1;
-    making.touched_by = -1;
+    making.memories.touched_by = -1;
   }
 
   void begin_pair(int a, int b, int manifold) {
@@ -224,42 +212,8 @@ struct ContactMaker {
     return p;
   }
 
-  // The memories that the points of a manifold continue, -1: none. First those of the same
-  // features; then, where features changed, those that the pair leaves without a successor, so
-  // that a face that rests on another keeps its support and its friction while corners pass edges.
-  void match_memories(const PairManifold& m) {
-    const std::vector<ContactMemory>& memory = memory_of(m.block_a);
-    making.continued.assign(n_points(m), -1);
-    if (making.touched_by != m.block_a) {  // manifolds come block by block
-      making.touched_by = m.block_a;
-      making.touched.clear();
-      for (const ContactMemory& contact : memory) making.touched.push_back(contact.key.body_b);
-    }
-    std::vector<int>& unclaimed = making.unclaimed;
-    unclaimed.clear();
-    const int other = name_of_body(scene, m.block_b);
-    for (size_t i = 0; i < making.touched.size(); ++i)
-      if (making.touched[i] == other) unclaimed.push_back(static_cast<int>(i));
-    if (unclaimed.empty()) return;
-    const auto claim = [&](const auto& continues, double least_cosine) {
-      for (size_t p = 0; p < making.continued.size() && !unclaimed.empty(); ++p) {
-        if (making.continued[p] >= 0) continue;
-        const ContactKey& key = search.pairs.points[m.point_begin + p].key;
-        const auto found = std::find_if(unclaimed.begin(), unclaimed.end(), [&](int i) {
-          const ContactMemory& then = memory[i];
-          return continues(key, then.key) && then.normal.dot(m.normal) > least_cosine;
-        });
-        if (found == unclaimed.end()) continue;
-        making.continued[p] = *found;
-        unclaimed.erase(found);
-      }
-    };
-    claim(has_features, 0.5);
-    claim([](const ContactKey&, const ContactKey&) { return true; }, 0.99);
-  }
-
   [[nodiscard]] int continued(const PairManifold& m, int p) const {
-    return making.continued[p - m.point_begin];
+    return making.memories.continued[p - m.point_begin];
   }
 
   [[nodiscard]] Meeting meeting_of(const PairManifold& m) const {
@@ -480,7 +434,8 @@ struct ContactMaker {
     const PairManifold& m = search.pairs.manifolds[manifold];
     begin_pair(members.place[m.block_a], is_fixed(scene, m.block_b) ? -1 : members.place[m.block_b],
                manifold);
-    match_memories(m);
+    match_memories(m, name_of_body(scene, m.block_b), search.pairs.points, memory_of(m.block_a),
+                   making.memories);
     if (is_fixed(scene, m.block_b))
       add_fixed_points(m);
     else

@@ -24,6 +24,7 @@
 #include "solver/island_solver.hpp"
 #include "solver/law_numbers.hpp"
 #include "solver/newton.hpp"
+#include "step/island/pair_memories.hpp"
 #include "step/report.hpp"
 #include "step/stage_clock.hpp"
 #include "step/substep_numbers.hpp"
@@ -119,10 +120,7 @@ struct ContactMaking {  // clang-format off
   std::vector<ContactMemory> unbonded;      ///< memory of a member whose bond with the ground broke
   std::vector<double> hit_speed_bound;      ///< that hits near it may give it, about [m/s] (n_members)
   std::vector<double> hit_speed_before;     ///< ... by hits one pair nearer [m/s]       (n_members)
-  int touched_by = -1;                      ///< block whose memories `touched` is of
-  std::vector<int> touched;                 ///< body B of each memory
-  std::vector<int> continued;               ///< memory that a manifold's point continues
-  std::vector<int> unclaimed;               ///< memories of the pair that no point continues yet
+  PairMemories memories;                    ///< of the manifold at hand
 };  // clang-format on
 
 /// A contact that is hit within the substep.

@@ -150,10 +150,18 @@ Motion end_drag(const Scene& scene, const IslandMembers& members, const FreeMoti
                 const IslandSystem& system, size_t k, const Motion& end, const Motion& before,
                 State& state) {
   if (!any_drags(scene)) return end;
-  const auto energy = [&](const Motion& m) { return kinetic_energy(scene, members.block(k), m); };
-  state.ledger.drag += energy(before) - energy(free.substeps[k].start);
-  const Motion dragged =
-      after_drag(scene, members.blocks[k], end, is_pressed(system, k), free.h / 2);
+  return end_drag(scene, members.blocks[k], before, free.substeps[k].start, end,
+                  is_pressed(system, k), free.h, state);
+}
+
+Motion end_drag(const Scene& scene, int b, const Motion& before, const Motion& start,
+                const Motion& end, bool is_pressed, double h, State& state) {
+  if (!any_drags(scene)) return end;
+  const auto energy = [&](const Motion& m) {
+    return kinetic_energy(scene, static_cast<size_t>(b), m);
+  };
+  state.ledger.drag += energy(before) - energy(start);
+  const Motion dragged = after_drag(scene, b, end, is_pressed, h / 2);
   state.ledger.drag += energy(end) - energy(dragged);
   return dragged;
 }

@@ -31,4 +31,9 @@ void end_soil(const Scene& scene, const IslandMembers& members, const FreeMotion
                               const FreeMotions& free, const IslandSystem& system, std::size_t k,
                               const Motion& end, const Motion& before, State& state);
 
+/// The same for block b that began the substep of `h` with `start`, its motion before drag being
+/// `before`; `is_pressed`: on the ground.
+[[nodiscard]] Motion end_drag(const Scene& scene, int b, const Motion& before, const Motion& start,
+                              const Motion& end, bool is_pressed, double h, State& state);
+
 }  // namespace talus

@@ -50,7 +50,10 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
 
 // --- 4 predict (step/island/predict.cpp)
 // ------------------------------------------------------------
-/// Fills `free` and the bodies of `island` for the substep of `h` from `t`.
+/// Fills `free` for the substep of `h` from `t`.
+void predict_free(const Scene& scene, const State& state, const IslandMembers& members, double t,
+                  double h, FreeMotions& free);
+/// The same, and the bodies of `island`.
 void predict(const Scene& scene, const State& state, const IslandMembers& members, double t,
              double h, FreeMotions& free, Island& island);
 
