@@ -36,6 +36,16 @@ struct EnergyLedger {
   double removed = 0;   ///< kinetic energy of blocks stopped at the domain's edge
 };
 
+/// How the island of a block was last moved, and what decides on how it moves on
+/// (step/mass/stages.hpp).
+struct MassShare {
+  bool is_in_mass = false;  ///< by the mass step
+  int calm = 0;             ///< steps in a row in which few of its blocks moved
+  int doublings = 0;        ///< of the sweeps
+  int unsettled = 0;        ///< steps in a row whose last sweep changed too much
+  int barred = 0;           ///< steps for which it is no mass, since its forces were not found
+};
+
 /// What a block has slid, on ground whose friction follows that.
 struct SlidWay {
   double way = 0;   ///< [m]
@@ -126,6 +136,7 @@ struct State : BlockLives {  // clang-format off
   std::vector<Vec6> strain_rate;            ///< body axes; empty for rigid blocks [1/s]  (n_blocks)
   std::vector<std::vector<ContactMemory>> memory;  ///< contacts of block b with the ground and
                                                    ///< blocks of higher number       (n_blocks)
+  std::vector<MassShare> mass;              ///< empty: none was in a mass so far       (n_blocks)
   PairState pairs;                          ///< close pairs of blocks and their axes
   PlacedHulls placed;                       ///< where the pairs were searched last
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)

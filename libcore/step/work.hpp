@@ -13,6 +13,7 @@
 #include "solver/impact_solve.hpp"
 #include "step/deep_work.hpp"
 #include "step/island/data.hpp"
+#include "step/mass/data.hpp"
 #include "step/paper/paper_work.hpp"
 
 namespace talus {
@@ -54,6 +55,7 @@ struct Work {  // clang-format off
   // form_islands, advance_island
   PairSearch search;
   IslandScratch island;                      ///< at hand
+  MassScratch mass;                          ///< ... where it is a mass
   PaperWork paper;
   // note_overlap, note_deep_blocks
   DeepWork deep;

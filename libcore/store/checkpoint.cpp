@@ -16,7 +16,7 @@ namespace talus {
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 72 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 136 &&
               sizeof(HealthRow) == 208 + 8 * substep_cut_names.size());
-static_assert(sizeof(State) == 8 + 22 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
+static_assert(sizeof(State) == 8 + 23 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState) +
                                    sizeof(YieldingState) + sizeof(Mishaps));
 static_assert(sizeof(YieldingState) == 3 * 24 && sizeof(Yielded) == 56);
@@ -28,6 +28,7 @@ static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(L
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
 static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
               sizeof(Mishaps) == 5 * 48);
+static_assert(sizeof(MassShare) == 20);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
 template <class Archive>
@@ -112,6 +113,10 @@ void fields(Fields<Archive>& archive, SlidWay& slid) {
   archive(slid.way, slid.time);
 }
 template <class Archive>
+void fields(Fields<Archive>& archive, MassShare& share) {
+  archive(share.is_in_mass, share.calm, share.doublings, share.unsettled, share.barred);
+}
+template <class Archive>
 void fields(Fields<Archive>& archive, RunCounters& counters) {
   archive(counters.steps, counters.substeps, counters.flight_skips, counters.impacts,
           counters.passes, counters.unconverged, counters.cut_back, counters.left_domain);
@@ -156,7 +161,7 @@ template <class Archive>
 void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
-          state.rest_steps, state.strain, state.strain_rate, state.memory, state.pairs,
+          state.rest_steps, state.strain, state.strain_rate, state.memory, state.mass, state.pairs,
           state.placed, state.bonds, state.deep, state.slid, state.load, state.crushed,
           state.hit_loss, state.n_hits, state.breaks, state.mishaps, state.yielding, state.fence,
           state.stem_hits, state.ledger, state.counters);
@@ -200,7 +205,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x32316b6365686374;  // "tcheck12"
+constexpr std::uint64_t format = 0x33316b6365686374;  // "tcheck13"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {
@@ -223,6 +228,7 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
                           sampler.latest.size()}))
     return false;
   if (!state.load.empty() && state.load.size() != n_blocks) return false;
+  if (!state.mass.empty() && state.mass.size() != n_blocks) return false;
   if (state.hit_loss.size() != state.n_hits.size() ||
       (!state.n_hits.empty() && state.n_hits.size() != n_blocks))
     return false;

@@ -40,10 +40,11 @@ double resident_kb() {
 }
 
 // Arguments: blocks, time step [1e-4 s], seed, duration [0.1 s].
-void slide_by(benchmark::State& run, Law law) {
+void slide_by(benchmark::State& run, Law law, bool masses = Settings{}.masses) {
   if (bench::peers_folder().empty()) return run.SkipWithError("TALUS_PEERS_DIR is not set");
   Settings settings;
   settings.law = law;
+  settings.masses = masses;
   if (law == Law::paper) settings.normal_stiffness = 5e10;
   settings.dt = 1e-4 * static_cast<double>(run.range(1));
   const double duration = 0.1 * static_cast<double>(run.range(3));
@@ -81,6 +82,8 @@ void slide_by(benchmark::State& run, Law law) {
   }
 }
 void Slide(benchmark::State& run) { slide_by(run, Law::talus); }
+void SlideExact(benchmark::State& run) { slide_by(run, Law::talus, false); }
+void SlideMass(benchmark::State& run) { slide_by(run, Law::talus, true); }
 void SlidePaper(benchmark::State& run) { slide_by(run, Law::paper); }
 
 BENCHMARK(Slide)
@@ -91,6 +94,15 @@ BENCHMARK(Slide)
 BENCHMARK(Slide)
     ->Name("SlideDense")
     ->ArgsProduct({{39, 390, 3900}, {10, 50, 100, 200, 300}, {0}, {1, 5, 10, 30, 100}})
+    ->Unit(benchmark::kSecond)
+    ->Iterations(1);
+// By the exact step alone, and where many blocks move by the mass step.
+BENCHMARK(SlideExact)
+    ->ArgsProduct({{39, 390, 3900}, {10, 50, 100}, {0, 1, 2}, {5, 10, 20, 100, 200}})
+    ->Unit(benchmark::kSecond)
+    ->Iterations(1);
+BENCHMARK(SlideMass)
+    ->ArgsProduct({{39, 390, 3900}, {10, 50, 100}, {0, 1, 2}, {5, 10, 20, 100, 200}})
     ->Unit(benchmark::kSecond)
     ->Iterations(1);
 BENCHMARK(SlidePaper)

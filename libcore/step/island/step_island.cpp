@@ -7,6 +7,8 @@
 #include "solver/law_numbers.hpp"
 #include "step/accuracy.hpp"
 #include "step/island/stages.hpp"
+#include "step/mass/stages.hpp"
+#include "step/mass/step_mass.hpp"
 #include "step/substep.hpp"
 
 namespace talus {
@@ -138,8 +140,8 @@ void stop_outsiders(const Scene& scene, double t_end, State& state, Work& work,
 }
 
 // Stages 2 and 3, for at most `ahead`: the longest substep that they allow.
-double prepare_substep(const Scene& scene, int k, double t, double ahead, State& state,
-                       Work& work) {
+double prepare_substep(const Scene& scene, int k, bool is_mass, double t, double ahead,
+                       State& state, Work& work) {
   PairSearch& search = work.search;
   IslandScratch& w = work.island;
   const bool begins = t == state.time;
@@ -151,6 +153,7 @@ double prepare_substep(const Scene& scene, int k, double t, double ahead, State&
       find_pairs(scene, w.members, ahead, state, search, w.manifolds);
   }
   const StageTimer timer(w.clock, IslandStage::choose_stiffness);
+  if (is_mass) return longest_mass_substep(scene, search, w.members, w.manifolds, ahead);
   if (begins) see_size(scene, state, search, w.manifolds, w.members);
   choose_stiffness(scene, state, search, w.manifolds, w.tries.eased, w.members);
   return longest_substep(scene, state, search, w.members, w.manifolds, ahead);
@@ -169,9 +172,13 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
   w.tries.last_h = t_end - state.time;
   w.tries.longest = no_normal_limit;
   double t = state.time, ahead = t_end - t;
+  const bool is_mass = moves_as_mass(scene, w.members, state);
   while (t < t_end && !w.members.blocks.empty()) {
-    const double longest = prepare_substep(scene, k, t, ahead, state, work);
-    make_substep(scene, t, std::min(longest, w.tries.longest), state, work, report);
+    const double longest = prepare_substep(scene, k, is_mass, t, ahead, state, work);
+    if (is_mass)
+      make_mass_substep(scene, t, longest, state, work, report);
+    else
+      make_substep(scene, t, std::min(longest, w.tries.longest), state, work, report);
     t = state.local_time[w.members.block(0)];
     if (t_end - t < 1e-9 * scene.settings.dt) t = t_end;
     stop_outsiders(scene, t_end, state, work, report);

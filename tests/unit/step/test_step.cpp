@@ -92,6 +92,29 @@ TEST(Step, IslandsDoNotAllocateAfterWarmUp) {
   EXPECT_GT(state.counters.impacts, 50);
 }
 
+TEST(Step, MassesDoNotAllocateAfterWarmUp) {
+  if (!counts_allocations) GTEST_SKIP() << "the thread sanitizer counts nothing";
+  std::vector<Body> bodies;
+  for (int i = 0; i < 64; ++i) {
+    const Vec3 low(i % 4, i / 4 % 4, i / 16);
+    bodies.push_back(body_of(box(low, low + Vec3::Ones()), Vec3(9, 0, 0)));
+  }
+  Settings settings;
+  settings.masses = true;
+  const Scene scene =
+      scene_of(plane_trn(slope_frame(0, 0), 2, 60), ground_of(30, 0.3), bodies, settings);
+  const State first = start(scene);
+  State state = first;
+  Work work = make_work(scene);
+  for (int warm_up = 0; warm_up < 4; ++warm_up, state = first)
+    for (int i = 0; i < 150; ++i) step(scene, state, work);
+  for (int i = 0; i < 3; ++i) step(scene, state, work);
+  const long before = n_allocations;
+  for (int i = 0; i < 140; ++i) step(scene, state, work);
+  EXPECT_EQ(n_allocations, before);
+  EXPECT_TRUE(state.mass[0].is_in_mass);
+}
+
 TEST(Step, IsTheSameToTheBitWhenRepeated) {
   const Scene scene = rough_scene({});
   Motion last[2];

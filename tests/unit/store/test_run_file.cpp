@@ -357,6 +357,8 @@ talus::Checkpoint sample_checkpoint() {
   state.memory[1].resize(3);
   state.memory[1][2].key.feature_a = 42;
   state.memory[1][2].normal_force = 1e-300;
+  state.mass.resize(2);
+  state.mass[1] = {.is_in_mass = true, .calm = 3, .doublings = 2, .unsettled = 4, .barred = 5};
   state.counters.impacts = 99;
   checkpoint.trackers.resize(2);
   checkpoint.trackers[0].covered = {5, 6, 7};
@@ -376,6 +378,8 @@ TEST(Checkpoint, ReadsBackToTheBit) {
   EXPECT_EQ(back.state.memory[1][2].normal_force, 1e-300);
   EXPECT_EQ(back.state.support[1], Vec3(4, 5, 6));
   EXPECT_EQ(back.state.counters.impacts, 99);
+  EXPECT_TRUE(back.state.mass[1].is_in_mass);
+  EXPECT_EQ(back.state.mass[1].barred, 5);
   EXPECT_EQ(back.state.deep[1].steps, 12);
   EXPECT_EQ(back.state.deep[1].depth, 0.17);
   EXPECT_EQ(back.trackers[0].covered, (std::vector<int>{5, 6, 7}));

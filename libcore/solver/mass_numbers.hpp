@@ -1,0 +1,47 @@
+// libcore/solver/mass_numbers.hpp
+// The numbers of the mass step, as solver/law_numbers.hpp has those of the exact step. h is a step,
+// dt the nominal step, g gravity, m the mass that a contact feels, tau the time over which overlap
+// is pressed out (law::recovery_steps).
+#pragma once
+
+namespace talus::mass {
+
+// --- exact or mass? ----------------------------------------------------------------------------
+
+/// [blocks] An island becomes a mass when more than so many of its blocks move. Tried: 8; it saves
+/// nothing on 390 blocks, and columns of ten keep more energy of a hit than their hits in turn.
+inline constexpr int most_moving = 32;
+/// [blocks] A mass is exact again below this size ...
+inline constexpr int least_size = 24;
+/// [blocks] ... or where no more than so many of its blocks are faster than g dt ...
+inline constexpr int most_restless = 8;
+/// [s] ... for this time.
+inline constexpr double calm_time = 0.2;
+
+// --- rows --------------------------------------------------------------------------------------
+
+/// [-] What a contact gives, of the mobility of its point: D_n = 1 / (compliance W_n).
+inline constexpr double compliance = 1e-3;
+/// [m/s] Overlap is pressed out no faster.
+inline constexpr double fastest_push = 0.3;
+/// [m/s] Contacts farther apart than this closes in h, and than g h^2, are left out.
+inline constexpr double reach_speed = 0.5;
+/// [thickness] A point goes by no more relative to a neighbour in a substep.
+inline constexpr double most_travel = 0.5;
+
+// --- solution ----------------------------------------------------------------------------------
+
+/// [-] Sweeps at the default accuracy.
+inline constexpr int sweeps = 12;
+/// [-] ... and at most.
+inline constexpr int most_sweeps = 96;
+/// [g h] Sweeps end where none changes a velocity by more.
+inline constexpr double settled = 1e-3;
+/// [g h] A step whose last sweep changes a velocity by more is not settled ...
+inline constexpr double unsettled = 0.05;
+/// [steps] ... and after so many in a row the sweeps double.
+inline constexpr int patience = 5;
+/// [-] D_t / W: part of the mean tangential mobility by turning that a sweep counts with.
+inline constexpr float turning_share = 0.75F;
+
+}  // namespace talus::mass

@@ -1,0 +1,129 @@
+// libcore/solver/mass_solver.hpp: public
+// Contact impulses of a mass that moves: projected Gauss-Seidel over pairs of bodies, colour by
+// colour, eight pairs of a colour side by side in single precision.
+// in:    bodies, and contacts as rows, each with the impulse of the last step
+// out:   impulse of every row; what the last sweep changed
+// docs/theory/theory.md, "One step of a mass"
+//
+// The law of a row: with w = v + J dv, v its velocity at the end of the step without contact, the
+// bias and the shear spring, and dv the change of the bodies' velocities,
+//   p_n = max(0, -D_n w_n), at most `limit`;  p_t = -D_t w_t, |p_t| <= friction p_n,
+// where it slips along the mean of the slip at the start and at the end. It is the law of
+// solver/contact_law.hpp with one stiffness for all contacts: D_n = 1 / (compliance W_n), D_t =
+// shear_ratio D_n.
+//
+// Impulses alone are results. Changes of velocity are summed in single precision while the sweeps
+// go on; who needs them sums the impulses in doubles, so that momentum is kept to their rounding.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/types.hpp"
+#include "solver/angular_row.hpp"
+
+namespace talus {
+
+inline constexpr int mass_lanes = 8;
+
+/// Change of a body's velocity and spin, local axes [m/s, rad/s].
+struct alignas(32) MassBody {
+  float velocity[3]{}, spin[3]{}, unused[2]{};
+};
+
+/// How hard a body is to move: inverse of the inertia, local axes [1/(kg m2)], and of the mass.
+struct alignas(32) MassInertia {
+  float xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+  float per_mass = 0;  ///< [1/kg]
+  float unused = 0;
+};
+
+/// A contact. Vectors are local; velocities are those of A's point relative to B's. The solver
+/// reads eight floats at a time.
+struct alignas(32) MassRow {
+  float normal[3]{};    ///< unit, from B to A
+  float arm_a[3]{};     ///< from the centroid of A [m]
+  float friction = 0;   ///< tan(phi) [-]
+  float limit = 0;      ///< of the normal impulse [N s]
+  float arm_b[3]{};     ///< from the centroid of B [m]
+  float velocity[3]{};  ///< v: at the end without contact, and the bias along the normal [m/s]
+  float unused[2]{};
+  float slip_start[3]{};  ///< unit direction of sliding at the start, or zero
+  float impulse[3]{};     ///< in: of the last step, over this one; out: on A [N s]
+  float damping = 0;      ///< out: D_n [kg]
+  float unused_too = 0;
+};
+static_assert(sizeof(MassRow) == 96);
+
+/// Rows of two bodies, or of one with the ground, consecutive. Two bodies may have several pairs.
+struct MassPair {
+  int a = 0, b = -1;  ///< b = -1: the ground
+  int row_begin = 0, row_end = 0;
+};
+
+/// A couple that resists the rolling and the pivoting of the body of a pair with the ground.
+struct MassTurn {
+  int pair = 0;
+  int arm_begin = 0;           ///< of the arms of the pair's rows
+  double damping = 0;          ///< couple impulse per spin while it holds [kg m2]
+  double inertia = 0;          ///< smallest principal moment of the body [kg m2]
+  Vec3 spin = Vec3::Zero();    ///< at the end of the step without contact [rad/s]
+  Vec3 couple = Vec3::Zero();  ///< out: on A [N m s]
+};
+
+/// Up to eight pairs without a body in common, lane by lane.
+struct MassBatch {
+  int a[mass_lanes], b[mass_lanes];  ///< bodies; of a lane without one, one that is not
+  int row_begin[mass_lanes];
+  int n_rows[mass_lanes];    ///< 0: the lane is empty
+  int first = 0, count = 0;  ///< points, and the most rows of a lane
+};
+
+/// Rows side by side, as the sweeps read them.
+struct alignas(32) MassPoint {
+  float normal[3][mass_lanes], arm_a[3][mass_lanes], arm_b[3][mass_lanes];
+  float velocity[3][mass_lanes], slip_start[3][mass_lanes], impulse[3][mass_lanes];
+  float friction[mass_lanes], limit[mass_lanes];
+  float normal_give[mass_lanes], normal_step[mass_lanes];  ///< 1 / D_n; 1 / (W_n + 1 / D_n)
+  float shear_give[mass_lanes], shear_step[mass_lanes];    ///< the same across the normal
+};
+
+struct MassSettings {
+  int sweeps = 0;          ///< at most, > 0
+  double settled = 0;      ///< they end where none changes a velocity by more [m/s]
+  double compliance = 0;   ///< > 0 [-]
+  double shear_ratio = 0;  ///< > 0 [-]
+};
+
+struct MassResult {
+  int sweeps = 0;     ///< beyond the one that applies the impulses of the last step
+  double change = 0;  ///< largest change of a row's velocity in the last of them [m/s]
+  int n_colours = 0;
+};
+
+/// What is solved, and its scratch. Buffers grow to the largest mass and are kept.
+struct MassSystem {  // clang-format off
+  std::vector<MassInertia> inertia;         ///< in                                      (n_bodies)
+  std::vector<MassRow> rows;                ///< pair by pair
+  std::vector<MassPair> pairs;              ///< in
+  std::vector<MassTurn> turns;
+  std::vector<RowArm> arms;                 ///< in: of the rows of pairs with a turn
+  // scratch
+  std::vector<MassBody> change;             ///< of bodies, and of those that are not: ...
+  std::vector<MassInertia> inertias;        ///< ... one for each lane and side
+  std::vector<std::uint64_t> used;          ///< colours of the pairs of a body          (n_bodies)
+  std::vector<int> colour, order, bucket;
+  std::vector<MassBatch> batches;
+  std::vector<MassPoint> points;
+  std::vector<int> place;                   ///< of a row: 8 point + lane                (n_rows)
+};  // clang-format on
+
+/// Empties bodies, pairs and rows.
+void clear(MassSystem& system);
+
+/// Fills the impulses of rows and turns. `width`: lanes computed at a time, 4 or 8; the same bits.
+MassResult solve_mass(const MassSettings& settings, MassSystem& system, int width);
+/// The width that is fastest here.
+[[nodiscard]] int widest_mass_lanes();
+
+}  // namespace talus

@@ -1,0 +1,323 @@
+// Stages 4 and 5 of the mass step: what the impulses come to, and what the step leaves of motion,
+// memory, bodies that give way, and energy.
+#include <algorithm>
+#include <cmath>
+
+#include "base/make_room.hpp"
+#include "motion/rotation.hpp"
+#include "scene/fence.hpp"
+#include "scene/stems.hpp"
+#include "scene/yielding.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/breakage.hpp"
+#include "step/crushing.hpp"
+#include "step/deep_blocks.hpp"
+#include "step/island/island_soil.hpp"
+#include "step/mass/stages.hpp"
+#include "step/soil.hpp"
+#include "step/substep.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+constexpr double rounding = 1e-5;  // of single precision, where an impulse is at its bound
+
+Vec3 of_floats(const float (&from)[3]) { return {from[0], from[1], from[2]}; }
+
+/// A row of which an impulse is known, in doubles.
+struct PressedRow {
+  Vec3 normal, arm_a, arm_b, impulse;
+  double p_n;
+
+  explicit PressedRow(const MassRow& row)
+      : normal(of_floats(row.normal)),
+        arm_a(of_floats(row.arm_a)),
+        arm_b(of_floats(row.arm_b)),
+        impulse(of_floats(row.impulse)),
+        p_n(normal.dot(impulse)) {}
+  [[nodiscard]] Vec3 along_face() const { return impulse - p_n * normal; }
+};
+
+/// What both stages read.
+struct MassEnd {
+  const Scene& scene;
+  const IslandMembers& members;
+  const FreeMotions& free;
+  const MassScratch& w;
+
+  // Velocity of the points of `row` relative to each other: `share` 0 without contact, 1 with, at
+  // the end of the step.
+  [[nodiscard]] Vec3 velocity(const MassPair& pair, const PressedRow& row, double share) const {
+    const auto at = [&](int k, const Vec3& arm) -> Vec3 {
+      const MassMember& m = w.members[k];
+      const MassChange& change = w.changes[k];
+      return m.velocity_end + share * change.velocity +
+             (m.spin_end + share * change.spin).cross(arm);
+    };
+    return pair.b < 0 ? at(pair.a, row.arm_a) : Vec3(at(pair.a, row.arm_a) - at(pair.b, row.arm_b));
+  }
+  // Path per time that the impulse works on: the mean of the velocities without and with contact,
+  // less what gravity does to a change of velocity in the second half of the step.
+  [[nodiscard]] Vec3 path(const MassPair& pair, const PressedRow& row) const {
+    Vec3 path = velocity(pair, row, 0.5);
+    path -= free.h / 2 * free.substeps[pair.a].free_acceleration;
+    if (pair.b >= 0) path += free.h / 2 * free.substeps[pair.b].free_acceleration;
+    return path;
+  }
+  // Gap at the end of the step.
+  [[nodiscard]] double gap_end(const MassPair& pair, const PressedRow& row, double gap_free) const {
+    const auto by = [&](int k, const Vec3& arm) {
+      return row.normal.dot(w.changes[k].velocity + w.changes[k].spin.cross(arm));
+    };
+    const double along = by(pair.a, row.arm_a) - (pair.b < 0 ? 0 : by(pair.b, row.arm_b));
+    return gap_free + free.h / 2 * along;
+  }
+  [[nodiscard]] bool is_limited(const MassRow& row, double p_n) const {
+    return p_n >= (1 - rounding) * static_cast<double>(row.limit);
+  }
+  [[nodiscard]] bool slips(const MassRow& row, const PressedRow& pressed) const {
+    const double cap = static_cast<double>(row.friction) * pressed.p_n;
+    return pressed.along_face().norm() >= (1 - rounding) * cap;
+  }
+
+  // Calls visit(row number, pair, row in doubles) for all rows that press.
+  template <class Visit>
+  void for_each_pressed(const Visit& visit) const {
+    for (const MassPair& pair : w.system.pairs)
+      for (int r = pair.row_begin; r < pair.row_end; ++r) {
+        const PressedRow row(w.system.rows[r]);
+        if (row.p_n > 0) visit(static_cast<size_t>(r), pair, row);
+      }
+  }
+};
+
+void sum_impulses(const MassEnd& end, std::vector<MassChange>& changes) {
+  const MassScratch& w = end.w;
+  end.for_each_pressed([&](size_t r, const MassPair& pair, const PressedRow& row) {
+    MassChange& a = changes[pair.a];
+    const MassContact& contact = w.contacts[r];
+    a.impulse += row.impulse;
+    a.couple += row.arm_a.cross(row.impulse);
+    a.pressed = true;
+    a.was_hit |= contact.is_hit;
+    if (pair.b < 0) {
+      a.on_ground |= contact.fixed < 0;
+      if (!contact.yields && !contact.is_hit) a.by_ground += row.impulse;
+      return;
+    }
+    MassChange& b = changes[pair.b];
+    b.impulse -= row.impulse;
+    b.couple -= row.arm_b.cross(row.impulse);
+    b.pressed = true;
+    b.was_hit |= contact.is_hit;
+  });
+  for (const MassTurn& turn : w.system.turns)
+    changes[w.system.pairs[turn.pair].a].couple += turn.couple;
+  for (size_t k = 0; k < changes.size(); ++k) {
+    changes[k].velocity = end.members.numbers[k].per_mass * changes[k].impulse;
+    changes[k].spin = end.free.turns[k].per_inertia * changes[k].couple;
+  }
+}
+
+// What the blocks do to the fixed bodies that give way.
+void find_pushes(const MassEnd& end, const State& state, const PairSearch& search,
+                 std::vector<YieldPush>& pushes) {
+  const Scene& scene = end.scene;
+  pushes.clear();
+  if (!anything_yields(scene)) return;
+  const auto pushed_before = [&](int fixed) -> Vec3 {
+    if (is_stem(scene, fixed)) return met_by_stem(state.yielding, stem_of(scene, fixed)).shift;
+    return search.poses[hull_of_fixed(scene, fixed)].position - scene.fixed.pose[fixed].position;
+  };
+  end.for_each_pressed([&](size_t r, const MassPair& pair, const PressedRow& row) {
+    const MassContact& contact = end.w.contacts[r];
+    if (!contact.yields) return;
+    const Yielding& yielding = *giving_way(scene, contact.fixed, row.normal);
+    YieldPush push;
+    push.along = yield_direction(yielding, row.normal);
+    push.block = contact.a;
+    push.yielding = yielding_number(scene, contact.fixed);
+    push.work = -row.p_n * row.normal.dot(end.path(pair, row));
+    push.power = -row.p_n / end.free.h * contact.speed_start;
+    if (end.is_limited(end.w.system.rows[r], row.p_n) || is_stem(scene, contact.fixed))
+      push.shift =
+          std::min(0.0, end.gap_end(pair, row, contact.gap_free)) * row.normal.dot(push.along);
+    push.to = push.shift + push.along.dot(pushed_before(contact.fixed));
+    add_push(push, pushes);
+  });
+}
+
+/// Accepts a step; a struct so that its parts share what they all read and fill.
+struct MassAcceptance : MassEnd {
+  State& state;
+  std::vector<Segment>& segments;
+  DeepWork& deep;
+  StepReport& report;
+
+  [[nodiscard]] double thickness_of(int b) const { return members.of(b).thickness; }
+
+  // Energy that a contact took, by kind; push_bodies() adds that of bodies that give way.
+  void account(const MassContact& contact, const MassPair& pair, const PressedRow& row) {
+    const Vec3 path = this->path(pair, row);
+    const double loss = -row.p_n * row.normal.dot(path);  // < 0: it drove its bodies apart
+    if (!contact.yields)
+      (contact.is_hit && loss > 0 ? state.ledger.impact : state.ledger.contact) += loss;
+    state.ledger.friction -= row.along_face().dot(path);
+    report.n_impacts += contact.is_hit;
+    if (!state.load.empty()) {
+      add_load(scene, contact.a, row.normal, row.p_n, row.impulse, state);
+      add_load(scene, contact.b, row.normal, row.p_n, -row.impulse, state);
+    }
+    if (!state.hit_loss.empty() && contact.is_hit && loss > 0) {
+      add_hit_loss(contact.a, contact.b < 0 ? loss : loss / 2, state);
+      add_hit_loss(contact.b, loss / 2, state);
+    }
+  }
+
+  // What the exact step would remember of the contact, had it pressed so: it goes on with the same
+  // force, and what overlap that does not need presses nothing.
+  void remember(size_t r, const PressedRow& row, double gap_end) {
+    const MassContact& contact = w.contacts[r];
+    if (contact.is_hit) return;
+    const double h = free.h;
+    const double stiffness =
+        static_cast<double>(w.system.rows[r].damping) / (members.of(contact.a).recovery_time * h);
+    std::vector<ContactMemory>& memories = state.memory[contact.a];
+    make_room(memories);
+    ContactMemory& memory = memories.emplace_back();
+    memory.key = contact.key;
+    memory.normal = row.normal;
+    memory.normal_force = row.p_n / h;
+    memory.stiffness = stiffness;
+    memory.offset = std::max(0.0, -gap_end - memory.normal_force / stiffness);
+    memory.gap_end = gap_end + memory.offset;
+    memory.shear = row.along_face() / (-h * scene.settings.shear_ratio * stiffness);
+    const bool slip = slips(w.system.rows[r], row);
+    memory.state = static_cast<std::uint8_t>(slip ? ContactState::slip : ContactState::stick);
+  }
+
+  void take_contacts() {
+    for (const int b : members.blocks) state.memory[b].clear();
+    for_each_pressed([&](size_t r, const MassPair& pair, const PressedRow& row) {
+      const MassContact& contact = w.contacts[r];
+      const double gap = gap_end(pair, row, contact.gap_free);
+      int thin = contact.a;
+      if (contact.b >= 0 && thickness_of(contact.b) < thickness_of(thin)) thin = contact.b;
+      note_overlap(thin, -gap, thickness_of(thin), deep, report);
+      ++report.n_closed;
+      report.sum_penetration += std::max(-gap, 0.0);
+      account(contact, pair, row);
+      remember(r, row, gap);
+    });
+    for (const MassTurn& turn : w.system.turns) {
+      const MassChange& change = w.changes[w.system.pairs[turn.pair].a];
+      state.ledger.rolling -= turn.couple.dot(turn.spin + change.spin / 2);
+    }
+  }
+
+  // The way that a member slides on ground whose friction follows it.
+  void slide(size_t k) {
+    if (w.ground_pair[k] < 0) return;
+    const MassPair& pair = w.system.pairs[w.ground_pair[k]];
+    int most = -1;
+    double p_most = 0;
+    for (int r = pair.row_begin; r < pair.row_end; ++r)
+      if (const double p_n = PressedRow(w.system.rows[r]).p_n; p_n > p_most) most = r, p_most = p_n;
+    if (most < 0) return;
+    const MassContact& contact = w.contacts[most];
+    const PressedRow row(w.system.rows[most]);
+    const Vec3 end = velocity(pair, row, 1);
+    const double at_end = (end - row.normal.dot(end) * row.normal).norm();
+    const double speed = slips(w.system.rows[most], row)
+                             ? (static_cast<double>(contact.slip_speed) + at_end) / 2
+                             : 0;
+    const double path = speed > creep_speed(scene, free.h) ? free.h * speed : 0;
+    const GroundClass& ground = scene.ground.classes[contact.ground_class];
+    const int b = members.blocks[k];
+    slide_on(b, way_slid(state, ground, b, free.t), path, free.t + free.h, state);
+  }
+
+  [[nodiscard]] Motion end_of(size_t k) const {
+    const Substep& s = free.substeps[k];
+    const MassChange& change = w.changes[k];
+    Motion out = s.free;
+    out.velocity += change.velocity;
+    out.pose.position += free.h / 2 * change.velocity;
+    out.pose.attitude = (rotation_by(free.h / 2 * change.spin) * s.free.pose.attitude).normalized();
+    out.angular_momentum += change.couple;
+    return out;
+  }
+
+  void move(size_t k) {
+    const Substep& s = free.substeps[k];
+    const int b = members.blocks[k];
+    const MassChange& change = w.changes[k];
+    const Motion motion = end_of(k);
+    add_segment(b, false, free.t, free.h, s.start, motion, segments);
+    set_support(scene, b, change.by_ground / (members.numbers[k].mass * free.h), state);
+    if (change.pressed && !change.was_hit)
+      set_rates(scene, b, members.numbers[k], s, motion, state);
+    else
+      forget_rates(scene, b, state);
+    const Vec3 external = s.free_acceleration - scene.gravity;
+    if (!external.isZero(0))
+      state.ledger.base +=
+          members.numbers[k].mass * external.dot(motion.pose.position - s.start.pose.position);
+    state.motion[members.block(k)] = end_drag(scene, b, state.motion[members.block(k)], s.start,
+                                              motion, change.on_ground, free.h, state);
+    if (!is_finite(motion)) stop_at(s.start, members.block(k), state, report);
+    state.local_time[members.block(k)] = free.t + free.h;
+    ++report.substeps;
+  }
+
+  // First touches of panels and stems, and what they left to their blocks.
+  void note_touched() {
+    if (scene.fixed.panels.empty() && scene.forest.stems.empty()) return;
+    for_each_pressed([&](size_t r, const MassPair&, const PressedRow& row) {
+      const MassContact& contact = w.contacts[r];
+      if (contact.fixed < 0) return;
+      const size_t k = members.at(contact.a);
+      const Motion& before = free.substeps[k].start;
+      const Motion& after = state.motion[members.block(k)];
+      const Vec3 at = w.members[k].middle + row.arm_a;
+      if (is_stem(scene, contact.fixed))
+        note_stem_touch(scene, contact.a, contact.fixed, at, free.t, before, after,
+                        state.stem_hits);
+      else if (panel_number(scene, contact.fixed) >= 0)
+        note_hit(scene, contact.a, contact.fixed, at, free.t, before, after, state.fence);
+    });
+  }
+
+  void run() {
+    if (w.fell_through) report.flags = report.flags | StepFlag::fell_through;
+    take_contacts();
+    if (!state.slid.empty())
+      for (size_t k = 0; k < members.size(); ++k) slide(k);
+    for (size_t k = 0; k < members.size(); ++k) move(k);
+    report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, free.h) : free.h;
+    note_touched();
+    note_work(scene, w.pushes, state.fence);
+    note_stem_work(scene, w.pushes, state.stem_hits);
+    push_bodies(scene, w.pushes, free.t + free.h, state);
+  }
+};
+
+}  // namespace
+
+void find_mass_changes(const Scene& scene, const State& state, const PairSearch& search,
+                       const IslandMembers& members, const FreeMotions& free, MassScratch& w) {
+  w.changes.assign(members.size(), MassChange{});
+  const MassEnd end{scene, members, free, w};
+  sum_impulses(end, w.changes);
+  find_pushes(end, state, search, w.pushes);
+}
+
+void accept_mass(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
+                 const MassScratch& w, State& state, std::vector<Segment>& segments, DeepWork& deep,
+                 StepReport& report) {
+  MassAcceptance{{scene, members, free, w}, state, segments, deep, report}.run();
+}
+
+}  // namespace talus

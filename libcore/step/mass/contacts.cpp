@@ -1,0 +1,372 @@
+// Stage 2 of the mass step: rows in single precision straight from what the searches found.
+#include <algorithm>
+#include <cmath>
+
+#include "scene/bonds.hpp"
+#include "scene/stems.hpp"
+#include "scene/yielding.hpp"
+#include "solver/impact_contacts.hpp"
+#include "solver/law_numbers.hpp"
+#include "solver/mass_numbers.hpp"
+#include "step/island/stems.hpp"
+#include "step/mass/stages.hpp"
+#include "step/soil.hpp"
+#include "step/substep.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+void set_floats(const Vec3& from, float (&to)[3]) {
+  for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
+}
+
+/// How the points of a contact move relative to each other without contact forces.
+struct PointMotion {
+  Vec3 arm_a, arm_b;             // in the middle of the step [m]
+  Vec3 start, end;               // velocities [m/s]
+  double gap = 0, gap_free = 0;  // at the start and at the end [m]
+};
+
+/// Faces of a contact: what it does beyond standing fast.
+struct Faces {
+  double friction = 0, restitution = 0;
+  double resting_speed = 0;
+  double limit = no_normal_limit;  // of the normal impulse [N s]
+  bool yields = false;
+};
+
+/// Makes the contacts of a mass; a struct so that its parts share what they all read.
+struct MassMaker {
+  const Scene& scene;
+  const State& state;
+  const PairSearch& search;
+  std::span<const int> manifolds;
+  const IslandMembers& members;
+  const FreeMotions& free;
+  std::vector<NearFeatures>& near_ground;
+  ContactMaking& making;
+  MassScratch& w;
+  double reach = 0, recovery_time = 0;
+
+  void clear_all() {
+    clear(w.system);
+    w.members.clear();
+    w.contacts.clear();
+    w.ground_pair.clear();
+    w.memories.touched_by = -1;
+    w.fell_through = false;
+  }
+
+  void add_member(size_t k) {
+    const Substep& s = free.substeps[k];
+    const FreeTurn& turn = free.turns[k];
+    MassMember m;
+    m.at = s.start.pose.position;
+    m.middle = (s.start.pose.position + s.free.pose.position) / 2;
+    m.moved = s.free.pose.position - s.start.pose.position;
+    m.turned = turn.by - Mat3::Identity();
+    m.velocity_start = s.start.velocity;
+    m.velocity_end = s.free.velocity;
+    m.spin_start = turn.spin_start;
+    m.spin_end = turn.spin_end;
+    w.members.push_back(m);
+    const Mat3& P = turn.per_inertia;
+    const auto single = [](double x) { return static_cast<float>(x); };
+    w.system.inertia.push_back({single(P(0, 0)), single(P(1, 1)), single(P(2, 2)), single(P(0, 1)),
+                                single(P(0, 2)), single(P(1, 2)),
+                                single(members.numbers[k].per_mass)});
+  }
+
+  void open_pair(int a, int b) {
+    const auto n = static_cast<int>(w.system.rows.size());
+    w.system.pairs.push_back({a, b, n, n});
+  }
+  // False where the pair has no rows: it is dropped.
+  bool close_pair() {
+    MassPair& pair = w.system.pairs.back();
+    pair.row_end = static_cast<int>(w.system.rows.size());
+    if (pair.row_end > pair.row_begin) return true;
+    w.system.pairs.pop_back();
+    return false;
+  }
+
+  // Velocity below which the row presses, less that of its point.
+  [[nodiscard]] double bias_of(const PointMotion& motion, const Faces& faces, double approach,
+                               bool is_hit) const {
+    if (is_hit) return faces.restitution * approach;
+    if (motion.gap >= 0) return motion.gap / free.h;
+    if (faces.yields) return 0;  // the overlap of what gave way presses nothing
+    return std::max(motion.gap / recovery_time, -mass::fastest_push);
+  }
+
+  // Adds the row of a contact that moves so; the rest of `contact` is filled. `then`: what it
+  // continues, or none.
+  void add_row(const Vec3& normal, const PointMotion& motion, const Faces& faces,
+               const ContactMemory* then, MassContact& contact) {
+    const Vec3& n = normal;
+    contact.gap_free = motion.gap_free;
+    contact.speed_start = n.dot(motion.start);
+    const Vec3 slip = motion.start - contact.speed_start * n;
+    const double slip_speed = slip.norm();
+    contact.slip_speed = static_cast<float>(slip_speed);
+    const double approach = std::min(contact.speed_start, (motion.gap_free - motion.gap) / free.h);
+    contact.is_hit = !faces.yields && approach < -faces.resting_speed && motion.gap_free < 0;
+    contact.yields = faces.yields;
+    MassRow& row = w.system.rows.emplace_back();
+    set_floats(n, row.normal);
+    set_floats(motion.arm_a, row.arm_a);
+    set_floats(motion.arm_b, row.arm_b);
+    set_floats(motion.end + bias_of(motion, faces, approach, contact.is_hit) * n, row.velocity);
+    if (slip_speed > 0) set_floats(slip / slip_speed, row.slip_start);
+    row.friction = static_cast<float>(faces.friction);
+    row.limit = static_cast<float>(std::min(faces.limit, law_limit));
+    if (then != nullptr && !contact.is_hit) set_floats(last_impulse(*then, n, faces), row.impulse);
+    w.contacts.push_back(contact);
+  }
+  static constexpr double law_limit = 1e30;  // a float, and its square times a mobility too
+
+  // What the contact pressed with in the last step, over this one.
+  [[nodiscard]] Vec3 last_impulse(const ContactMemory& then, const Vec3& n,
+                                  const Faces& faces) const {
+    const double p_n = free.h * then.normal_force;
+    Vec3 p_t = -free.h * scene.settings.shear_ratio * then.stiffness * then.shear;
+    p_t -= n.dot(p_t) * n;
+    const double size = p_t.norm(), cap = faces.friction * p_n;
+    if (size > cap) p_t *= cap / size;
+    return p_n * n + p_t;
+  }
+
+  // --- with the ground -------------------------------------------------------------------------
+
+  // What an impact returns at this approach on ground.
+  static double restitution_on(const GroundClass& ground, double mass, double restitution,
+                               double approach) {
+    return approach < 0 ? fall_on(ground, mass).at(restitution, -approach) : restitution;
+  }
+
+  // False where member k is off the known ground.
+  bool add_ground(size_t k) {
+    w.ground_pair.push_back(-1);
+    const Substep& s = free.substeps[k];
+    const int b = members.blocks[k];
+    const BlockNumbers& c = members.numbers[k];
+    if (!scene.settings.trn_contacts) {
+      w.fell_through |= is_below_ground(scene, b, s.free.pose.position);
+      return true;
+    }
+    const SearchResult near =
+        find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, Mat3::Identity(),
+                      search_margin(c, s.h), making.world_vertices, making.found, &near_ground[b]);
+    if (near.reach == Reach::off_ground) return false;
+    w.fell_through |= near.reach == Reach::below;
+    if (making.found.empty()) return true;
+    making.rows.resize(making.found.size());
+    make_rows(scene, b, c, s, state.memory[b], making.found, making.rows);
+    open_pair(static_cast<int>(k), -1);
+    for (ContactRow& row : making.rows) add_ground_row(k, row);
+    if (!close_pair()) return true;
+    w.ground_pair.back() = static_cast<int>(w.system.pairs.size()) - 1;
+    add_turn_of(k);
+    return true;
+  }
+
+  void add_ground_row(size_t k, const ContactRow& row) {
+    const Substep& s = free.substeps[k];
+    const MassMember& m = w.members[k];
+    const Vec3 normal = s.R * row.normal;
+    PointMotion motion;
+    motion.gap = row.gap_start;
+    motion.gap_free = row.gap_start + row.normal.dot(row.free_move);
+    if (std::min(motion.gap, motion.gap_free) > reach) return;
+    motion.arm_a = s.R * row.arm;
+    motion.arm_b.setZero();
+    motion.start = row.speed_start * normal + row.slip_speed * (s.R * row.slip_start);
+    motion.end = m.velocity_end + m.spin_end.cross(motion.arm_a) + s.R * row.drift;
+    const GroundClass& ground = scene.ground.classes[row.ground_class];
+    const BlockNumbers& c = members.numbers[k];
+    const double approach = std::min(row.speed_start, (motion.gap_free - motion.gap) / free.h);
+    Faces faces;
+    faces.friction = row.friction;
+    if (varies_friction(ground))
+      faces.friction =
+          mean_friction(ground, row.slip_speed, way_slid(state, ground, members.blocks[k], free.t),
+                        free.h * row.slip_speed);
+    faces.restitution = restitution_on(ground, c.mass, row.restitution, approach);
+    faces.resting_speed = c.resting_speed;
+    MassContact contact;
+    contact.key = row.key;
+    contact.a = members.blocks[k];
+    contact.ground_class = row.ground_class;
+    add_row(normal, motion, faces, row.memory < 0 ? nullptr : &state.memory[contact.a][row.memory],
+            contact);
+  }
+
+  // The couple against rolling of the pair that was closed last, of member k with the ground.
+  void add_turn_of(size_t k) {
+    const MassPair& pair = w.system.pairs.back();
+    const auto class_of = [&](int r) -> const GroundClass& {
+      return scene.ground.classes[w.contacts[r].ground_class];
+    };
+    bool any = false;
+    for (int r = pair.row_begin; r < pair.row_end; ++r) any |= resists_rolling(class_of(r));
+    if (!any) return;
+    MassTurn turn;
+    turn.pair = static_cast<int>(w.system.pairs.size()) - 1;
+    turn.arm_begin = static_cast<int>(w.system.arms.size());
+    turn.damping = turn_damping(scene, members.numbers[k], free.h);
+    turn.inertia = members.numbers[k].inertia.minCoeff();
+    turn.spin = w.members[k].spin_end;
+    for (int r = pair.row_begin; r < pair.row_end; ++r)
+      w.system.arms.push_back(arm_on(scene, class_of(r), members.blocks[k]));
+    w.system.turns.push_back(turn);
+  }
+
+  // --- with other bodies -----------------------------------------------------------------------
+
+  // Without B: on a fixed body. False where the points cannot close within the step.
+  bool set_motion(const Vec3& n, const PairPoint& point, const MassMember& a, const MassMember* b,
+                  PointMotion& motion) const {
+    const Vec3 start_a = point.point_b + point.gap * n - a.at, turned_a = a.turned * start_a;
+    Vec3 start_b = Vec3::Zero(), turned_b = Vec3::Zero();
+    double along = n.dot(a.moved + turned_a);
+    if (b != nullptr) {
+      start_b = point.point_b - b->at;
+      turned_b = b->turned * start_b;
+      along -= n.dot(b->moved + turned_b);
+    }
+    motion.gap = point.gap;
+    motion.gap_free = point.gap + along;
+    if (std::min(motion.gap, motion.gap_free) > reach) return false;
+    motion.start = a.velocity_start + a.spin_start.cross(start_a);
+    motion.end = a.velocity_end + a.spin_end.cross(start_a + turned_a);
+    motion.arm_a = start_a + turned_a / 2;
+    motion.arm_b.setZero();
+    if (b == nullptr) return true;
+    motion.start -= b->velocity_start + b->spin_start.cross(start_b);
+    motion.end -= b->velocity_end + b->spin_end.cross(start_b + turned_b);
+    const Vec3 shift = a.middle - b->middle;  // one point for both: impulses are on one line
+    motion.arm_a = (motion.arm_a + start_b + turned_b / 2 - shift) / 2;
+    motion.arm_b = motion.arm_a + shift;
+    return true;
+  }
+
+  [[nodiscard]] const ContactMemory* memory_of(const PairManifold& m, int p) const {
+    const int i = w.memories.continued[p - m.point_begin];
+    return i < 0 ? nullptr : &state.memory[m.block_a][i];
+  }
+
+  // Contacts of two blocks, or of a block with a fixed body.
+  void add_pair(const PairManifold& m) {
+    if (!has_points(m)) return;
+    const bool on_fixed = is_fixed(scene, m.block_b);
+    const size_t ka = members.at(m.block_a);
+    const MassMember& a = w.members[ka];
+    const MassMember* b = on_fixed ? nullptr : &w.members[members.at(m.block_b)];
+    const int fixed = on_fixed ? fixed_of(scene, m.block_b) : -1;
+    const Yielding* yielding = on_fixed ? giving_way(scene, fixed, m.normal) : nullptr;
+    open_pair(static_cast<int>(ka), on_fixed ? -1 : members.place[m.block_b]);
+    Faces faces;
+    bool is_first = true;
+    for (int p = m.point_begin; p < m.point_end; ++p) {
+      const PairPoint& point = search.pairs.points[p];
+      PointMotion motion;
+      if (!set_motion(m.normal, point, a, b, motion)) continue;
+      if (is_first) {
+        is_first = false;
+        faces = faces_of(m, fixed);
+        match_memories(m, name_of_body(scene, m.block_b), search.pairs.points,
+                       state.memory[m.block_a], w.memories);
+      }
+      if (yielding != nullptr) yield_to(*yielding, m, a, motion, faces);
+      MassContact contact;
+      contact.key = point.key;
+      contact.key.body_b = name_of_body(scene, m.block_b);
+      contact.a = m.block_a;
+      contact.b = on_fixed ? -1 : m.block_b;
+      contact.fixed = fixed;
+      add_row(m.normal, motion, faces, memory_of(m, p), contact);
+    }
+    (void)close_pair();
+  }
+
+  [[nodiscard]] Faces faces_of(const PairManifold& m, int fixed) const {
+    const GroundClass& of = fixed >= 0 ? fixed_class(scene, fixed) : pair_class(scene, m);
+    Faces faces;
+    faces.friction = of.friction;
+    faces.restitution = of.restitution;
+    faces.resting_speed = members.of(m.block_a).resting_speed;
+    return faces;
+  }
+
+  // Points that close within the step share the force at which the body gives way; it resists from
+  // when it is touched on.
+  void yield_to(const Yielding& yielding, const PairManifold& m, const MassMember& a,
+                const PointMotion& at, Faces& faces) const {
+    int n_closing = 0;
+    for (int p = m.point_begin; p < m.point_end; ++p) {
+      PointMotion motion;
+      if (set_motion(m.normal, search.pairs.points[p], a, nullptr, motion))
+        n_closing += motion.gap_free <= 0;
+    }
+    const double closes = at.gap - at.gap_free;
+    const double touched = at.gap > 0 && closes > at.gap ? free.h * (1 - at.gap / closes) : free.h;
+    faces.limit = yielding.force * touched / std::max(n_closing, 1);
+    faces.yields = true;
+  }
+
+  bool run(int& outsider) {
+    clear_all();
+    const double by_gravity = scene.gravity.norm() * free.h;
+    reach = free.h * std::max(by_gravity, mass::reach_speed);
+    recovery_time = members.numbers.front().recovery_time;
+    for (size_t k = 0; k < members.size(); ++k) {
+      add_member(k);
+      if (!add_ground(k)) {
+        outsider = members.blocks[k];
+        return false;
+      }
+    }
+    for (const int i : manifolds) add_pair(search.pairs.manifolds[i]);
+    return true;
+  }
+};
+
+}  // namespace
+
+double longest_mass_substep(const Scene& scene, const PairSearch& search,
+                            const IslandMembers& members, std::span<const int> manifolds,
+                            double h) {
+  double part = 0;
+  for (size_t k = 0; k < members.size(); ++k)
+    part = std::max(part,
+                    search.turn[members.block(k)] / (law::most_turn * members.numbers[k].radius));
+  for (const int i : manifolds) {
+    const PairManifold& m = search.pairs.manifolds[i];
+    const size_t a = static_cast<size_t>(m.block_a), b = static_cast<size_t>(m.block_b);
+    double thickness = members.of(m.block_a).thickness, travel = search.turn[a];
+    if (!is_fixed(scene, m.block_b)) {
+      thickness = std::min(thickness, members.of(m.block_b).thickness);
+      travel += (search.step[a] - search.step[b]).norm() + search.turn[b];
+    } else if (is_stem(scene, fixed_of(scene, m.block_b))) {
+      part = std::max(part, part_by_stem(scene, search, m, thickness));
+      continue;
+    } else {
+      travel += search.step[a].norm();
+    }
+    part = std::max(part, travel / (mass::most_travel * thickness));
+  }
+  const double shortest = std::min(h, scene.settings.dt / law::most_substeps);
+  return part > 1 ? std::max(h / std::ceil(part), shortest) : h;
+}
+
+bool make_mass_contacts(const Scene& scene, const State& state, const PairSearch& search,
+                        std::span<const int> manifolds, const IslandMembers& members,
+                        const FreeMotions& free, std::vector<NearFeatures>& near_ground,
+                        ContactMaking& making, MassScratch& w, int& outsider) {
+  return MassMaker{scene, state, search, manifolds, members, free, near_ground, making, w}.run(
+      outsider);
+}
+
+}  // namespace talus

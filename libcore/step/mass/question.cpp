@@ -1,0 +1,114 @@
+// Exact step or mass step, and with how many sweeps.
+#include <algorithm>
+#include <cmath>
+
+#include "scene/bonds.hpp"
+#include "solver/law_numbers.hpp"
+#include "solver/mass_numbers.hpp"
+#include "step/mass/stages.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+constexpr double default_accuracy = Settings{}.accuracy;
+
+int faster_than(const IslandMembers& members, const State& state, double speed) {
+  return static_cast<int>(std::count_if(members.blocks.begin(), members.blocks.end(), [&](int b) {
+    return state.motion[static_cast<size_t>(b)].velocity.norm() > speed;
+  }));
+}
+
+bool has_bonds(const IslandMembers& members, const State& state) {
+  const auto is_member = [&](int b) { return members.place[static_cast<size_t>(b)] >= 0; };
+  return std::any_of(state.bonds.begin(), state.bonds.end(),
+                     [&](const BlockBond& bond) {
+                       return bond.area > 0 && is_member(bond.block_a) && is_member(bond.block_b);
+                     }) ||
+         std::any_of(members.blocks.begin(), members.blocks.end(), [&](int b) {
+           const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
+           return std::any_of(memory.begin(), memory.end(),
+                              [](const ContactMemory& contact) { return contact.bond_area > 0; });
+         });
+}
+
+// Steps that make up mass::calm_time.
+int calm_steps(const Scene& scene) {
+  return static_cast<int>(std::ceil(mass::calm_time / scene.settings.dt));
+}
+
+int most_doublings() {
+  int doublings = 0;
+  while (mass::sweeps << (doublings + 1) <= mass::most_sweeps) ++doublings;
+  return doublings;
+}
+
+template <class Visit>
+void for_each(const IslandMembers& members, State& state, const Visit& visit) {
+  for (const int b : members.blocks) visit(state.mass[static_cast<size_t>(b)]);
+}
+
+}  // namespace
+
+bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& state) {
+  const double by_gravity = scene.gravity.norm() * scene.settings.dt;
+  const auto leave = [&](int barred) {
+    if (!state.mass.empty())
+      for_each(members, state, [&](MassShare& share) {
+        share = {};
+        share.barred = barred;
+      });
+    return false;
+  };
+  if (!scene.settings.masses || scene.settings.normal_stiffness > 0 ||
+      static_cast<int>(members.size()) < mass::least_size || has_bonds(members, state))
+    return leave(0);
+  MassShare all;  // what the members say together
+  int n_in_mass = 0;
+  if (!state.mass.empty()) {
+    all.calm = calm_steps(scene);
+    for_each(members, state, [&](const MassShare& share) {
+      if (!share.is_in_mass) return void(all.barred = std::max(all.barred, share.barred));
+      ++n_in_mass;
+      all.calm = std::min(all.calm, share.calm);
+      all.doublings = std::max(all.doublings, share.doublings);
+      all.unsettled = std::max(all.unsettled, share.unsettled);
+    });
+  }
+  if (2 * n_in_mass > static_cast<int>(members.size())) {
+    const bool is_calm = faster_than(members, state, by_gravity) <= mass::most_restless;
+    all.calm = is_calm ? all.calm + 1 : 0;
+    if (all.calm >= calm_steps(scene)) return leave(0);
+    if (all.unsettled >= mass::patience && all.doublings >= most_doublings())
+      return leave(calm_steps(scene));
+  } else {
+    if (all.barred > 0) return leave(all.barred - 1);
+    if (faster_than(members, state, law::slow * by_gravity) <= mass::most_moving) return leave(0);
+    all.calm = 0;
+  }
+  if (all.unsettled >= mass::patience) ++all.doublings, all.unsettled = 0;
+  all.is_in_mass = true;
+  if (state.mass.empty()) state.mass.resize(state.motion.size());
+  for_each(members, state, [&](MassShare& share) { share = all; });
+  return true;
+}
+
+int sweeps_of(const Scene& scene, const IslandMembers& members, const State& state) {
+  const MassShare& share = state.mass[members.block(0)];
+  const double by_accuracy = mass::sweeps * default_accuracy / scene.settings.accuracy;
+  const int sweeps = std::max(1, static_cast<int>(std::lround(by_accuracy))) << share.doublings;
+  return std::clamp(sweeps, 1, mass::most_sweeps);
+}
+
+void note_solution(const Scene& scene, const IslandMembers& members, const MassResult& solved,
+                   State& state, StepReport& report) {
+  const bool is_late = solved.change > mass::unsettled * scene.gravity.norm() * scene.settings.dt;
+  for_each(members, state,
+           [&](MassShare& share) { share.unsettled = is_late ? share.unsettled + 1 : 0; });
+  if (!is_late || solved.sweeps < mass::most_sweeps) return;
+  note_unconverged(members.blocks.front(), report);
+  report.flags = report.flags | StepFlag::unconverged;
+}
+
+}  // namespace talus

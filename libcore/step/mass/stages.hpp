@@ -1,0 +1,71 @@
+// libcore/step/mass/stages.hpp
+// The mass step: an island of which many blocks move, in five stages. The exact step
+// (step/island/stages.hpp) follows hits event by event and solves for forces to far below what
+// gravity does; a mass that moves needs neither. step_mass.cpp is the page that puts the stages in
+// order. Laws are those of the exact step, through the same functions: ground and its rows
+// (step/substep.hpp), pairs, fences, stems, soil, drag. What is simpler:
+// - a contact that closes fast rebounds within the step, once: a hit is not passed on in turn;
+// - overlap is pressed out at a bounded speed, whatever pressed it in;
+// - all contacts have one stiffness;
+// - forces are found to what the last sweep changes, see law numbers in solver/mass_numbers.hpp.
+// docs/theory/theory.md, "One step of a mass"
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
+#include "step/island/data.hpp"
+#include "step/mass/data.hpp"
+#include "step/report.hpp"
+#include "step/work.hpp"
+
+namespace talus {
+
+// --- the question (step/mass/question.cpp)
+// ----------------------------------------------------------
+/// Exact step or mass step? Asked once for an island and a step. A mass step for an island of which
+/// more than mass::most_moving blocks move; until it is small, or calm for mass::calm_time, or the
+/// mass step has not found its forces with most sweeps. Exact always: intact bonds, a stiffness
+/// that the scene sets. Fills State::mass of the members.
+[[nodiscard]] bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& state);
+/// Sweeps that the members ask for.
+[[nodiscard]] int sweeps_of(const Scene& scene, const IslandMembers& members, const State& state);
+/// Takes into State::mass how the step was solved. What most sweeps do not settle counts in the
+/// report as not converged.
+void note_solution(const Scene& scene, const IslandMembers& members, const MassResult& solved,
+                   State& state, StepReport& report);
+
+// --- 1 predict: as for the exact step (step/island/predict.cpp)
+// -------------------------------------
+// --- 2 make_mass_contacts (step/mass/contacts.cpp)
+// --------------------------------------------------
+/// Longest substep, up to `h`, in which no point goes by more than mass::most_travel of the
+/// thickness relative to a neighbour, or past the side of a stem.
+[[nodiscard]] double longest_mass_substep(const Scene& scene, const PairSearch& search,
+                                          const IslandMembers& members,
+                                          std::span<const int> manifolds, double h);
+/// Fills members, rows and contacts of `w`. False: block `outsider` is off the known ground.
+[[nodiscard]] bool make_mass_contacts(const Scene& scene, const State& state,
+                                      const PairSearch& search, std::span<const int> manifolds,
+                                      const IslandMembers& members, const FreeMotions& free,
+                                      std::vector<NearFeatures>& near_ground, ContactMaking& making,
+                                      MassScratch& w, int& outsider);
+
+// --- 3 solve (solver/mass_solver.cpp)
+// ---------------------------------------------------------------
+// --- 4 find_mass_changes (step/mass/accept.cpp)
+// -----------------------------------------------------
+/// Fills changes and pushes: the impulses in doubles.
+void find_mass_changes(const Scene& scene, const State& state, const PairSearch& search,
+                       const IslandMembers& members, const FreeMotions& free, MassScratch& w);
+
+// --- 5 accept_mass (step/mass/accept.cpp)
+// -----------------------------------------------------------
+/// Fills motion, memory, yielding bodies and ledger of the state, the segments, and the report.
+/// The memory is that of the exact step, which can go on from it, as this step can from that one's.
+void accept_mass(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
+                 const MassScratch& w, State& state, std::vector<Segment>& segments, DeepWork& deep,
+                 StepReport& report);
+
+}  // namespace talus

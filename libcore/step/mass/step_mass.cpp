@@ -1,0 +1,64 @@
+// The mass step as a page: its stages in order. What they are: step/mass/stages.hpp.
+#include "step/mass/step_mass.hpp"
+
+#include <algorithm>
+
+#include "scene/yielding.hpp"
+#include "solver/law_numbers.hpp"
+#include "solver/mass_numbers.hpp"
+#include "step/island/stages.hpp"
+#include "step/mass/stages.hpp"
+
+namespace talus {
+namespace {
+
+MassSettings settings_of(const Scene& scene, const IslandMembers& members, const State& state,
+                         double h) {
+  MassSettings settings;
+  settings.sweeps = sweeps_of(scene, members, state);
+  settings.settled = mass::settled * scene.gravity.norm() * h;
+  settings.compliance = mass::compliance;
+  settings.shear_ratio = scene.settings.shear_ratio;
+  return settings;
+}
+
+}  // namespace
+
+bool make_mass_substep(const Scene& scene, double t, double h, State& state, Work& work,
+                       StepReport& report) {
+  IslandScratch& island = work.island;
+  MassScratch& w = work.mass;
+  island.system.outsider = -1;
+  for (int cuts = 0;; ++cuts) {
+    {
+      const StageTimer timer(island.clock, IslandStage::predict);
+      predict_free(scene, state, island.members, t, h, island.free);
+    }
+    {
+      const StageTimer timer(island.clock, IslandStage::make_contacts);
+      if (!make_mass_contacts(scene, state, work.search, island.manifolds, island.members,
+                              island.free, work.near_ground, island.making, w,
+                              island.system.outsider))
+        return false;
+    }
+    const MassSettings settings = settings_of(scene, island.members, state, h);
+    {
+      const StageTimer timer(island.clock, IslandStage::solve);
+      w.solved = solve_mass(settings, w.system, widest_mass_lanes());
+      report.passes += w.solved.sweeps;
+    }
+    const StageTimer timer(island.clock, IslandStage::accept);
+    find_mass_changes(scene, state, work.search, island.members, island.free, w);
+    const double used_up = time_to_first_break(scene, state.yielding, w.pushes, h);
+    if (used_up < h && cuts < law::most_used_up_cuts) {
+      ++report.cuts[static_cast<std::size_t>(SubstepCut::yielding_used_up)];
+      h = used_up;
+      continue;
+    }
+    accept_mass(scene, island.members, island.free, w, state, work.segments, work.deep, report);
+    note_solution(scene, island.members, w.solved, state, report);
+    return true;
+  }
+}
+
+}  // namespace talus

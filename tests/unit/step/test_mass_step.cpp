@@ -1,0 +1,408 @@
+// The mass step against the exact step and closed forms, and the hand-over between the two.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <numbers>
+#include <sstream>
+
+#include "scene/fence.hpp"
+#include "scene/stems.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/flight.hpp"
+#include "step/step.hpp"
+#include "verify/cases/cases.hpp"
+#include "verify/study/ensemble.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+constexpr double degree = std::numbers::pi / 180, g = 10;
+
+Settings with_masses(bool masses, double dt = 0.005) {
+  Settings settings;
+  settings.masses = masses;
+  settings.dt = dt;
+  return settings;
+}
+
+/// Cubes of 1 m that touch on all sides, on a plane.
+struct Lattice {
+  int along = 4, across = 4, high = 4;
+  double dip_deg = 40, friction_deg = 25, restitution = 0.3;
+  double above = 0;              ///< the plane [m]
+  Vec3 velocity = Vec3::Zero();  ///< in the axes of the slope [m/s]
+};
+
+std::vector<Body> cubes_of(const Lattice& lattice, const SlopeFrame& frame, const Vec3& at) {
+  std::vector<Body> bodies;
+  for (int k = 0; k < lattice.high; ++k)
+    for (int j = 0; j < lattice.across; ++j)
+      for (int i = 0; i < lattice.along; ++i) {
+        const Vec3 low = at + Vec3(i, j, k + lattice.above);
+        const Vec3& v = lattice.velocity;
+        bodies.push_back(body_of(box_in(frame, Vec3::Zero(), low, low + Vec3::Ones()),
+                                 v.x() * frame.dip + v.y() * frame.strike + v.z() * frame.normal));
+      }
+  return bodies;
+}
+
+Scene scene_of_lattice(const Lattice& lattice, const Settings& settings) {
+  const SlopeFrame frame = slope_frame(lattice.dip_deg, 30);
+  return scene_of(plane_trn(frame, 4, 400), ground_of(lattice.friction_deg, lattice.restitution),
+                  cubes_of(lattice, frame, Vec3::Zero()), settings);
+}
+
+int n_in_mass(const State& state) {
+  return static_cast<int>(std::count_if(state.mass.begin(), state.mass.end(),
+                                        [](const MassShare& share) { return share.is_in_mass; }));
+}
+
+double mechanical(const Scene& scene, const State& state) {
+  const Energies e = energies(scene, state);
+  return e.translation + e.rotation + e.potential;
+}
+
+double booked(const EnergyLedger& l) {
+  return l.friction + l.impact + l.contact + l.fence + l.rolling + l.drag + l.removed - l.base;
+}
+
+Vec3 momentum(const Scene& scene, const State& state) {
+  Vec3 sum = Vec3::Zero();
+  for (int b = 0; b < n_blocks(scene); ++b)
+    sum += scene.blocks.mass[static_cast<std::size_t>(b)] *
+           motion_at(scene, state, b, state.time).velocity;
+  return sum;
+}
+
+/// What a run shows on its way.
+struct Course {
+  State state;
+  int steps_in_mass = 0;
+  double largest_gain = 0;  ///< of energy in a step, of what was lost so far [-]
+  double lost = 0;          ///< mechanical energy [J]
+  double imbalance = 0;     ///< of the ledger, of what was lost [-]
+  double deepest = 0;       ///< overlap [m]
+};
+
+Course run(const Scene& scene, double time, State state) {
+  Course course;
+  Work work = make_work(scene);
+  const double before = mechanical(scene, state);
+  double last = before;
+  while (state.time < time - 1e-9) {
+    const StepReport report = step(scene, state, work);
+    const double now = mechanical(scene, state);
+    course.steps_in_mass += n_in_mass(state) > 0;
+    course.largest_gain = std::max(course.largest_gain, now - last);
+    course.deepest = std::max(course.deepest, report.largest_penetration);
+    last = now;
+  }
+  course.lost = before - last;
+  course.largest_gain /= std::max(course.lost, 1.0);
+  course.imbalance = (course.lost - booked(state.ledger)) / std::max(course.lost, 1.0);
+  course.state = std::move(state);
+  return course;
+}
+Course run(const Scene& scene, double time) { return run(scene, time, start(scene)); }
+
+/// Mean way of the blocks along their largest mean displacement, and their spread about it.
+struct Place {
+  double way = 0, spread = 0;
+};
+Place place_of(const Scene& scene, const State& state) {
+  Vec3 mean = Vec3::Zero();
+  const std::size_t n = state.motion.size();
+  for (std::size_t b = 0; b < n; ++b)
+    mean += (state.motion[b].pose.position - scene.blocks.rest[b].position) / n;
+  const Vec3 along = mean.normalized();
+  Place place{mean.norm(), 0};
+  double centre = 0, sum = 0;
+  for (const Motion& m : state.motion) centre += along.dot(m.pose.position) / n;
+  for (const Motion& m : state.motion) sum += std::pow(along.dot(m.pose.position) - centre, 2);
+  place.spread = std::sqrt(sum / n);
+  return place;
+}
+
+std::string text_of(const std::string& name) {
+  std::ifstream in(std::string(TALUS_SOURCE_DIR) + "/tests/data/" + name);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// --- which step --------------------------------------------------------------------------------
+
+TEST(MassStep, IsAskedForWhereManyBlocksMove) {
+  const Lattice sliding;
+  EXPECT_EQ(run(scene_of_lattice(sliding, with_masses(false)), 0.1).steps_in_mass, 0);
+  const Course many = run(scene_of_lattice(sliding, with_masses(true)), 0.1);
+  EXPECT_EQ(n_in_mass(many.state), 64);
+  EXPECT_GE(many.steps_in_mass, 17);
+  Lattice few = sliding;
+  few.high = 2;  // 32
+  EXPECT_EQ(run(scene_of_lattice(few, with_masses(true)), 0.1).steps_in_mass, 0);
+  Lattice resting = sliding;
+  resting.dip_deg = 10;  // each column of four stands
+  EXPECT_EQ(run(scene_of_lattice(resting, with_masses(true)), 0.2).steps_in_mass, 0);
+}
+
+// --- closed forms ------------------------------------------------------------------------------
+
+// A lattice that slides as one: g (sin - mu cos).
+TEST(MassStep, SlidesAsOneBlockDoes) {
+  for (const double dt : {0.005, 0.02}) {
+    Lattice lattice;
+    lattice.along = lattice.across = 6;
+    lattice.high = 1;
+    const Course course = run(scene_of_lattice(lattice, with_masses(true, dt)), 2);
+    EXPECT_GE(course.steps_in_mass, 2 / dt - 5);
+    const double a = g * (std::sin(40 * degree) - std::tan(25 * degree) * std::cos(40 * degree));
+    const Place place = place_of(scene_of_lattice(lattice, with_masses(true, dt)), course.state);
+    EXPECT_NEAR(place.way, a * 2 * 2 / 2, 1e-3 * a * 2) << dt;
+    EXPECT_LT(std::abs(course.imbalance), 1e-3) << dt;
+  }
+}
+
+// Blocks that fall flat side by side rebound with the restitution, each alone.
+TEST(MassStep, ReboundsWithTheRestitution) {
+  Lattice lattice;
+  lattice.along = lattice.across = 6;
+  lattice.high = 1;
+  lattice.dip_deg = 0;
+  lattice.restitution = 0.5;
+  lattice.above = 0.2;
+  lattice.velocity = Vec3(0, 0, -2);
+  const Scene scene = scene_of_lattice(lattice, with_masses(true));
+  const double speed = std::sqrt(2 * 2 + 2 * g * 0.2);
+  const double hit = (speed - 2) / g, later = hit + 0.06;
+  const Course course = run(scene, std::ceil(later / 0.005) * 0.005);
+  const double expected = 0.5 * speed - g * (course.state.time - hit);
+  for (const Motion& m : course.state.motion) EXPECT_NEAR(m.velocity.z(), expected, 0.02 * speed);
+  const double impact = 0.5 * 36 * 2500 * speed * speed * (1 - 0.25);
+  EXPECT_NEAR(course.state.ledger.impact, impact, 0.02 * impact);
+}
+
+// --- what is kept ------------------------------------------------------------------------------
+
+// Two lattices meet in the air.
+TEST(MassStep, KeepsMomentum) {
+  Lattice lattice;
+  lattice.along = 3;
+  lattice.high = 4;
+  lattice.dip_deg = 0;
+  lattice.above = 50;
+  const SlopeFrame frame = slope_frame(0, 30);
+  std::vector<Body> bodies = cubes_of(lattice, frame, Vec3::Zero());
+  lattice.velocity = Vec3(-6, 1, 0.5);
+  for (Body& body : cubes_of(lattice, frame, Vec3(3.2, 0.4, 0.3))) bodies.push_back(body);
+  const Scene scene =
+      scene_of(plane_trn(frame, 4, 400), ground_of(30, 0.4), bodies, with_masses(true));
+  State state = start(scene);
+  const Vec3 before = momentum(scene, state);
+  const Course course = run(scene, 0.5, std::move(state));
+  EXPECT_GE(course.steps_in_mass, 60);
+  double mass = 0;
+  for (const double m : scene.blocks.mass) mass += m;
+  const Vec3 expected = before + 0.5 * mass * scene.gravity;
+  EXPECT_LT((momentum(scene, course.state) - expected).norm(), 1e-9 * before.norm());
+  EXPECT_LT(course.largest_gain, 1e-3);
+  EXPECT_LT(std::abs(course.imbalance), 5e-3);
+  EXPECT_GT(course.state.ledger.impact, 0.1 * course.lost);
+}
+
+TEST(MassStep, LosesEnergyAndBooksIt) {
+  Lattice lattice;
+  lattice.velocity = Vec3(8, 0, 0);
+  lattice.dip_deg = 30;
+  const Course course = run(scene_of_lattice(lattice, with_masses(true)), 2);
+  EXPECT_GE(course.steps_in_mass, 150);
+  EXPECT_LT(course.largest_gain, 1e-3);
+  EXPECT_LT(std::abs(course.imbalance), 5e-3);
+  EXPECT_LT(course.deepest, 0.05);
+}
+
+// --- against the exact step --------------------------------------------------------------------
+
+// 39 blocks of all shapes on a valley's side of 2,240 triangles.
+TEST(MassStep, SlidesAsTheExactStepDoes) {
+  const SlideData data = read_slide(text_of("terrain_F.asc"), text_of("blocks_39.obj"));
+  const Scene exact = slide_scene(data, with_masses(false), 0);
+  const Scene mass = slide_scene(data, with_masses(true), 0);
+  const Course a = run(exact, 3), b = run(mass, 3);
+  EXPECT_GE(b.steps_in_mass, 200);
+  const Place by_exact = place_of(exact, a.state), by_mass = place_of(mass, b.state);
+  EXPECT_NEAR(by_mass.way, by_exact.way, 0.01 * by_exact.way);
+  EXPECT_NEAR(by_mass.spread, by_exact.spread, 0.05 * by_exact.spread);
+  EXPECT_NEAR(b.lost, a.lost, 0.03 * a.lost);
+  EXPECT_LT(std::abs(b.imbalance), 5e-3);
+  EXPECT_LT(b.largest_gain, 1e-3);
+}
+
+// What ground does besides, and a base that moves: a layer of blocks goes as far as by the exact
+// step.
+struct GroundLaw {
+  const char* name;
+  double high = 1;
+  void (*change)(GroundClass& ground, Scene& scene);
+};
+class MassOnGround : public testing::TestWithParam<GroundLaw> {};
+INSTANTIATE_TEST_SUITE_P(
+    MassStep, MassOnGround,
+    testing::Values(
+        GroundLaw{"Rolling", 2, [](GroundClass& of, Scene&) { of.rolling = 0.3; }},
+        GroundLaw{"Drag", 1,
+                  [](GroundClass& of, Scene&) { of.drag_per_time = of.drag_per_way = 0.1; }},
+        GroundLaw{"Scar", 1,
+                  [](GroundClass& of, Scene&) { of.scar_friction = 0.9, of.scar_rate = 0.5; }},
+        GroundLaw{"Weakening", 1,
+                  [](GroundClass& of, Scene&) { of.weak_friction = 0.1, of.weakening_speed = 3; }},
+        GroundLaw{"Base", 1,
+                  [](GroundClass&, Scene& scene) {
+                    scene.base.harmonic = {Vec3(3, 1, 2), 12, 0.2, 1.5};
+                  }}),
+    [](const testing::TestParamInfo<GroundLaw>& info) { return info.param.name; });
+
+TEST_P(MassOnGround, GoesAsFarAsByTheExactStep) {
+  double way[2], booked_of[2];
+  for (const bool masses : {false, true}) {
+    Lattice lattice;
+    lattice.along = lattice.across = 6;
+    lattice.high = static_cast<int>(GetParam().high);
+    lattice.velocity = Vec3(4, 0.5, 0);
+    lattice.dip_deg = 25;
+    const SlopeFrame frame = slope_frame(lattice.dip_deg, 30);
+    GroundClass ground = ground_of(lattice.friction_deg, 0.3);
+    Scene unused;
+    GetParam().change(ground, unused);
+    Scene scene = scene_of(plane_trn(frame, 4, 400), ground, cubes_of(lattice, frame, Vec3::Zero()),
+                           with_masses(masses));
+    GetParam().change(ground, scene);
+    const Course course = run(scene, 1.5);
+    EXPECT_EQ(course.steps_in_mass > 100, masses);
+    EXPECT_LT(std::abs(course.imbalance), 1e-2);
+    way[masses] = place_of(scene, course.state).way;
+    booked_of[masses] = course.state.ledger.friction;
+  }
+  EXPECT_NEAR(way[1], way[0], 0.01 * way[0]);
+  EXPECT_NEAR(booked_of[1], booked_of[0], 0.03 * booked_of[0]);
+}
+
+// --- hand-over ---------------------------------------------------------------------------------
+
+// A lattice that slides to rest on a slope less steep than its friction: nothing is thrown, and
+// nothing moves on once the exact step has it.
+TEST(MassStep, HandsOverWhatHasComeToRest) {
+  for (const double dip : {0.0, 10.0}) {
+    Lattice lattice;
+    lattice.along = lattice.across = 5;
+    lattice.high = 2;
+    lattice.dip_deg = dip;
+    lattice.friction_deg = 20;
+    lattice.velocity = Vec3(2, 0.5, 0);
+    const Scene scene = scene_of_lattice(lattice, with_masses(true));
+    State state = start(scene);
+    Work work = make_work(scene);
+    int exact_from = -1;
+    std::vector<Vec3> place;
+    double fastest = 0, farthest = 0;
+    for (int i = 0; i < 800; ++i) {
+      const bool was_mass = n_in_mass(state) > 0;
+      step(scene, state, work);
+      if (was_mass && n_in_mass(state) == 0) {
+        exact_from = i;
+        place.clear();
+        for (const Motion& m : state.motion) place.push_back(m.pose.position);
+      }
+      if (exact_from < 0) continue;
+      for (std::size_t b = 0; b < place.size(); ++b) {
+        fastest = std::max(fastest, state.motion[b].velocity.norm());
+        farthest = std::max(farthest, (state.motion[b].pose.position - place[b]).norm());
+      }
+    }
+    ASSERT_GT(exact_from, 0) << dip;
+    EXPECT_LT(exact_from, 500) << dip;
+    EXPECT_LT(farthest, 1e-3) << dip;
+    EXPECT_LT(fastest, g * 0.005) << dip;
+  }
+}
+
+// --- fences ------------------------------------------------------------------------------------
+
+// A lattice runs into a fence: what its panels take, how far they give way.
+TEST(MassStep, PushesAFenceAsTheExactStepDoes) {
+  const auto work_of = [](bool masses, double& deflection, int& steps) {
+    Lattice lattice;
+    lattice.along = lattice.across = 6;
+    lattice.high = 1;
+    lattice.velocity = Vec3(6, 0, 0);
+    const SlopeFrame frame = slope_frame(0, 0);
+    Scene scene = scene_of(plane_trn(frame, 4, 100), ground_of(10),
+                           cubes_of(lattice, frame, Vec3(-7, -3, 0)), with_masses(masses));
+    StandingFence fence;
+    fence.posts = {Vec3(0.5, -10, 0), Vec3(0.5, 10, 0)};
+    fence.depth = {0.5};
+    fence.height = 6;
+    fence.capacity = 1e7;
+    fence.deflection = 3;
+    add_fence(scene, fence);
+    const Course course = run(scene, 2);
+    deflection = -course.state.yielding.met[0].deflection;
+    steps = course.steps_in_mass;
+    EXPECT_LT(std::abs(course.imbalance), 1e-2) << masses;
+    EXPECT_NEAR(course.state.ledger.fence, course.state.yielding.met[0].work, 1);
+    EXPECT_GE(course.state.fence.hits.size(), 6u);
+    std::cout << course.state.yielding.met[0].work << " J " << deflection << " m\n";
+    return course.state.yielding.met[0].work;
+  };
+  double far = 0, mass_far = 0;
+  int steps = 0, mass_steps = 0;
+  const double exact = work_of(false, far, steps), mass = work_of(true, mass_far, mass_steps);
+  EXPECT_GT(mass_steps, 50);
+  EXPECT_GT(exact, 1e4);
+  EXPECT_NEAR(mass, exact, 0.1 * exact);
+  EXPECT_NEAR(mass_far, far, 0.1 * far);
+}
+
+// A layer of blocks runs through a row of stems, which it breaks.
+TEST(MassStep, BreaksStemsAsTheExactStepDoes) {
+  double lost[2];
+  std::size_t n_hit[2];
+  for (const bool masses : {false, true}) {
+    Lattice lattice;
+    lattice.along = lattice.across = 6;
+    lattice.high = 1;
+    lattice.velocity = Vec3(8, 0, 0);
+    const SlopeFrame frame = slope_frame(0, 0);
+    Scene scene = scene_of(plane_trn(frame, 4, 100), ground_of(10),
+                           cubes_of(lattice, frame, Vec3(-7, -3, 0)), with_masses(masses));
+    std::vector<Stem> stems;
+    for (int i = 0; i < 5; ++i) {
+      Stem stem;
+      stem.foot = Vec3(0, -2 + i, 0);
+      stem.height = 8;
+      stem.radius = 0.15;
+      stem.capacity = 5e4;
+      stem.deflection = 0.4;
+      stems.push_back(stem);
+    }
+    GroundClass bark;
+    bark.friction = 0.2;
+    add_forest(scene, stems, {bark});
+    const Course course = run(scene, 0.6);
+    EXPECT_EQ(course.steps_in_mass > 20, masses);
+    EXPECT_LT(std::abs(course.imbalance), 1e-2);
+    lost[masses] = course.state.ledger.fence;
+    n_hit[masses] = course.state.stem_hits.size();
+  }
+  EXPECT_GT(lost[0], 1e5);
+  EXPECT_NEAR(lost[1], lost[0], 0.05 * lost[0]);
+  EXPECT_GE(n_hit[1], 5u);
+  EXPECT_GE(n_hit[0], 5u);
+}
+
+}  // namespace
