@@ -10,7 +10,7 @@ if [ -f "$mark" ]; then
   outcome=failed
   if grep -q 'did not end by itself' "$mark"; then
     lost=yes
-    echo "$name: $(cut -f2 "$mark")" >&2
+    printf '%s: %s\n' "$name" "$(cut -f2 "$mark")" >&2
   fi
 fi
 echo $outcome >>"$file"

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/memory.hpp"
+#include "base/printable.hpp"
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_operation_gdal.hpp"
@@ -536,7 +537,7 @@ void describe(GDALDataset& dataset, const Trn& trn, const TrnFileOptions& option
   if (!trn.crs_wkt.empty() && srs.importFromWkt(trn.crs_wkt.c_str()) == OGRERR_NONE)
     dataset.SetSpatialRef(&srs);
   for (const auto& [name, value] : options.tags)
-    dataset.SetMetadataItem(name.c_str(), value.c_str());
+    dataset.SetMetadataItem(name.c_str(), printable(value).c_str());
   GDALRasterBand& band = *dataset.GetRasterBand(1);
   band.SetNoDataValue(nodata_written);
   band.SetDescription("elevation of the TRN's nodes");
