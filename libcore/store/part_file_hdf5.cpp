@@ -5,8 +5,8 @@
 
 #include "base/error.hpp"
 #include "base/sha256.hpp"
+#include "base/write_bytes.hpp"
 #include "io/h5_hdf5.hpp"
-#include "io/write_bytes.hpp"
 #include "record/part_file.hpp"
 #include "store/run_file_pieces_hdf5.hpp"
 #include "store/run_file_tables_hdf5.hpp"

@@ -6,8 +6,8 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/write_bytes.hpp"
 #include "io/h5_hdf5.hpp"
-#include "io/write_bytes.hpp"
 #include "record/pieces.hpp"
 #include "record/run_file.hpp"
 #include "store/run_file_pieces_hdf5.hpp"

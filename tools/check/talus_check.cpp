@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "io/write_bytes.hpp"
+#include "base/write_bytes.hpp"
 #include "tools/check/look.hpp"
 #include "tools/check/page.hpp"
 #include "tools/check/words.hpp"
