@@ -67,7 +67,7 @@ $(OUT)/runs/run_%.h5:
 	$(call run_ended,run_$*,run_$*)
 $(OUT)/without/run_%.h5:
 	$(call say_run,dda: run_$* without fences)
-	$(call run,without/run_$*,without_run_$*) $(SITE_FENCES:%=--set fence.%.active=false)
+	$(call run,without/run_$*,without_run_$*) $(SITE_WITHOUT_FENCES)
 	$(call run_ended,without/run_$*,without_run_$*)
 else
 lacking_runs :=

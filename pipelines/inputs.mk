@@ -73,7 +73,7 @@ else
 stages_now := $(shell mktemp -d)
 copied := $(shell cp $(STAGES)/.digests $(stages_now) 2>/dev/null)
 endif
-said := $(shell $(BIN)talus-site site.toml -o $(stages_now) $(given_files) --overwrite --no-db)
+said := $(shell $(BIN)talus-site site.toml -o $(stages_now) --results $(OUT) $(given_files) --overwrite --no-db)
 ifneq ($(.SHELLSTATUS),0)
 ifneq ($(is_dry_run),)
 removed := $(shell rm -rf $(stages_now))
@@ -88,15 +88,12 @@ ifneq ($(is_dry_run),)
   cmp -s $$file $(STAGES)/$${file##*/} || echo $(STAGES)/$${file##*/}; done; rm -rf $(stages_now))
 endif
 
-# remember(NAME,TEXT): a file that changes when TEXT does, e.g. options given to make.
+# remember(NAME,TEXT): a file that changes when TEXT does, e.g. options given to make. The rules that it gives do not
+# hold TEXT, which may have signs of make's own.
+differ = $(subst |$1|,,|$2|)$(subst |$2|,,|$1|)
+remembered = $(if $(call differ,$(strip $(file <$(STAGES)/$1.flags)),$(strip flags: $2)),$(if $(is_dry_run),.PHONY: $(STAGES)/$1.flags,$(file >$(STAGES)/$1.flags,$(strip flags: $2))))
 define remember
-ifneq ($$(strip $$(file <$(STAGES)/$1.flags)),$$(strip flags: $2))
-ifeq ($(is_dry_run),)
-$$(file >$(STAGES)/$1.flags,$$(strip flags: $2))
-else
-.PHONY: $(STAGES)/$1.flags
-endif
-endif
+$(call remembered,$1,$2)
 $(STAGES)/$1.flags: ;
 endef
 

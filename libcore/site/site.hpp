@@ -388,6 +388,10 @@ struct Site {
 /// The same from text; `path` is what messages say.
 [[nodiscard]] Site parse_site(const std::string& text, const std::string& path);
 
+/// Where the key of "section.key=value" ends. A name may hold the sign too, so that the first one
+/// counts that a key of the site stands before; else the first one. npos: there is none.
+[[nodiscard]] std::size_t end_of_key(const Site& site, const std::string& words);
+
 /// Sets "section.key" from the command line, e.g. ("solver.duration_s", "30"). The value is TOML,
 /// or plain text where the key takes text. Throws InputError as read_site does.
 void override_value(Site& site, const std::string& key, const std::string& value);

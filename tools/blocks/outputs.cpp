@@ -78,7 +78,7 @@ void write_outputs(Tool& tool, const BlocksOutputs& files, const BlocksWork& wor
   }
   write_pictures(tool, files, work);
   if (!files.obj_folder.empty()) write_objs(tool, files, work.blocks);
-  if (!files.report.empty()) tool.write_text(files.report, report.dump(2) + "\n");
+  if (!files.report.empty()) tool.write_text(files.report, json_text(report, 2) + "\n");
 }
 
 }  // namespace talus

@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
       write(tool, o.page,
             check_page(look, tool.run_id(),
                        shipped_data("report/report.css") + shipped_data("check/check.css")));
-    if (!o.report.empty()) write(tool, o.report, report.dump(2) + "\n");
+    if (!o.report.empty()) write(tool, o.report, json_text(report, 2) + "\n");
     for (const Doubt& doubt : look.doubts) tool.record(doubt.key + ": " + doubt.finding);
     if (!o.accept_doubts) refuse_what_cannot_be_meant(site, look);
     tool.result(report, check_text(look, o.n_runs > 0 ? o.n_runs : site.solver.n_runs));

@@ -121,7 +121,7 @@ RunFile new_file(const std::string& run_id, const Site& site, const DdaInputs& i
   info.law = site.solver.law;
   info.seed = site.solver.seed;
   info.config = print_config(site);
-  info.plan = plan_json(plan).dump(1);
+  info.plan = json_text(plan_json(plan), 1);
   file.forests = inputs.forests;
   file.objects = inputs.objects;
   for (const std::string& line : inputs.warnings)

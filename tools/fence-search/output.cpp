@@ -247,7 +247,7 @@ std::string proposal_toml(const Proposal& proposal, const Vec3& origin) {
       line += (i > 0 ? ", [" : "[") + coordinate(at.x()) + ", " + coordinate(at.y()) + "]";
       if (i > 0) longest = std::max(longest, fence.chainage[i] - fence.chainage[i - 1]);
     }
-    out += "[fence.\"" + fence.name + "\"]\nline = [" + line +
+    out += "[fence." + json_text(fence.name) + "]\nline = [" + line +
            "]\nheight_m = " + text(fence.height) + "\ncapacity_kj = " + text(fence.capacity / 1e3) +
            "\npost_spacing_m = " + text(std::ceil(longest * 100 + 1) / 100) + "\nactive = true\n";
   }

@@ -23,6 +23,9 @@ namespace talus {
 
 using Json = nlohmann::ordered_json;
 
+/// JSON as text that may reach a file or a terminal, whatever bytes its texts came with.
+[[nodiscard]] std::string json_text(const Json& json, int indent = -1);
+
 /// null for NaN and infinity, which JSON does not have.
 [[nodiscard]] inline Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
@@ -86,6 +89,8 @@ class Tool {
   void write_text(const std::string& path, const std::string& content);
   /// A file that was read but is not an option's value (named in a site file, member of a set).
   void read_also(const std::string& role, const std::string& path);
+  /// A file that the site file names, whether or not it is read: no output may be it.
+  void keep(const std::string& path);
   /// A file whose bytes do not count for run_id(), since content_read() says what was read of it;
   /// call it before read_also() names the file.
   void read_by_content(const std::string& path);

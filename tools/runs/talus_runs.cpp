@@ -212,7 +212,7 @@ void show_ancestry(talus::Tool& tool, const std::string& db, const std::string& 
     return;
   }
   Json document = prov_of(db, ancestry.shown);
-  const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace);
+  const std::string text = talus::json_text(document, 2);
   tool.result(std::move(document), text);
 }
 

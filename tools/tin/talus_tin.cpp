@@ -412,7 +412,7 @@ int main(int argc, char** argv) {
     talus::Tin tin;
     const Json report = o.of_points ? build_of_points(tool, o, tin) : build(tool, o, tin);
     talus::write_tin(tool.stage(o.out), tin);
-    if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
+    if (!o.report.empty()) tool.write_text(o.report, talus::json_text(report, 2) + "\n");
     tool.result(report, o.of_points ? summary_of_points(report) : summary_of(report));
   });
 }

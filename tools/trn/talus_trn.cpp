@@ -551,7 +551,7 @@ int main(int argc, char** argv) {
     if (o.accept_doubts) file.tags["DOUBTS_ACCEPTED"] = "YES";
     talus::write_trn(tool.stage(o.out), trn, file);
     if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), trn);
-    if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
+    if (!o.report.empty()) tool.write_text(o.report, talus::json_text(report, 2) + "\n");
     tool.result(report, summary_of(report));
   });
 }
