@@ -313,7 +313,6 @@ TinFile read_landxml(const std::string& path) {
 TinFile read_ply(const std::string& path) {
   TinFile file;
   file.tin = read_tin(path);
-  file.is_ours = first_bytes(path, 8192).find("comment origin_m ") != std::string::npos;
   return file;
 }
 

@@ -280,6 +280,7 @@ talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Jso
   rows.insert(rows.end(), off.begin(), off.end());
   report["in_doubt"] = talus::say_doubts(tool, o.doubts, map.source, map.crs_wkt, rows);
   if (o.doubts.accept) report["doubts_accepted"] = true;
+  if (o.doubts.accept) report["accepted_places"] = talus::accepted_places(rows);
   const std::vector<std::uint8_t> flat = find_flat_triangles(mesh, measured);
   const talus::AreaShare before = area_of(mesh, flat);
   report["flat"] = {{"mode", o.flat}, {"share_before", before.share()}};
@@ -325,6 +326,7 @@ Json build(Tool& tool, Options& o, talus::Tin& tin) {
     report["held_back"] = {{"every", o.hold_out_every}, {"n_points", held_back.size()}};
   }
   tin = talus::to_tin(make_mesh(tool, o, map, report), map);
+  tin.accepted_doubts = report.value("accepted_places", "");
   report["tin"] = {{"n_points", tin.points.size()}, {"n_triangles", tin.triangles.size()}};
   report["notes"] = reading.notes;
   report["operations"] = reading.operations;
@@ -373,6 +375,7 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
                  {"layers_read", tool.layers_read()}};
   report["in_doubt"] = talus::say_doubts(tool, o.doubts, map.source, map.crs_wkt, rows);
   if (o.doubts.accept) report["doubts_accepted"] = true;
+  if (o.doubts.accept) report["accepted_places"] = talus::accepted_places(rows);
   talus::cut_to_rings(map.boundary, found.mesh);
   if (found.mesh.triangles.empty())
     throw InputError({o.sources.boundary.path}, "the boundary and the points share no ground");
@@ -384,6 +387,7 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
               text(edges.median, 3) +
               " m apart: nothing is known of the ground there; --boundary cuts them off");
   tin = talus::to_tin(std::move(found.mesh), map);
+  tin.accepted_doubts = report.value("accepted_places", "");
   report["tin"] = {{"n_points", tin.points.size()}, {"n_triangles", tin.triangles.size()}};
   report["notes"] = reading.notes;
   report["operations"] = reading.operations;
