@@ -346,6 +346,33 @@ TEST(Recipe, HolesAreRefusedWithTheirPlace) {
   expect("label = \"low hazard\"", "", "class.yellow.label");
 }
 
+// What is stronger or comes more often has no lower class; on both sides of the split.
+TEST(Recipe, UpsideDownIsRefused) {
+  const std::string whole = shipped();
+  const auto expect = [&](const std::string& from, const std::string& to,
+                          const std::string& words) {
+    const std::string said = refusal_of_recipe(replaced(whole, from, to));
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_NE(said.find("r.toml:"), std::string::npos) << said;
+  };
+  expect("[\"blue\", \"yellow\", \"yellow\"]", "[\"red\", \"red\", \"red\"]",
+         "gives \"blue\" to medium in 30 years, and the row before gives \"red\" to weak");
+  expect("[\"red\", \"red\", \"red\"]", "[\"none\", \"none\", \"none\"]",
+         "gives \"none\" to strong in 30 years");
+  expect("[\"blue\", \"yellow\", \"yellow\"]", "[\"yellow\", \"yellow\", \"blue\"]",
+         "gives \"blue\" in 300 years, and \"yellow\" in 100");
+  expect("\"yellow|blue\"", "\"yellow|red\"", "gives \"red\" in 300 years, and \"blue\" in 100");
+  expect("beyond = \"residual\"", "beyond = \"blue\"", "the matrix gives \"yellow\"");
+  expect("alone_s = 3", "alone_s = -1", "mass.alone_s: is not above 0");
+  expect("alone_s = 3", "alone_s = 0", "is not above 0");
+  expect("[6, 5, 4]", "[6, 5, -4]", "has -4, expected a whole number");
+  expect("[6, 5, 4]", "[6, 5.5, 4]", "has 5.5, expected a whole number");
+  expect("hatched = true", "hatched = \"yes\"", "is neither true nor false");
+  expect("\"weak\", \"medium\"", "\"weak\", \"weak\"", "has \"weak\" twice");
+  expect("return_period_a = [30, 100, 300]", "return_period_a = [-30, 100, 300]",
+         "does not ascend from above 0");
+}
+
 TEST(Recipe, SmoothingTakesTheMostOfTheNeighbours) {
   // a single cell disappears, a straight border stays where it is
   std::vector<int> codes(25, no_class);
