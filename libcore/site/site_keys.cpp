@@ -183,7 +183,7 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"rolling_scatter", &S::rolling_scatter, "standard deviation of the logarithm of the ground's rolling resistance between runs", {0, 2}},
       {"max_penetration_m", &S::max_penetration_m, "deeper makes the run fail", positive},
       {"max_energy_gain", &S::max_energy_gain, "share of the fall energy; more makes the run fail", not_negative},
-      {"max_lost_share", &S::max_lost_share, "share of blocks that may leave the terrain", share},
+      {"max_lost_share", &S::max_lost_share, "share of the mass that may leave the terrain; more makes the run fail", share},
       {"max_unconverged_share", &S::max_unconverged_share, "share of the steps that may be accepted unconverged", share}};
   return table;
 }
