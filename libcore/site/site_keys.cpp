@@ -349,7 +349,7 @@ template <> const std::vector<SiteKey<HazardSettings>>& keys_of() {
 template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of() {
   using S = HazardClassSettings;
   static const std::vector<SiteKey<S>> table = {
-      {"frequency_per_a", &S::frequency_per_a, "events a year", positive},
+      {"frequency_per_a", &S::frequency_per_a, "events a year; of rocks that move alone (--independent) the rocks that the whole class releases in a year", positive},
       {"events", &S::events, "events that were counted, instead", not_negative},
       {"observed_a", &S::observed_a, "years in which they were counted", positive},
       {"failure_probability", &S::failure_probability, "that the mass fails, mode localized", {0, 1, true, false}},
