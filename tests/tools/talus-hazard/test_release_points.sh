@@ -27,6 +27,10 @@ for file in class/hazard/*.tif; do
   gdalinfo -checksum "$file" | grep Checksum >whole
   gdalinfo -checksum "points/${file#class/}" | grep Checksum | cmp - whole || fail "$file is another one by release points"
 done
+# both at once are refused before anything runs
+sed 's/^n_per_point = .*/&\nfrequency_per_a = 0.01/' class/site.toml >both.toml
+expect 1 talus-check both.toml --trn slope.tif --bed slope.tif --blocks class/blocks.h5 --probe-s 0 --independent --no-db
+says '[blocks.cliff] has frequency_per_a'
 # a point that sheds a rock each year is a frequency too
 name=yearly && rocks_of yearly 1 'frequency_per_a = 1' '[hazard.class.V1]' 'by_weights = true'
 
