@@ -38,13 +38,15 @@ struct RunInfo {
   std::string blocks_hash;     ///< of the block set
   std::string law;             ///< "talus" or "paper"
   std::int64_t seed = 0;
-  std::string status = "running";  ///< "running", "done" or "failed"
-  std::string reason;              ///< why it failed
-  double duration = 0;             ///< asked for [s]
-  double time = 0;                 ///< reached [s]
-  std::string config;              ///< effective settings, TOML
-  std::string plan;                ///< what was computed and what left out, JSON
-  std::string warnings;            ///< a line each, of inputs and settings; no paths
+  bool independent = false;              ///< each block moved as if it were alone
+  bool weights_are_frequencies = false;  ///< weights of blocks are events a year, not shares
+  std::string status = "running";        ///< "running", "done" or "failed"
+  std::string reason;                    ///< why it failed
+  double duration = 0;                   ///< asked for [s]
+  double time = 0;                       ///< reached [s]
+  std::string config;                    ///< effective settings, TOML
+  std::string plan;                      ///< what was computed and what left out, JSON
+  std::string warnings;                  ///< a line each, of inputs and settings; no paths
 };
 
 /// The blocks as they are drawn and weighed.

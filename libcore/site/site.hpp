@@ -148,7 +148,7 @@ struct SolverSettings {
   double friction_scatter_deg = 0, cor_scatter = 0, rolling_scatter = 0;
   double max_penetration_m = not_given;
   double max_energy_gain = 0.01;       ///< share of the fall energy; more makes the run fail
-  double max_lost_share = 0;           ///< of the blocks; more makes the run fail
+  double max_lost_share = 0.01;        ///< of the mass; more makes the run fail
   double max_unconverged_share = 0.1;  ///< of the steps; more makes the run fail
 };
 

@@ -15,7 +15,7 @@ namespace talus {
 namespace {
 
 const char* const format_name = "talus-part";
-constexpr std::int64_t format_version = 2;
+constexpr std::int64_t format_version = 3;
 
 // --- what runs share ---------------------------------------------------------------------------
 
@@ -226,6 +226,15 @@ constexpr InfoNumber info_numbers[] = {
     {"duration_s", "s", "simulated time asked for", &RunInfo::duration},
     {"time_s", "s", "simulated time reached", &RunInfo::time}};
 
+struct InfoFlag {
+  const char *name, *description;
+  bool RunInfo::*field;
+};
+constexpr InfoFlag info_flags[] = {
+    {"independent", "1: each block moved as if it were alone", &RunInfo::independent},
+    {"weights_are_frequencies", "1: weights of blocks are events a year",
+     &RunInfo::weights_are_frequencies}};
+
 bool has_objects(const Part& part) {
   return std::any_of(part.objects.begin(), part.objects.end(),
                      [](const auto& objects) { return !objects.empty(); });
@@ -253,6 +262,11 @@ void write_runs(H5Writer& file, const Part& part) {
     for (const RunFile& run : part.runs) values.push_back(run.info.*number.field);
     file.array<double>(std::string("runs/") + number.name, values, {values.size()}, number.units,
                        number.description);
+  }
+  for (const InfoFlag& flag : info_flags) {
+    std::vector<int> values;
+    for (const RunFile& run : part.runs) values.push_back(run.info.*flag.field ? 1 : 0);
+    put_indices(file, std::string("runs/") + flag.name, values, flag.description);
   }
   std::vector<std::int64_t> seeds;
   for (const RunFile& run : part.runs) seeds.push_back(run.info.seed);
@@ -294,6 +308,11 @@ void read_runs(const H5Reader& file, const std::string& path, Part& part) {
     const std::vector<double> values = file.array<double>(std::string("runs/") + number.name, 1);
     same(number.name, values.size());
     for (std::size_t r = 0; r < values.size(); ++r) part.runs[r].info.*number.field = values[r];
+  }
+  for (const InfoFlag& flag : info_flags) {
+    const std::vector<int> values = file.array<std::int32_t>(std::string("runs/") + flag.name, 1);
+    same(flag.name, values.size());
+    for (std::size_t r = 0; r < values.size(); ++r) part.runs[r].info.*flag.field = values[r] != 0;
   }
   const std::vector<std::int64_t> seeds = file.array<std::int64_t>("runs/seed", 1);
   same("seed", seeds.size());

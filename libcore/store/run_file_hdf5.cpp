@@ -17,7 +17,7 @@ namespace talus {
 namespace {
 
 const char* const format_name = "talus-run";
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 
 // --- groups ------------------------------------------------------------------------------------
 
@@ -35,6 +35,8 @@ void write_info(H5Writer& file, const RunFile& run) {
   file.attribute("", "blocks_hash", info.blocks_hash);
   file.attribute("", "law", info.law);
   file.attribute("", "seed", info.seed);
+  file.attribute("", "independent", std::int64_t{info.independent});
+  file.attribute("", "weights_are_frequencies", std::int64_t{info.weights_are_frequencies});
   file.attribute("", "status", info.status);
   file.attribute("", "reason", info.reason);
   file.attribute("", "duration_s", info.duration);
@@ -70,6 +72,8 @@ RunInfo read_info(const H5Reader& file, const std::string& path) {
   info.blocks_hash = file.attribute_text("", "blocks_hash");
   info.law = file.attribute_text("", "law");
   info.seed = file.attribute_integer("", "seed");
+  info.independent = file.attribute_integer("", "independent") != 0;
+  info.weights_are_frequencies = file.attribute_integer("", "weights_are_frequencies") != 0;
   info.status = file.attribute_text("", "status");
   info.reason = file.attribute_text("", "reason");
   if (file.has("warnings")) info.warnings = file.text("warnings");

@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "base/write_bytes.hpp"
+#include "post/hazard/frequency.hpp"
 #include "tools/check/look.hpp"
 #include "tools/check/page.hpp"
 #include "tools/check/words.hpp"
@@ -97,6 +98,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     const Site& site = site_options.load();
     check_site_crs(site);
+    static_cast<void>(hazard_classes(site));  // refused now, not after the runs
     Look look = look_at(tool, site, o.files);
     find_doubts(look);
     probe_look(tool, probe_duration(o, look), look);

@@ -106,7 +106,7 @@ RunOptions run_options(const Site& site, const ScenePlan& plan, const Options& o
 }
 
 RunFile new_file(const std::string& run_id, const Site& site, const DdaInputs& inputs,
-                 const ScenePlan& plan) {
+                 const ScenePlan& plan, const Options& o) {
   RunFile file;
   RunInfo& info = file.info;
   info.run_id = run_id;
@@ -120,6 +120,8 @@ RunFile new_file(const std::string& run_id, const Site& site, const DdaInputs& i
   info.blocks_hash = inputs.parts.blocks.content_hash;
   info.law = site.solver.law;
   info.seed = site.solver.seed;
+  info.independent = o.independent;
+  info.weights_are_frequencies = !inputs.parts.blocks.weight.empty();
   info.config = print_config(site);
   info.plan = json_text(plan_json(plan), 1);
   file.forests = inputs.forests;
@@ -322,7 +324,7 @@ int main(int argc, char** argv) {
     check_start(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
     cut_fragments(tool, site, inputs);
-    RunFile file = new_file(tool.run_id(), site, inputs, plan);
+    RunFile file = new_file(tool.run_id(), site, inputs, plan, o);
     const BlockSet blocks = inputs.parts.blocks;
     const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
     file.blocks = run_blocks(scene, blocks);

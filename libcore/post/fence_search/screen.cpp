@@ -150,6 +150,7 @@ ScreenOutcome follow(const SearchRuns& runs, const std::vector<SearchLine>& line
   ScreenOutcome out;
   out.is_stopped.assign(static_cast<std::size_t>(runs.n_blocks), false);
   std::vector<int> n_stopped(static_cast<std::size_t>(runs.n_runs), 0);
+  std::vector<double> left = runs.weight;
   std::vector<Standing> standing(fences.size());
   std::vector<std::vector<double>> volumes(
       fences.size(), std::vector<double>(static_cast<std::size_t>(runs.n_runs)));
@@ -170,13 +171,13 @@ ScreenOutcome follow(const SearchRuns& runs, const std::vector<SearchLine>& line
     volumes[event.fence][run] += arrival.volume;
     if (!event.hit->matters) continue;
     weight += arrival.weight;
+    left[run] -= arrival.weight;
     ++n_stopped[run];
   }
   const double all = weight_on_object(runs);
   out.stopped = all > 0 ? std::min(1.0, weight / all) : none;
   for (int r = 0; r < runs.n_runs; ++r)
-    if (runs.n_hits[r] > n_stopped[r])
-      out.hit.push_back({r, runs.basis.run_weight.empty() ? 1.0 : runs.basis.run_weight[r]});
+    if (runs.n_hits[r] > n_stopped[r]) out.hit.push_back({r, std::max(0.0, left[r])});
   for (std::vector<double>& of_fence : volumes) out.retained.push_back(median(std::move(of_fence)));
   return out;
 }

@@ -55,6 +55,7 @@ RunFile sample(int n_frames, int n_rows) {
   run.info.origin = {500000, 5000000, 0};
   run.info.law = "talus";
   run.info.seed = 17;
+  run.info.independent = run.info.weights_are_frequencies = true;
   run.info.status = "done";
   run.info.duration = 20;
   run.info.time = 20;
@@ -126,6 +127,8 @@ TEST(RunFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.info.config, run.info.config);
   EXPECT_EQ(back.info.origin, run.info.origin);
   EXPECT_EQ(back.info.seed, 17);
+  EXPECT_TRUE(back.info.independent);
+  EXPECT_TRUE(back.info.weights_are_frequencies);
   EXPECT_EQ(back.blocks.mass, run.blocks.mass);
   EXPECT_EQ(back.blocks.vertices, run.blocks.vertices);
   EXPECT_EQ(back.blocks.face_vertices, run.blocks.face_vertices);
