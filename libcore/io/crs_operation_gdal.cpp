@@ -203,7 +203,7 @@ bool carry_out(const CrsOperation& operation, std::vector<Vec3>& points) {
 }
 
 bool reproject(const std::string& from, const std::string& to, std::vector<Vec3>& points) {
-  return points.empty() || carry_out(find_operation(from, to, window_of(points), {}), points);
+  return points.empty() || carry_out(find_operation(from, to, window_of(points, from), {}), points);
 }
 
 std::string sentence_on(const CrsOperation& operation) {

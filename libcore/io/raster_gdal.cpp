@@ -286,7 +286,11 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
             {g[0] + 0.5 * g[1] * dataset->GetRasterXSize(),
              g[3] + 0.5 * g[5] * dataset->GetRasterYSize()});
   impl_->frame = frame_of_raster(*dataset, path);
-  if (!impl_->warped) impl_->check_place_of(edges, impl_->crs, !options.crs_may_be_missing);
+  if (!impl_->warped) {
+    const MapWindow read = intersection(edges, options.window);
+    const bool is_beside = read.x_min > read.x_max || read.y_min > read.y_max;
+    impl_->check_place_of(is_beside ? edges : read, impl_->crs, !options.crs_may_be_missing);
+  }
   if (!options.t_vertical.empty()) impl_->take_heights_to(options);
   impl_->band = dataset->GetRasterBand(1);
   impl_->scale = impl_->source->GetRasterBand(1)->GetScale();

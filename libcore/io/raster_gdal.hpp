@@ -7,6 +7,7 @@
 // has the half cell of a Point raster in it already.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -32,6 +33,9 @@ struct DemOptions {
                                     ///< vertical system, or ellipsoidal_heights
   std::string t_vertical;           ///< WKT; not empty: take heights to this vertical system
   bool accept_ballpark = false;     ///< reproject though nothing is known of the datum
+  /// Part that is read, in map coordinates: only this must lie where the CRS is used. Not looked at
+  /// with t_srs.
+  MapWindow window{-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL};
 };
 
 /// What was done on the way in.

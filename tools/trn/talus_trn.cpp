@@ -273,6 +273,7 @@ Trn trn_of_dem(Tool& tool, const Options& o, std::vector<std::string>& operation
       options.t_vertical = talus::target_heights_from_user(o.t_vertical, "--t-vertical");
   });
   options.accept_ballpark = o.accept_ballpark;
+  options.window = o.window;
   if (!o.faces.layer.empty() || !o.faces.where.empty() || o.faces.unit_m != 0)
     throw talus::UsageError({"", 0, o.source}, "--layer, --where and --unit-m are for drawings",
                             "leave them away");
