@@ -73,7 +73,7 @@ void declare(Tool& tool, Options& o) {
               "a drawing says another unit")
       ->check(check_positive);
   tool.option("--elevation-unit-m", s.elevation_unit_m,
-              "metres in one unit of all elevations; 0: that of the plan")
+              "metres in one unit of all elevations; 0: as their height system says, else metres")
       ->check(check_positive);
   tool.input("--breaklines", s.breaklines.path, "lines with heights where the slope breaks");
   add_layer_options(tool, "--breaklines-", "the breaklines", s.breaklines);
