@@ -109,9 +109,7 @@ std::string accuracy_text(double accuracy_m) {
                                 : "good to " + text(accuracy_m, 3) + " m";
 }
 
-std::string way_to_grid(const std::string& grid) {
-  return "fetch it with projsync --file " + grid + ", or let PROJ fetch it: PROJ_NETWORK=ON";
-}
+std::string way_to_grid(const std::string& grid) { return "fetch it with projsync --file " + grid; }
 
 // --- transformations of GDAL that follow one operation -------------------------------------------
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "io/areas_gdal.hpp"
 #include "io/buffer_gdal.hpp"
@@ -34,6 +35,9 @@ void bring_to_ground(Tool& tool, const Site& site, const Trn& ground, const std:
     throw InputError(
         where, "cannot be reprojected from " + crs_name(crs) + " to " + crs_name(ground.crs_wkt),
         "check crs of [site]: it is that of the coordinates in the site file");
+  Sha256 hash;
+  for (const Vec3& point : points) hash.add(point.data(), sizeof point);
+  tool.content_read(key, hash.hex());
   tool.info(key + ": " + sentence_on(operation));
   tool.record(key + ": " + sentence_on(operation));
   if (const std::string doubt = doubt_on(operation); !doubt.empty()) tool.warn(key + ": " + doubt);

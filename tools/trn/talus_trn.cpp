@@ -12,6 +12,7 @@
 #include "io/hillshade_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/tin_files_gdal.hpp"
+#include "io/trn_digest.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/grid_tin.hpp"
 #include "terrain/ground_doubts.hpp"
@@ -546,6 +547,7 @@ int main(int argc, char** argv) {
     const Trn trn =
         talus::is_tin_file(o.source) ? trn_of_tin(tool, o) : trn_of_dem(tool, o, operations);
     talus::check_trn(trn, o.source);
+    tool.content_read("terrain", talus::trn_digest(trn));
     Json report = report_on(tool, o, trn);
     if (!operations.empty()) report["operations"] = operations;
     talus::TrnFileOptions file{{{"RUN_ID", tool.run_id()}}, o.creation_options};
