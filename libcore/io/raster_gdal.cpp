@@ -71,19 +71,17 @@ void check_band(GDALDataset& dataset, const std::string& path, bool has_heights)
                    "convert them first" + to_metres(unit, wkt_of(dataset.GetSpatialRef()), path));
 }
 
-// A plan in feet says nothing of the heights, which may be in either unit: reprojecting the plan
-// alone would leave slopes 3.28 times too steep.
-void check_unit_of_heights(GDALDataset& dataset, const std::string& crs, const std::string& path) {
+// Heights are in metres by the unit of the band (check_band), by the user's word, or by
+// height_unit_m of the CRS; another unit that the CRS says is refused with it (check_crs).
+void check_unit_of_heights(GDALDataset& dataset, const std::string& crs, const std::string& path,
+                           const DemOptions& options) {
   const char* const unit = dataset.GetRasterBand(1)->GetUnitType();
-  const bool is_said = (unit != nullptr && *unit != '\0') || !height_crs(crs).empty();
-  const double metres = length_unit_m(crs);
-  if (crs.empty() || is_said || metres == 1 || std::isnan(metres)) return;
-  throw InputError({path},
-                   "the plan is in units of " + text(metres, 10) +
-                       " m, and nothing says what unit the heights are in",
-                   "in metres: --vertical-crs with their system, e.g. EPSG:5703 (NAVD88); in the "
-                   "units of the plan: " +
-                       scale_command(metres, crs, path) + ", then the former of metres.tif");
+  if ((unit != nullptr && *unit != '\0') || !options.vertical_crs.empty()) return;
+  (void)height_unit_m(
+      crs, {path},
+      "in metres: --vertical-crs with their system, e.g. EPSG:5703 (NAVD88); in the units of the "
+      "plan: " +
+          scale_command(length_unit_m(crs), crs, path) + ", then the former of metres.tif");
 }
 
 // The lattice of the cell centres; refuses what no TRN can stand on.
@@ -277,7 +275,7 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
   impl_->crs = with_vertical(effective_crs(*dataset, path, options, reading), path, options);
   const MapWindow edges = edges_of(*dataset);
   if (!options.t_srs.empty()) {
-    check_unit_of_heights(*dataset, impl_->crs, path);
+    check_unit_of_heights(*dataset, impl_->crs, path, options);
     if (impl_->crs.empty())
       throw InputError({path}, "there is no CRS to reproject from", "name it with --crs EPSG:code");
     impl_->take_to(options.t_srs, options.accept_ballpark, edges);
@@ -289,7 +287,11 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
             {g[0] + 0.5 * g[1] * dataset->GetRasterXSize(),
              g[3] + 0.5 * g[5] * dataset->GetRasterYSize()});
   impl_->frame = frame_of_raster(*dataset, path);
-  if (!impl_->warped) impl_->check_place_of(edges, impl_->crs, !options.crs_may_be_missing);
+  if (!impl_->warped) {
+    const MapWindow read = intersection(edges, options.window);
+    const bool is_beside = read.x_min > read.x_max || read.y_min > read.y_max;
+    impl_->check_place_of(is_beside ? edges : read, impl_->crs, !options.crs_may_be_missing);
+  }
   if (!options.t_vertical.empty()) impl_->take_heights_to(options);
   impl_->band = dataset->GetRasterBand(1);
   impl_->scale = impl_->source->GetRasterBand(1)->GetScale();

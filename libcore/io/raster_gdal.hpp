@@ -7,6 +7,7 @@
 // has the half cell of a Point raster in it already.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -33,6 +34,9 @@ struct DemOptions {
   std::string t_vertical;           ///< WKT; not empty: take heights to this vertical system
   bool accept_ballpark = false;     ///< reproject though nothing is known of the datum
   bool has_heights = true;          ///< false: other numbers, to which no rule of heights applies
+  /// Part that is read, in map coordinates: only this must lie where the CRS is used. Not looked at
+  /// with t_srs.
+  MapWindow window{-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL};
 };
 
 /// What was done on the way in.

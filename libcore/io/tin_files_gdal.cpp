@@ -212,10 +212,13 @@ void check_landxml_unit(const CPLXMLNode* root, const std::string& path) {
                      "export the surface in metres");
   });
   for_each_element(root, "Metric", [&](const CPLXMLNode* units) {
-    const std::string unit = lower(CPLGetXMLValue(units, "linearUnit", "meter"));
-    if (unit != "meter" && unit != "metre")
-      throw InputError({path}, "the linear unit is " + unit + ", expected meter",
-                       "export the surface in metres");
+    for (const auto& [attribute, name] :
+         {std::pair{"linearUnit", "linear unit"}, std::pair{"elevationUnit", "unit of heights"}}) {
+      const std::string unit = lower(CPLGetXMLValue(units, attribute, "meter"));
+      if (unit != "meter" && unit != "metre")
+        throw InputError({path}, std::string("the ") + name + " is " + unit + ", expected meter",
+                         "export the surface in metres");
+    }
   });
 }
 

@@ -14,6 +14,7 @@
 #include "io/judged_heights_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/tin_files_gdal.hpp"
+#include "io/trn_digest.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/grid_tin.hpp"
 #include "terrain/ground_doubts.hpp"
@@ -292,6 +293,7 @@ Ground ground_of_dem(Tool& tool, const Options& o) {
       options.t_vertical = talus::target_heights_from_user(o.t_vertical, "--t-vertical");
   });
   options.accept_ballpark = o.accept_ballpark;
+  options.window = o.window;
   if (!o.faces.layer.empty() || !o.faces.where.empty() || o.faces.unit_m != 0)
     throw talus::UsageError({"", 0, o.source}, "--layer, --where and --unit-m are for drawings",
                             "leave them away");
@@ -576,6 +578,7 @@ int main(int argc, char** argv) {
     talus::read_members(tool, "reference-points", o.reference_points.path);
     Ground ground = talus::is_tin_file(o.source) ? ground_of_tin(tool, o) : ground_of_dem(tool, o);
     talus::check_trn(ground.trn, o.source);
+    tool.content_read("terrain", talus::trn_digest(ground.trn));
     const Json report = report_on(tool, o, ground);
     talus::write_trn(tool.stage(o.out), ground.trn,
                      {{{"RUN_ID", tool.run_id()}}, o.creation_options, ground.accepted});
