@@ -87,14 +87,16 @@ struct Advance {
 
   // Drag acts for half of the substep at its start, and for half at its end; that of the ground
   // where something presses the block then.
-  Motion dragged(const Motion& from, double h) {
-    return after_drag(scene, b, from, !state.memory[i()].empty(), h / 2);
+  Motion dragged(const Motion& from, const HalfWay& half, double h) {
+    return after_drag(scene, b, from, half, !state.memory[i()].empty(), h / 2);
   }
-  Motion dragged_at_start(double h) { return any_drags(scene) ? dragged(motion(), h) : motion(); }
+  Motion dragged_at_start(double h) {
+    return any_drags(scene) ? dragged(motion(), first_half(motion(), h), h) : motion();
+  }
   void drag(const Substep& s, const Motion& end) {
     const auto energy = [this](const Motion& m) { return kinetic_energy(scene, i(), m); };
     state.ledger.drag += energy(motion()) - energy(s.start);
-    motion() = dragged(end, s.h);
+    motion() = dragged(end, second_half(motion(), s.h, end), s.h);
     state.ledger.drag += energy(end) - energy(motion());
   }
 
