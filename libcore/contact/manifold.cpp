@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/make_room.hpp"
+#include "contact/pair_axes.hpp"
 #include "geometry/corner_shares.hpp"
 
 namespace talus {
@@ -326,6 +327,10 @@ void keep_edges(const Hulls& hulls, const PlacedHulls& placed, int part_a, int p
     const PairAxis edges{AxisKind::edges, edge_of_part(part_a, h.key.feature_a),
                          edge_of_part(part_b, h.key.feature_b)};
     if (edges.feature_a < 0 || edges.feature_b < 0) continue;
+    const Segment a = segment_of(hulls, placed, part_a, edges.feature_a),
+                  b = segment_of(hulls, placed, part_b, edges.feature_b);
+    const Vec3 along_a = a.end - a.start, along_b = b.end - b.start;
+    if (are_parallel(along_a, along_b, along_a.cross(along_b))) continue;
     if (axis_normal(hulls, placed, part_a, part_b, edges).dot(normal) >= same_axis_cos)
       add_near_edges(hulls, placed, part_a, part_b, edges, normal, begin, held);
   }
