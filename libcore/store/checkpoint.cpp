@@ -23,7 +23,7 @@ static_assert(sizeof(YieldingState) == 3 * 24 && sizeof(Yielded) == 56);
 static_assert(sizeof(StemMet) == 64 && sizeof(StemHit) == 80);
 static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104);
 // Of the face of a bond what joints have: they do not give way as ground does.
-static_assert(sizeof(BlockBond) == 16 + sizeof(GroundClass) && sizeof(GroundClass) == 128);
+static_assert(sizeof(BlockBond) == 40 + sizeof(GroundClass) && sizeof(GroundClass) == 128);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
 static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
@@ -50,7 +50,7 @@ void fields(Fields<Archive>& archive, EnergyLedger& ledger) {
 template <class Archive>
 void fields(Fields<Archive>& archive, BlockBond& bond) {
   archive(bond.block_a, bond.block_b, bond.area, bond.face.friction, bond.face.cohesion,
-          bond.face.tension, bond.face.restitution);
+          bond.face.tension, bond.face.restitution, bond.normal);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, FenceHit& hit) {
@@ -200,7 +200,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x32316b6365686374;  // "tcheck12"
+constexpr std::uint64_t format = 0x33316b6365686374;  // "tcheck13"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

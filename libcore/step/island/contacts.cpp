@@ -16,7 +16,6 @@ namespace {
 using std::size_t;
 
 using law::pair_touch_ratio, law::reach_by_gravity;
-constexpr double held = 1e100;  // strength of an intact bond while the forces are sought
 
 // Sets what the motion of the points says of a contact: they move by `moved` relative to each other
 // within the substep without contact forces, and with `slip` at its start.
@@ -47,13 +46,6 @@ double approach_of(const ContactRow& row, double h) {
 bool has_features(const ContactKey& now, const ContactKey& then) {
   return now.mode == then.mode && now.feature_a == then.feature_a &&
          now.feature_b == then.feature_b;
-}
-
-// Holds a contact of a bond without limit; check_substep() compares what it carries.
-void hold(const GroundClass& face, double recovery_time, ContactRow& row) {
-  row.cohesion = held;
-  row.tension = face.tension > 0 ? held : 0;
-  row.bias = (row.gap_start + row.offset) / recovery_time;
 }
 
 // Whether block a touched what has this name in the last step.
@@ -114,7 +106,8 @@ struct ContactMaker {
   [[nodiscard]] const std::vector<ContactMemory>& memory_of(int b) const { return state.memory[b]; }
   // The intact bond of two blocks.
   [[nodiscard]] int bond_of(const PairManifold& m) const {
-    const int bond = find_bond(state.bonds, m.block_a, m.block_b);
+    const int bond = find_bond(state.bonds, m.block_a, m.block_b,
+                               state.motion[m.block_a].pose.attitude, m.normal);
     return bond >= 0 && is_broken(tries, bond) ? -1 : bond;
   }
 
@@ -167,10 +160,11 @@ struct ContactMaker {
 
   // What block b remembers; of a bond with the ground that the substep breaks, no more.
   [[nodiscard]] std::span<const ContactMemory> ground_memory(int b) const {
-    if (!is_broken(tries, static_cast<int>(state.bonds.size()) + b)) return memory_of(b);
+    if (tries.broken.empty()) return memory_of(b);
     making.unbonded = memory_of(b);
     for (ContactMemory& memory : making.unbonded)
-      if (memory.key.body_b == ground_name) memory.bond_area = 0;
+      if (memory.key.body_b == ground_name && is_broken(tries, b, memory.normal))
+        memory.bond_area = 0;
     return making.unbonded;
   }
 
@@ -202,8 +196,6 @@ struct ContactMaker {
       for (Vec3* v : {&row.normal, &row.arm, &row.drift, &row.shear, &row.shear_velocity,
                       &row.slip_start, &row.free_move, &row.arm_start})
         *v = s.R * *v;
-      const GroundClass& ground = scene.ground.classes[row.ground_class];
-      if (row.bond_area > 0) hold(ground, c.recovery_time, row);
       row.touch = c.touch;
       add_contact(row, row.bond_area > 0);
     }
@@ -322,7 +314,8 @@ struct ContactMaker {
     row.key.body_b = m.block_b;
     row.a = m.block_a;
     row.b = m.block_b;
-    row.bond = meeting.bond;
+    const bool bonded = meeting.bond >= 0 && point.area > 0;
+    row.bond = bonded ? meeting.bond : -1;
     row.touch = c.touch;
     row.friction = meeting.faces.friction;
     row.restitution = meeting.faces.restitution;
@@ -335,12 +328,10 @@ struct ContactMaker {
     const Mobility Wa = mobility_at(members, free, ka, arm, n),
                    Wb = mobility_at(members, free, kb, arm_b, n);
     set_law(scene, c, h, {Wa.normal + Wb.normal, Wa.tangent + Wb.tangent}, approach, row);
-    const bool bonded = meeting.bond >= 0;
     if (bonded) {  // where the faces were when the bond was new, it carries nothing
-      const BlockBond& bond = state.bonds[meeting.bond];
-      row.bond_area = m.area > 0 ? bond.area * point.area / m.area : 0;
+      row.bond_area = point.area;
       if (row.memory < 0) row.offset = -row.gap_start;
-      hold(bond.face, c.recovery_time, row);
+      hold(state.bonds[meeting.bond].face, c.recovery_time, row);
     }
     add_contact(row, bonded);
   }

@@ -90,7 +90,8 @@ void slide_member(const Scene& scene, const IslandMembers& members, const FreeMo
 Motion begin_drag(const Scene& scene, const State& state, size_t b, double h) {
   const Motion& motion = state.motion[b];
   if (!any_drags(scene)) return motion;
-  return after_drag(scene, static_cast<int>(b), motion, remembers_ground(state, b), h / 2);
+  return after_drag(scene, static_cast<int>(b), motion, first_half(motion, h),
+                    remembers_ground(state, b), h / 2);
 }
 
 void begin_soil(const Scene& scene, const State& state, int b, const BlockNumbers& c,
@@ -152,8 +153,8 @@ Motion end_drag(const Scene& scene, const IslandMembers& members, const FreeMoti
   if (!any_drags(scene)) return end;
   const auto energy = [&](const Motion& m) { return kinetic_energy(scene, members.block(k), m); };
   state.ledger.drag += energy(before) - energy(free.substeps[k].start);
-  const Motion dragged =
-      after_drag(scene, members.blocks[k], end, is_pressed(system, k), free.h / 2);
+  const Motion dragged = after_drag(scene, members.blocks[k], end, second_half(before, free.h, end),
+                                    is_pressed(system, k), free.h / 2);
   state.ledger.drag += energy(end) - energy(dragged);
   return dragged;
 }

@@ -67,8 +67,8 @@ void note_cut(SubstepCut reason, const SubstepEnd& end, const IslandMembers& mem
       ++tries.deep_cuts;
       break;
     case SubstepCut::bond_broken:
-      for (const BondLoad& load : end.bond_loads)
-        if (breaks(load)) tries.broken.push_back(load.bond);
+      for (const BondFace& face : end.bond_faces)
+        if (!holds(face)) tries.broken.push_back(face);
       break;
     case SubstepCut::yielding_used_up:
       ++tries.used_up_cuts;
