@@ -12,12 +12,12 @@
 #include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "io/feature_tables_gdal.hpp"
+#include "site/stages.hpp"
 #include "tools/frame/data_files.hpp"
 #include "tools/frame/file_paths.hpp"
 #include "tools/frame/object_files.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
-#include "tools/frame/site_stages.hpp"
 #include "tools/site/file_digests.hpp"
 #include "tools/site/new_layers.hpp"
 
