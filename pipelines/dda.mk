@@ -29,7 +29,7 @@ key_before_cases := $(call key_of,$(if $(CONTOURS),$(CONTOURS) $(TIN_FLAGS)) $(D
 # key_of_case(CASE)
 key_of_case = $(call key_of,$(key_before_cases) $(if $1,$(state_of_$1) $(CASE_$1)))
 $(if $(CASES),$(foreach case,$(CASES),$(eval key_$(case) := $(call key_of_case,$(case)))),$(eval key_ := $(key_of_case)))
-case_of_run = $(if $(findstring _,$*),$(firstword $(subst _, ,$*)))
+key_of_run = $(or $(key_$(if $(findstring _,$*),$(firstword $(subst _, ,$*)))),-)
 made_lists := $(STAGES)/made
 made_list := $(made_lists)/$(if $(SHARD),$(SHARD)-of-$(SHARDS),runs)
 # of_other_settings(KEY PATTERN ...): files of runs
@@ -49,10 +49,10 @@ run_options = --seed $(seed_of_run) $(if $(SITE_SAMPLES),--sample $(seed_of_run)
 failed_marks := $(STAGES)/failed
 not_ended := did not end by itself: it was killed, the machine was out of memory, or what starts it (BIN) lost it
 tab := $(shell printf '\t')
-run = $(if $(is_dry_run),,$(count_runs)$(file >$(failed_marks)/$2,none$(tab)$(not_ended)))$(goes_on)$(Q)$(BIN)talus-dda site.toml \
+run = $(if $(is_dry_run),,$(count_runs)$(file >$(failed_marks)/$2,none$(tab)$(not_ended)))-$(Q)$(BIN)talus-dda site.toml \
   --trn $(if $(mass),$(OUT)/rock/bed_$(mass).tif,$(OUT)/bed.tif) --blocks $(if $(mass),$(OUT)/rock/blocks_$(mass).h5,$(OUT)/blocks.h5) -o $@ $(run_options) --label $1 --failures $(failed_marks)/$2 --resume --overwrite $(DB)
 # Whoever asks for the file of one run is told at once that it failed (make out/runs/run_3.h5).
-goes_on := $(if $(filter $(OUT)/%,$(MAKECMDGOALS)),,-)
+must := $(if $(filter $(OUT)/%,$(MAKECMDGOALS)),must)
 
 # More than three runs are one line each: what came of it.
 say_run = $(if $(word 4,$(run_files)),,$(call say,$1))
@@ -67,7 +67,7 @@ run_progress := $(STAGES)/.progress$(if $(SHARD),-$(SHARD)-of-$(SHARDS))
 # The second make of fence_search.mk works while runs of the first one may still end.
 $(if $(is_dry_run)$(filter fence-verified,$(MAKECMDGOALS)),,$(if $(wildcard $(run_progress)),$(shell rm -f $(run_progress))))
 # run_ended(NAME,MARK)
-run_ended = $(if $(is_dry_run),,@sh $(PIPELINES)run_ended.sh $1 $(failed_marks)/$2 $(run_progress) $(n_to_make) $(runs_begun) $(if $(goes_on),,must)$(if $(findstring s,$(short_flags)), >/dev/null))
+run_ended = $(if $(is_dry_run),,@sh $(PIPELINES)run_ended.sh $1 $(failed_marks)/$2 $(run_progress) $(n_to_make) $(runs_begun) $(must)$(if $(findstring s,$(short_flags)), >/dev/null))
 
 $(run_files) $(without_files): $(OUT)/blocks.h5 | $(OUT)/check.html $(OUT)/runs $(OUT)/without $(failed_marks)
 $(filter $(other_runs),$(run_files) $(without_files)): of-other-settings
@@ -78,12 +78,12 @@ ifeq ($(notes_runs),)
 $(OUT)/runs/run_%.h5:
 	$(call say_run,dda: run_$*)
 	$(call run,run_$*,run_$*)
-	$(call noted,$@,$(key_$(case_of_run)),run_$*)
+	$(call noted,$@,$(key_of_run),run_$*)
 	$(call run_ended,run_$*,run_$*)
 $(OUT)/without/run_%.h5:
 	$(call say_run,dda: run_$* without fences)
 	$(call run,without/run_$*,without_run_$*) $(SITE_FENCES:%=--set fence.%.active=false)
-	$(call noted,$@,$(key_$(case_of_run)),without_run_$*)
+	$(call noted,$@,$(key_of_run),without_run_$*)
 	$(call run_ended,without/run_$*,without_run_$*)
 else
 lacking_runs :=

@@ -40,7 +40,7 @@ $(OUT)/verify/$1/run_%.h5: $(OUT)/search/$1.toml $(OUT)/blocks.h5 | $(OUT)/verif
 	$$(file >$(failed_marks)/verify_$1_run_$$*,none$(tab)$(not_ended))-$$(Q)$(BIN)talus-dda site.toml --add $(OUT)/search/$1.toml \
 	  --trn $$(if $$(verify_mass),$(OUT)/rock/bed_$$(verify_mass).tif,$(OUT)/bed.tif) --blocks $$(if $$(verify_mass),$(OUT)/rock/blocks_$$(verify_mass).h5,$(OUT)/blocks.h5) \
 	  -o $$@ $$(run_options) --label $1/run_$$* --failures $(failed_marks)/verify_$1_run_$$* --resume --overwrite $(DB)
-	$$(call noted,$$@,$$(key_$$(case_of_run)),verify_$1_run_$$*)
+	$$(call noted,$$@,$$(key_of_run),verify_$1_run_$$*)
 $(OUT)/verify/$1:
 	@mkdir -p $$@
 endef

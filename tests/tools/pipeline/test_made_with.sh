@@ -47,6 +47,15 @@ runs RUNS=2 CASES='a b' CASE_a='--accuracy 0.03' CASE_b=
 begun_again 2 "an option of one case"
 made slope WITHOUT=no RUNS=1 runs
 begun_again 1 "without the option"
+
+# A run that fails its health is not repeated, whoever asked for it.
+deep='--set solver.max_penetration_m=1e-9'
+expect 2 make -C slope BIN= WITHOUT=no RUNS=1 DDA_FLAGS="$deep" out/runs/run_1.h5
+begun_again 1 "a limit that the run breaks"
+expect 2 make -C slope BIN= WITHOUT=no RUNS=1 DDA_FLAGS="$deep" runs
+says "1 of 1 runs failed"
+begun_again 0 "a run that failed"
+
 touch -d '+40 seconds' slope/out/runs/run_1.h5
 made slope WITHOUT=no RUNS=1 BLOCKS_FLAGS='--set source.depth_m=7' runs
 begun_again 1 "other blocks, and a run whose time is of the future"
