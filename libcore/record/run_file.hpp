@@ -45,6 +45,7 @@ struct RunInfo {
   double duration = 0;                   ///< asked for [s]
   double time = 0;                       ///< reached [s]
   std::string config;                    ///< effective settings, TOML
+  std::string made_with;                 ///< options that are not in `config`, digests of the files read
   std::string plan;                      ///< what was computed and what left out, JSON
   std::string warnings;                  ///< a line each, of inputs and settings; no paths
 };
@@ -191,7 +192,7 @@ struct RunParts {
   bool objects = true;           ///< and what hit them
   bool only_last_frame = false;  ///< of the frames
   bool only_faults = false;      ///< of the health, penetrations and counts of what went wrong
-  bool words = true;             ///< info's config and plan
+  bool words = true;             ///< info's config, made_with and plan
   bool merge_pieces = true;      ///< of blocks that broke, see record/pieces.hpp
   bool trees = true;             ///< hits of trees
 };
@@ -201,7 +202,7 @@ struct RunParts {
 /// must be).
 [[nodiscard]] RunFile read_run_file(const std::string& path, const RunParts& parts = {});
 
-/// What tells whether a run belongs to others: `info` without config and plan, and `grid`.
+/// What tells whether a run belongs to others: `info` without plan, and `grid`.
 [[nodiscard]] RunFile read_run_head(const std::string& path);
 
 /// Writes `run` to `path` itself, synced. Equal content gives equal bytes.

@@ -216,6 +216,8 @@ constexpr InfoText info_texts[] = {
     {"status", "done or failed; running: not ended", &RunInfo::status},
     {"reason", "why it failed", &RunInfo::reason},
     {"config", "effective settings as TOML, each with its origin", &RunInfo::config},
+    {"made_with", "options beside the settings, digests of the files read, a line each",
+     &RunInfo::made_with},
     {"plan", "what was computed and what was left out, JSON", &RunInfo::plan},
     {"warnings", "what inputs and settings were warned of, a line each", &RunInfo::warnings}};
 struct InfoNumber {

@@ -44,9 +44,17 @@ void write_info(H5Writer& file, const RunFile& run) {
   if (!info.terrain_digest.empty())
     file.text("terrain_digest", info.terrain_digest, "of the terrain before the slide");
   file.text("config", info.config, "effective settings as TOML, each with its origin");
+  if (!info.made_with.empty())
+    file.text("made_with", info.made_with,
+              "options beside the settings, digests of the files read, a line each");
   file.text("plan", info.plan, "what was computed and what was left out, JSON");
   if (!info.warnings.empty())
     file.text("warnings", info.warnings, "what inputs and settings were warned of, a line each");
+}
+
+void read_settings(const H5Reader& file, RunInfo& info) {
+  info.config = file.text("config");
+  if (file.has("made_with")) info.made_with = file.text("made_with");
 }
 
 RunInfo read_info(const H5Reader& file, const std::string& path) {
@@ -273,7 +281,7 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
   RunFile run;
   run.info = read_info(file, path);
   if (parts.words) {
-    run.info.config = file.text("config");
+    read_settings(file, run.info);
     run.info.plan = file.text("plan");
   }
   run.blocks = read_blocks(file, path);
@@ -306,6 +314,7 @@ RunFile read_run_head(const std::string& path) {
   const H5Reader file(path);
   RunFile run;
   run.info = read_info(file, path);
+  read_settings(file, run.info);
   if (file.has("passages")) run.grid = read_grid(file, "passages", path);
   return run;
 }

@@ -105,11 +105,11 @@ RunOptions run_options(const Site& site, const ScenePlan& plan, const Options& o
   return options;
 }
 
-RunFile new_file(const std::string& run_id, const Site& site, const DdaInputs& inputs,
-                 const ScenePlan& plan, const Options& o) {
+RunFile new_file(Tool& tool, const Site& site, const DdaInputs& inputs, const ScenePlan& plan,
+                 const Options& o) {
   RunFile file;
   RunInfo& info = file.info;
-  info.run_id = run_id;
+  info.run_id = tool.run_id();
   info.version = build_version;
   info.site = site.info.name;
   info.crs_wkt = inputs.crs_wkt;
@@ -123,6 +123,7 @@ RunFile new_file(const std::string& run_id, const Site& site, const DdaInputs& i
   info.independent = o.independent;
   info.weights_are_frequencies = !inputs.parts.blocks.weight.empty();
   info.config = print_config(site);
+  info.made_with = tool.made_with({"trn", "blocks"});  // which have digests of their own
   info.plan = json_text(plan_json(plan), 1);
   file.forests = inputs.forests;
   file.objects = inputs.objects;
@@ -324,7 +325,7 @@ int main(int argc, char** argv) {
     check_start(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
     cut_fragments(tool, site, inputs);
-    RunFile file = new_file(tool.run_id(), site, inputs, plan, o);
+    RunFile file = new_file(tool, site, inputs, plan, o);
     const BlockSet blocks = inputs.parts.blocks;
     const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
     file.blocks = run_blocks(scene, blocks);

@@ -320,7 +320,7 @@ VerifiedFence read_verified(RunInputs& runs, const std::string& name,
   const std::size_t before = runs.members.size();
   std::vector<double> hits;  // on the object, by run
   bool single = true;
-  runs.read(files, "verified." + name, wanted, [&](RunFile& run, int index) {
+  const auto take = [&](RunFile& run, int index) {
     const RunMember& member = runs.members[static_cast<std::size_t>(index)];
     const std::string file = where_of(member);
     const char* const way_out =
@@ -343,7 +343,8 @@ VerifiedFence read_verified(RunInputs& runs, const std::string& name,
     for (int block = 0; block < n_blocks(run); ++block)
       if (std::isfinite(touched[block])) hits.back() += weight_of(run, block);
     single = single && member.n_blocks <= 1;
-  });
+  };
+  runs.read(files, "verified." + name, wanted, take, RunSettings::with_other_fences);
   const std::vector<RunMember> members(runs.members.begin() + static_cast<std::ptrdiff_t>(before),
                                        runs.members.end());
   const std::vector<double> factor = verified_factors(members, search.classes);

@@ -547,6 +547,10 @@ std::string Tool::run_id() {
   return impl_->record.content_id;
 }
 
+std::string Tool::made_with(const std::set<std::string>& left_out) const {
+  return made_with_text(impl_->record, impl_->id_parts, left_out);
+}
+
 void Tool::content_read(const std::string& role, const std::string& digest) {
   impl_->id_parts.contents.emplace_back(role, digest);
 }

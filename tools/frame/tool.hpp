@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -123,6 +124,9 @@ class Tool {
   void leave_out_of_run_id(const std::vector<std::string>& names);
   /// Digest of tool, version, options and input contents (16 digits); it stands in outputs' tags.
   [[nodiscard]] std::string run_id();
+  /// What run_id() counts beside the site file's values, a line each (made_with_text), without
+  /// inputs of these roles.
+  [[nodiscard]] std::string made_with(const std::set<std::string>& left_out) const;
 
   /// Parse, check, run `body`, put the outputs in place, record; returns the exit code.
   int run(int argc, char** argv, const std::function<void()>& body);
