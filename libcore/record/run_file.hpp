@@ -45,6 +45,8 @@ struct RunInfo {
   std::string config;              ///< effective settings, TOML
   std::string plan;                ///< what was computed and what left out, JSON
   std::string warnings;            ///< a line each, of inputs and settings; no paths
+  bool independent = false;        ///< its rocks fall one by one: each meets fences and trees as
+                                   ///< they were at the start
 };
 
 /// The blocks as they are drawn and weighed.
@@ -96,7 +98,8 @@ struct HealthRow {
 /// How the warning of a run begins that is the same with any seed.
 inline constexpr const char* seed_draws_nothing = "the seed draws nothing";
 
-/// A panel of a fence that stood, as it was at the end.
+/// A panel of a fence that stood, as it was at the end. In a run of independent rocks: as it was at
+/// the start, and once more for each rock that pushed it, as that rock left it.
 struct PanelRow {
   std::int32_t line = 0, panel = 0;  ///< panel: number in its line, from 0
   double capacity = 0;               ///< infinite: rigid [J]
@@ -104,9 +107,11 @@ struct PanelRow {
   double deflection = 0;             ///< to the left of the line, lasting [m]
   double broken_at = 0;              ///< infinite: stands [s]
   std::int32_t broken_by = -1;       ///< block, -1: stands
+  std::int32_t rock = -1;            ///< that alone met it so: the released block, by its number in
+                                     ///< the run; -1: all blocks
 };
-[[nodiscard]] std::vector<PanelRow> panel_rows(const FixedBodies& fixed,
-                                               const YieldingState& state);
+/// By line; after them those of rocks, by rock, then line.
+[[nodiscard]] std::vector<PanelRow> panel_rows(const Scene& scene, const State& state);
 
 /// A block that was in something by more than a tenth of its thickness, and what it may have moved.
 struct DeepRow {
@@ -160,7 +165,7 @@ struct RunFile {
   std::vector<RecordObject> objects;
   std::vector<ObjectHit> object_hits;  ///< by object, then block
   std::vector<FenceHit> fence_hits;    ///< by time, step by step
-  std::vector<PanelRow> panels;        ///< of the fences that stood, by line
+  std::vector<PanelRow> panels;        ///< of the fences that stood (panel_rows)
   std::vector<ForestInfo> forests;     ///< that stood
   std::vector<TreeHitRow> tree_hits;   ///< by time, step by step
   std::vector<HealthRow> health;

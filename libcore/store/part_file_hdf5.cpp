@@ -257,6 +257,11 @@ void write_runs(H5Writer& file, const Part& part) {
   std::vector<std::int64_t> seeds;
   for (const RunFile& run : part.runs) seeds.push_back(run.info.seed);
   file.array<std::int64_t>("runs/seed", seeds, {seeds.size()}, "1", "seed");
+  std::vector<int> independent;
+  for (const RunFile& run : part.runs) independent.push_back(run.info.independent ? 1 : 0);
+  if (std::count(independent.begin(), independent.end(), 1) > 0)
+    put_indices(file, "runs/independent", independent,
+                "1: each block moved as if it were alone, among fences and trees as at the start");
   put_indices(file, "runs/blocks", part.blocks_of_run, "index of its set of blocks");
   put_indices(file, "runs/lines", part.lines_of_run, "index of its set of lines");
   if (has_objects(part))
@@ -298,6 +303,12 @@ void read_runs(const H5Reader& file, const std::string& path, Part& part) {
   const std::vector<std::int64_t> seeds = file.array<std::int64_t>("runs/seed", 1);
   same("seed", seeds.size());
   for (std::size_t r = 0; r < seeds.size(); ++r) part.runs[r].info.seed = seeds[r];
+  if (file.has("runs/independent")) {
+    const std::vector<int> independent = file.array<std::int32_t>("runs/independent", 1);
+    same("independent", independent.size());
+    for (std::size_t r = 0; r < independent.size(); ++r)
+      part.runs[r].info.independent = independent[r] != 0;
+  }
   part.blocks_of_run = file.array<std::int32_t>("runs/blocks", 1);
   same("blocks", part.blocks_of_run.size());
   part.lines_of_run = file.array<std::int32_t>("runs/lines", 1);

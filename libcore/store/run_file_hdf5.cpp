@@ -43,6 +43,10 @@ void write_info(H5Writer& file, const RunFile& run) {
     file.text("terrain_digest", info.terrain_digest, "of the terrain before the slide");
   file.text("config", info.config, "effective settings as TOML, each with its origin");
   file.text("plan", info.plan, "what was computed and what was left out, JSON");
+  if (info.independent)
+    file.text("independent", "yes",
+              "each block moved as if it were alone, among fences and trees as they were at the "
+              "start; their tables count rock by rock");
   if (!info.warnings.empty())
     file.text("warnings", info.warnings, "what inputs and settings were warned of, a line each");
 }
@@ -72,6 +76,7 @@ RunInfo read_info(const H5Reader& file, const std::string& path) {
   info.seed = file.attribute_integer("", "seed");
   info.status = file.attribute_text("", "status");
   info.reason = file.attribute_text("", "reason");
+  info.independent = file.has("independent");
   if (file.has("warnings")) info.warnings = file.text("warnings");
   info.duration = file.attribute_number("", "duration_s");
   info.time = file.attribute_number("", "time_s");
