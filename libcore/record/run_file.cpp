@@ -1,6 +1,6 @@
 #include "record/run_file.hpp"
 
-#include "scene/yielding.hpp"
+#include "scene/worlds.hpp"
 
 namespace talus {
 

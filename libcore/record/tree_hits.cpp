@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "scene/stems.hpp"
-#include "scene/yielding.hpp"
+#include "scene/worlds.hpp"
 
 namespace talus {
 

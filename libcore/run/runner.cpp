@@ -6,7 +6,7 @@
 #include "base/text.hpp"
 #include "record/deep_rows.hpp"
 #include "record/tree_hits.hpp"
-#include "scene/yielding.hpp"
+#include "scene/worlds.hpp"
 #include "step/step.hpp"
 #include "store/checkpoint.hpp"
 

@@ -1,4 +1,4 @@
-// libcore/scene/hit_chain.hpp: public
+// libcore/scene/hit_chain.hpp
 // Finds the hits of one block among those of all, which stand in the order of their times: a look
 // through all of them at each touch would cost a run of many rocks the square of their number.
 #pragma once

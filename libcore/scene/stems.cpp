@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "motion/rotation.hpp"
-#include "scene/yielding.hpp"
+#include "scene/worlds.hpp"
 
 namespace talus {
 namespace {
@@ -54,7 +54,7 @@ void add_forest(Scene& scene, std::vector<Stem> stems, std::vector<GroundClass> 
 }
 
 const Yielded& met_by_stem(const Scene& scene, const State& state, int world, int stem) {
-  return met_by(state.yielding, world, yielding_number(scene, body_of_stem(scene, stem)));
+  return met_by(state.yielding, world, static_cast<int>(scene.fixed.yieldings.size()) + stem);
 }
 
 Vec2 axis_of_stem(const Scene& scene, const State& state, int world, int stem) {

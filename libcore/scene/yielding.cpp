@@ -22,20 +22,6 @@ const Yielding& yielding_of(const Scene& scene, int y) {
   const int n = n_with_hulls(scene);
   return y < n ? scene.fixed.yieldings[y] : scene.forest.yieldings[y - n];
 }
-template <class World>
-auto place_of(World& world, int yielding) {
-  return std::lower_bound(world.begin(), world.end(), yielding,
-                          [](const MetBody& of, int y) { return of.yielding < y; });
-}
-
-// What a body has met, to be changed.
-Yielded& meet(YieldingState& state, int world, int yielding) {
-  std::vector<MetBody>& of = state.worlds[static_cast<size_t>(world)];
-  auto found = place_of(of, yielding);
-  if (found == of.end() || found->yielding != yielding)
-    found = of.insert(found, MetBody{yielding, {}});
-  return found->met;
-}
 
 int hardest_pusher(std::span<const YieldPush> pushes, int yielding) {
   const auto work_on = [yielding](const YieldPush& p) {
@@ -110,23 +96,11 @@ int let_yield(Scene& scene, int body, Yielding how) {
   return number;
 }
 
-int world_of(const Scene& scene, int b) {
-  if (shares_world(scene)) return 0;
-  return scene.fragments.empty() ? b : scene.fragments[static_cast<size_t>(b)].released;
-}
-
 YieldingState start_yielding(const Scene& scene) {
   YieldingState state;
   if (anything_yields(scene))
     state.worlds.resize(shares_world(scene) ? 1 : static_cast<size_t>(n_blocks(scene)));
   return state;
-}
-
-const Yielded& met_by(const YieldingState& state, int world, int yielding) {
-  static const Yielded nothing;
-  const std::vector<MetBody>& of = state.worlds[static_cast<size_t>(world)];
-  const auto found = place_of(of, yielding);
-  return found != of.end() && found->yielding == yielding ? found->met : nothing;
 }
 
 int yielding_number(const Scene& scene, int body) {

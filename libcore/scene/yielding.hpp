@@ -12,6 +12,7 @@
 #include "geometry/polyhedron.hpp"
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
+#include "scene/worlds.hpp"
 
 namespace talus {
 
@@ -22,19 +23,8 @@ int add_fixed_body(Scene& scene, const Polyhedron& body, int contact_class);
 /// those that do.
 int let_yield(Scene& scene, int body, Yielding how);
 
-/// Whether all blocks share one world: they can meet each other, or there is but one.
-[[nodiscard]] inline bool shares_world(const Scene& scene) {
-  return scene.settings.block_contacts || n_blocks(scene) == 1;
-}
-
-/// The world of block `b`: index into YieldingState::worlds. A piece is in that of its rock.
-[[nodiscard]] int world_of(const Scene& scene, int b);
-
 /// What the bodies that give way have met before anything moves.
 [[nodiscard]] YieldingState start_yielding(const Scene& scene);
-
-/// What body `yielding` has met in a world; nothing where nothing pushed it.
-[[nodiscard]] const Yielded& met_by(const YieldingState& state, int world, int yielding);
 
 /// Does fixed body `body` stop anything in `world` (any more)?
 [[nodiscard]] bool stands(const Scene& scene, const State& state, int world, int body);

@@ -163,7 +163,7 @@ assert 0 < forest['broken'] < forest['hit'] < 0.2 * forest['stems']
 PY
 
 # blocks that meet each other share what they leave of a net
-sed 's/^n_per_point = .*/n_per_point = 1/' weak.toml >meet.toml
+sed 's/^n_per_point = .*/n_per_point = 1/; s/^capacity_kj = .*/capacity_kj = 1500/' weak.toml >meet.toml
 blocks meet
 expect 0 talus-dda meet.toml --trn slope.tif --blocks meet_blocks.h5 -o meet.h5 --no-db --json
 cp out meet.json
