@@ -6,6 +6,7 @@
 #include "base/text.hpp"
 #include "record/deep_rows.hpp"
 #include "record/tree_hits.hpp"
+#include "scene/worlds.hpp"
 #include "step/step.hpp"
 #include "store/checkpoint.hpp"
 
@@ -281,6 +282,7 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
   runner.file.passages_by_centroid = options.passages_by_centroid;
   runner.file.lines = runner.crossings.lines;
   runner.file.info.duration = options.duration;
+  runner.file.info.independent = !shares_world(scene);
   return runner;
 }
 
@@ -391,7 +393,7 @@ void update_file(Runner& runner, bool with_checkpoint) {
   file.crossings = sorted(runner.crossings);
   file.object_hits = sorted(runner.objects);
   file.fence_hits = runner.state.fence.hits;
-  file.panels = panel_rows(runner.scene.fixed, runner.state.yielding);
+  file.panels = panel_rows(runner.scene, runner.state);
   file.tree_hits = tree_hit_rows(runner.scene, runner.state);
   file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
   file.breaks = runner.state.breaks;

@@ -233,7 +233,9 @@ struct InfoFlag {
   bool RunInfo::*field;
 };
 constexpr InfoFlag info_flags[] = {
-    {"independent", "1: each block moved as if it were alone", &RunInfo::independent},
+    {"independent",
+     "1: each block moved as if it were alone, among fences and trees as at the start",
+     &RunInfo::independent},
     {"weights_are_frequencies", "1: weights of blocks are events a year",
      &RunInfo::weights_are_frequencies}};
 

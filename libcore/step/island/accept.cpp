@@ -283,7 +283,7 @@ struct SubstepAcceptance {
       const size_t k = members.at(contact.a);
       const Motion& before = free.substeps[k].start;
       note_stem_touch(scene, contact.a, contact.fixed, before.pose.position + contact.arm, free.t,
-                      before, state.motion[members.block(k)], state.stem_hits);
+                      before, state.motion[members.block(k)], state);
     }
   }
 };
@@ -331,7 +331,7 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
   acceptance.note_touched_panels();
   acceptance.note_touched_stems();
   note_work(scene, end.pushes, state.fence);
-  note_stem_work(scene, end.pushes, state.stem_hits);
+  note_stem_work(scene, end.pushes, state);
   push_bodies(scene, end.pushes, free.t + free.h, state);
 }
 

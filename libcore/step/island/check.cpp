@@ -158,9 +158,10 @@ struct SubstepCheck {
 
   // --- what gives way --------------------------------------------------------------------------
 
-  // How far a fixed body had been pushed when it was searched.
-  [[nodiscard]] Vec3 pushed_before(int fixed) const {
-    if (is_stem(scene, fixed)) return met_by_stem(state.yielding, stem_of(scene, fixed)).shift;
+  // How far a fixed body had been pushed when it was searched for a block.
+  [[nodiscard]] Vec3 pushed_before(int block, int fixed) const {
+    if (is_stem(scene, fixed))
+      return met_by_stem(scene, state, world_of(scene, block), stem_of(scene, fixed)).shift;
     return search.poses[hull_of_fixed(scene, fixed)].position - scene.fixed.pose[fixed].position;
   }
 
@@ -184,7 +185,7 @@ struct SubstepCheck {
       const double gap_end = contact.gap_start + normal.dot(path_of_contact(system, end, r));
       if (p_n >= (1 - 1e-12) * lane.normal_limit() || follows_block(scene, members, system, r))
         push.shift = std::min(0.0, gap_end) * cosine;
-      push.to = push.shift + push.along.dot(pushed_before(contact.fixed));
+      push.to = push.shift + push.along.dot(pushed_before(contact.a, contact.fixed));
       add_push(push, end.pushes);
     }
   }

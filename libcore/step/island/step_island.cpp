@@ -145,10 +145,12 @@ double prepare_substep(const Scene& scene, int k, double t, double ahead, State&
   const bool begins = t == state.time;
   {
     const StageTimer timer(w.clock, IslandStage::find_pairs);
-    if (search.is_of_step && begins)
+    if (search.is_of_step && begins) {
+      place_own_fixed(scene, w.members.blocks[0], state, search);
       take_pairs(scene, state, search, k, w.members, w.manifolds);
-    else
+    } else {
       find_pairs(scene, w.members, ahead, state, search, w.manifolds);
+    }
   }
   const StageTimer timer(w.clock, IslandStage::choose_stiffness);
   if (begins) see_size(scene, state, search, w.manifolds, w.members);
@@ -180,6 +182,7 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
   }
   for (const int b : w.members.blocks) state.local_time[b] = t_end;
   release_members(w.members);
+  place_own_fixed(scene, -1, state, work.search);
 }
 
 }  // namespace talus
