@@ -20,9 +20,25 @@ run_files := $(run_names:%=$(OUT)/runs/run_%.h5)
 without_files := $(if $(filter yes,$(WITHOUT)),$(run_names:%=$(OUT)/without/run_%.h5))
 runs: $(run_files) $(without_files) ## blocks -> runs (RUNS=50: with 50 seeds)
 
-$(eval $(call remember,dda,$(DDA_FLAGS)))
 $(eval $(call remember,runs,$(run_files) $(without_files)))
-$(foreach case,$(CASES),$(eval $(call remember,case_$(case),$(CASE_$(case)))))
+
+# A run counts that is known to be made with the settings of now, whatever its time is: those of the site file, of
+# options, and of all that is made before it. Its key stands for them.
+key_of = $(firstword $(shell printf '%s' $(call quoted,$(state_before_runs) $(strip $1)) | sha256sum))
+key_before_cases := $(call key_of,$(if $(CONTOURS),$(CONTOURS) $(TIN_FLAGS)) $(DEM) $(TRN_FLAGS) $(BLOCKS_FLAGS) $(DDA_FLAGS))
+# key_of_case(CASE)
+key_of_case = $(call key_of,$(key_before_cases) $(if $1,$(state_of_$1) $(CASE_$1)))
+$(if $(CASES),$(foreach case,$(CASES),$(eval key_$(case) := $(call key_of_case,$(case)))),$(eval key_ := $(key_of_case)))
+key_of_run = $(or $(key_$(if $(findstring _,$*),$(firstword $(subst _, ,$*)))),-)
+made_lists := $(STAGES)/made
+made_list := $(made_lists)/$(if $(SHARD),$(SHARD)-of-$(SHARDS),runs)
+# of_other_settings(KEY PATTERN ...): files of runs
+of_other_settings = $(shell sh $(PIPELINES)made_with.sh others $(made_lists) $1)
+# noted(RUN,KEY,MARK)
+noted = $(if $(is_dry_run),,@sh $(PIPELINES)made_with.sh note $(made_list) $2 $1 $(failed_marks)/$3)
+other_runs := $(call of_other_settings,$(foreach case,$(or $(CASES),-),$(foreach folder,runs without,\
+  $(key_$(filter-out -,$(case))) '$(OUT)/$(folder)/run_$(if $(CASES),$(case)_)*.h5')))
+.PHONY: of-other-settings
 
 # Of the name CASE_SEED or SEED that a run has. What [uncertainty] draws is the sample of the same number.
 seed_of_run = $(lastword $(subst _, ,$*))
@@ -33,18 +49,16 @@ run_options = --seed $(seed_of_run) $(if $(SITE_SAMPLES),--sample $(seed_of_run)
 failed_marks := $(STAGES)/failed
 not_ended := did not end by itself: it was killed, the machine was out of memory, or what starts it (BIN) lost it
 tab := $(shell printf '\t')
-run = $(if $(is_dry_run),,$(count_runs)$(file >$(failed_marks)/$2,none$(tab)$(not_ended)))$(goes_on)$(Q)$(BIN)talus-dda site.toml \
+run = $(if $(is_dry_run),,$(count_runs)$(file >$(failed_marks)/$2,none$(tab)$(not_ended)))-$(Q)$(BIN)talus-dda site.toml \
   --trn $(if $(mass),$(OUT)/rock/bed_$(mass).tif,$(OUT)/bed.tif) --blocks $(if $(mass),$(OUT)/rock/blocks_$(mass).h5,$(OUT)/blocks.h5) -o $@ $(run_options) --label $1 --failures $(failed_marks)/$2 --resume --overwrite $(DB)
 # Whoever asks for the file of one run is told at once that it failed (make out/runs/run_3.h5).
-goes_on := $(if $(filter $(OUT)/%,$(MAKECMDGOALS)),,-)
+must := $(if $(filter $(OUT)/%,$(MAKECMDGOALS)),must)
 
 # More than three runs are one line each: what came of it.
 say_run = $(if $(word 4,$(run_files)),,$(call say,$1))
 
 # How far the runs are: what is to be made is counted when the first one starts, and all that they read is made.
-run_inputs := $(OUT)/blocks.h5 $(STAGES)/run.txt $(if $(SITE_ROCK_MASSES),$(STAGES)/rock.txt) $(STAGES)/dda.flags $(STAGES)/dda.files
-newer_runs = $(shell find $(wildcard $(OUT)/runs $(OUT)/without) -name 'run_$2*.h5' $(addprefix -newer ,$1))
-fresh_runs = $(foreach case,$(or $(CASES),-),$(call newer_runs,$(run_inputs) $(if $(CASES),$(STAGES)/case_$(case).flags $(STAGES)/case_$(case).files),$(if $(CASES),$(case)_)))
+fresh_runs = $(filter-out $(other_runs),$(shell find $(wildcard $(OUT)/runs $(OUT)/without) -name 'run_*.h5' -newer $(OUT)/blocks.h5))
 # Those of the goals: maps and run-out need none without fences.
 goal_runs = $(run_files) $(if $(filter-out maps runout places hazard trace profile fence-search fence-verified,$(wanted)),$(without_files))
 wanted_runs = $(or $(if $(SHARD),$(shard_runs)),$(filter $(MAKECMDGOALS),$(goal_runs)),$(goal_runs))
@@ -53,10 +67,10 @@ run_progress := $(STAGES)/.progress$(if $(SHARD),-$(SHARD)-of-$(SHARDS))
 # The second make of fence_search.mk works while runs of the first one may still end.
 $(if $(is_dry_run)$(filter fence-verified,$(MAKECMDGOALS)),,$(if $(wildcard $(run_progress)),$(shell rm -f $(run_progress))))
 # run_ended(NAME,MARK)
-run_ended = $(if $(is_dry_run),,@sh $(PIPELINES)run_ended.sh $1 $(failed_marks)/$2 $(run_progress) $(n_to_make) $(runs_begun) $(if $(goes_on),,must)$(if $(findstring s,$(short_flags)), >/dev/null))
+run_ended = $(if $(is_dry_run),,@sh $(PIPELINES)run_ended.sh $1 $(failed_marks)/$2 $(run_progress) $(n_to_make) $(runs_begun) $(must)$(if $(findstring s,$(short_flags)), >/dev/null))
 
-$(run_files) $(without_files): $(run_inputs) | $(OUT)/check.html $(OUT)/runs $(OUT)/without $(failed_marks)
-$(foreach case,$(CASES),$(eval $(filter $(OUT)/runs/run_$(case)_% $(OUT)/without/run_$(case)_%,$(run_files) $(without_files)): $(STAGES)/case_$(case).flags $(STAGES)/case_$(case).files))
+$(run_files) $(without_files): $(OUT)/blocks.h5 | $(OUT)/check.html $(OUT)/runs $(OUT)/without $(failed_marks)
+$(filter $(other_runs),$(run_files) $(without_files)): of-other-settings
 # Before jobs are sent, make finds out what they are to do: the rule of a run notes that it is to be made, and makes
 # nothing (shards.mk, slurm.mk).
 notes_runs := $(filter submit prepare,$(MAKECMDGOALS))
@@ -64,10 +78,12 @@ ifeq ($(notes_runs),)
 $(OUT)/runs/run_%.h5:
 	$(call say_run,dda: run_$*)
 	$(call run,run_$*,run_$*)
+	$(call noted,$@,$(key_of_run),run_$*)
 	$(call run_ended,run_$*,run_$*)
 $(OUT)/without/run_%.h5:
 	$(call say_run,dda: run_$* without fences)
-	$(call run,without/run_$*,without_run_$*) $(SITE_FENCES:%=--set fence.%.active=false)
+	$(call run,without/run_$*,without_run_$*) $(SITE_WITHOUT_FENCES)
+	$(call noted,$@,$(key_of_run),without_run_$*)
 	$(call run_ended,without/run_$*,without_run_$*)
 else
 lacking_runs :=
@@ -91,7 +107,6 @@ counted_runs = $(words $1) run$(if $(filter 1,$(words $1)),,s)
 run_there = $$(parts=$(parts_taken) $(call outcomes,there,$1))
 framed_there = $(if $(keep_frames),$$($(call outcomes,there,$1)),$(run_there))
 # The last goal that has to do with runs comes after the others and lists what failed.
-run_goals := runs runout maps fence hazard trace profile fence-search report all
 asked := $(filter $(run_goals),$(or $(MAKECMDGOALS),all))
 last_goal := $(if $(filter all,$(asked)),all,$(lastword $(asked)))
 $(if $(last_goal),$(last_goal): | $(filter-out $(last_goal),$(asked)))

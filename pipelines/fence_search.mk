@@ -35,16 +35,19 @@ verify_files = $(verify_names:%=$(OUT)/verify/$1/run_%.h5)
 all_verify_files := $(foreach proposal,$(PROPOSALS),$(call verify_files,$(proposal)))
 verify_mass = $(if $(rock_masses),$(shell echo $$((($(seed_of_run) - 1) % $(rock_masses) + 1))))
 define verify_rule
-$(OUT)/verify/$1/run_%.h5: $(OUT)/search/$1.toml $(run_inputs) | $(OUT)/verify/$1 $(failed_marks)
+$(OUT)/verify/$1/run_%.h5: $(OUT)/search/$1.toml $(OUT)/blocks.h5 | $(OUT)/verify/$1 $(failed_marks)
 	$$(call say_run,dda: run_$$* with $1)
 	$$(file >$(failed_marks)/verify_$1_run_$$*,none$(tab)$(not_ended))-$$(Q)$(BIN)talus-dda site.toml --add $(OUT)/search/$1.toml \
 	  --trn $$(if $$(verify_mass),$(OUT)/rock/bed_$$(verify_mass).tif,$(OUT)/bed.tif) --blocks $$(if $$(verify_mass),$(OUT)/rock/blocks_$$(verify_mass).h5,$(OUT)/blocks.h5) \
 	  -o $$@ $$(run_options) --label $1/run_$$* --failures $(failed_marks)/verify_$1_run_$$* --resume --overwrite $(DB)
+	$$(call noted,$$@,$$(key_of_run),verify_$1_run_$$*)
 $(OUT)/verify/$1:
 	@mkdir -p $$@
 endef
 $(foreach proposal,$(PROPOSALS),$(eval $(call verify_rule,$(proposal))))
 $(if $(rock_masses),$(foreach seed,$(verify_seeds),$(eval verify_masses += $(shell echo $$((($(seed) - 1) % $(rock_masses) + 1))))))
+$(filter $(call of_other_settings,$(foreach proposal,$(PROPOSALS),$(foreach case,$(or $(CASES),-),\
+  $(key_$(filter-out -,$(case))) '$(OUT)/verify/$(proposal)/run_$(if $(CASES),$(case)_)*.h5'))),$(all_verify_files)): of-other-settings
 $(all_verify_files): | $(foreach mass,$(sort $(verify_masses)),$(OUT)/rock/blocks_$(mass).h5)
 # write_list(PROPOSAL): the names of its runs, for proposals.sh
 write_list = $(file >$(OUT)/search/$1.list)$(foreach file,$(call verify_files,$1),$(file >>$(OUT)/search/$1.list,$(file)))

@@ -3,9 +3,6 @@
 # its files, and leaves one that would be the same as it is.
 # in: site.toml, CONTOURS, DEM, *_FLAGS, manifest.sha256   out: $(STAGES)/*.txt, *.files, *.flags, SITE_*
 
-# With -n and -q nothing is written: the stage files go to a folder of their own and are compared.
-is_dry_run := $(findstring n,$(short_flags))$(findstring q,$(short_flags))
-
 # --- the tools: of this checkout when it is built whole, else on the search path ---
 tool_names := site tin trn blocks check dda reduce runout maps fence places hazard trace profile fence-search report
 whole_build = $(if $(word $(words $(tool_names)),$(wildcard $(tool_names:%=$1talus-%))),$1)
@@ -32,10 +29,19 @@ ifneq ($(foreign),)
 $(error $(firstword $(foreign)) was not made by the pipeline, which would replace it: name another OUT, or move it away)
 endif
 
-# Make goes by times there: beside results of the future, of another clock, what has changed looks older.
-ahead := $(shell find $(OUT)/ -type f -newermt '60 seconds' -print -quit 2>/dev/null)
-ifneq ($(ahead),)
-$(error $(ahead) has a time of the future, so that make would not repeat what has changed: set the clock, or the time of such files: find $(OUT)/ -newermt now -exec touch {} +)
+# --- who else works there ---
+run_goals := runs runout maps fence hazard trace profile fence-search report all
+# While jobs of this folder wait or run nothing else may make the same runs; their own makes may.
+ifeq ($(is_dry_run)$(SHARD)$(SENT),)
+ifneq ($(and $(wildcard $(OUT)/shards/jobs),$(filter submit prepare $(run_goals),$(wanted))),)
+jobs_left := $(shell sh $(PIPELINES)jobs_left.sh $(OUT)/shards/jobs)
+$(if $(jobs_left),$(error Jobs of Slurm for $(OUT) wait or run: $(jobs_left). Wait for them, or end them: scancel $(jobs_left)))
+endif
+endif
+# What changes from now on is newer than all that is there (in_time.sh).
+ifeq ($(is_dry_run),)
+$(locked)
+$(if $(SHARD),,$(shell sh $(PIPELINES)in_time.sh $(OUT)))
 endif
 
 # --- data that a manifest lists: checked again when one of them is another file ---
@@ -67,13 +73,14 @@ given_files := $(if $(CONTOURS),--given tin=$(CONTOURS)) $(call given,tin,$(TIN_
   $(if $(LINE),--given 'profile=$(LINE)') $(call given,profile,$(PROFILE_FLAGS)) \
   --given report=site.toml $(call given,report,$(REPORT_FLAGS))
 
+# With -n and -q the stage files go to a folder of their own and are compared.
 ifeq ($(is_dry_run),)
 stages_now := $(STAGES)
 else
 stages_now := $(shell mktemp -d)
 copied := $(shell cp $(STAGES)/.digests $(stages_now) 2>/dev/null)
 endif
-said := $(shell $(BIN)talus-site site.toml -o $(stages_now) $(given_files) --overwrite --no-db)
+said := $(shell $(BIN)talus-site site.toml -o $(stages_now) --results $(OUT) $(given_files) --overwrite --no-db)
 ifneq ($(.SHELLSTATUS),0)
 ifneq ($(is_dry_run),)
 removed := $(shell rm -rf $(stages_now))
@@ -83,20 +90,22 @@ endif
 include $(stages_now)/site.mk
 $(stages_now)/site.mk: ;
 $(STAGES)/%.txt $(STAGES)/%.files: ;
+# What runs depend on, with all that is made before them (dda.mk).
+stage_state = $(firstword $(shell cat $(addprefix $(stages_now)/,$1) 2>/dev/null | sha256sum))
+state_before_runs := $(call stage_state,trn.txt trn.files blocks.txt blocks.files run.txt dda.files \
+  $(if $(SITE_ROCK_MASSES),rock.txt) $(if $(or $(CONTOURS),$(SITE_CONTOURS)),tin.txt tin.files))
+$(foreach case,$(CASES),$(eval state_of_$(case) := $(call stage_state,case_$(case).files)))
 ifneq ($(is_dry_run),)
 .PHONY: $(shell for file in $(stages_now)/*.txt $(stages_now)/*.files; do \
   cmp -s $$file $(STAGES)/$${file##*/} || echo $(STAGES)/$${file##*/}; done; rm -rf $(stages_now))
 endif
 
-# remember(NAME,TEXT): a file that changes when TEXT does, e.g. options given to make.
+# remember(NAME,TEXT): a file that changes when TEXT does, e.g. options given to make. The rules that it gives do not
+# hold TEXT, which may have signs of make's own.
+differ = $(subst |$1|,,|$2|)$(subst |$2|,,|$1|)
+remembered = $(if $(call differ,$(strip $(file <$(STAGES)/$1.flags)),$(strip flags: $2)),$(if $(is_dry_run),.PHONY: $(STAGES)/$1.flags,$(file >$(STAGES)/$1.flags,$(strip flags: $2))))
 define remember
-ifneq ($$(strip $$(file <$(STAGES)/$1.flags)),$$(strip flags: $2))
-ifeq ($(is_dry_run),)
-$$(file >$(STAGES)/$1.flags,$$(strip flags: $2))
-else
-.PHONY: $(STAGES)/$1.flags
-endif
-endif
+$(call remembered,$1,$2)
 $(STAGES)/$1.flags: ;
 endef
 

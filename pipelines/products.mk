@@ -39,8 +39,8 @@ made_patterns := thickness.qml rock/blocks_*[0-9].h5 rock/bed_*[0-9].tif rock/be
   parts/*-of-*.h5 parts/*-of-*.runs parts/without/*-of-*.h5 parts/without/*-of-*.runs shards/*-of-*.list shards/*-of-*.list.there \
   shards/*-of-*.sqlite shards/*-of-*.sqlite-wal shards/*-of-*.sqlite-shm shards/*-of-*.sqlite.late-* \
   shards/merged shards/jobs shards/log/*_*.txt stages/.progress* \
-  stages/.digests stages/failed/run_*[0-9] stages/failed/without_run_*[0-9] \
-  $(addsuffix .*.part-*-*,$(sort $(dir $(products))) maps/*/ fences/*/ runs/ without/ parts/ parts/without/ rock/ stages/ hazard/ sources/ search/new/ search/charts/)
+  stages/.digests stages/.lock stages/.now stages/made/runs stages/made/*-of-* stages/failed/run_*[0-9] stages/failed/without_run_*[0-9] \
+  $(addsuffix .*.part-*-*,$(sort $(dir $(products))) maps/*/ fences/*/ runs/ without/ parts/ parts/without/ rock/ stages/ shards/ hazard/ sources/ search/new/ search/charts/ verify/*-*/)
 # The mark of a folder that the pipeline has written into; it goes last.
 mark_of_out := stages/site.mk
-made_folders := maps/* maps fences/* fences hazard sources profile search/new search/charts search verify/* verify runs without parts/without parts rock shards/log shards stages/failed stages
+made_folders := maps/* maps fences/* fences hazard sources profile search/new search/charts search verify/* verify runs without parts/without parts rock shards/log shards stages/failed stages/made stages

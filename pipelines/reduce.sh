@@ -30,7 +30,9 @@ case $1 in
     mkdir -p "${part%/*}"
     "$@" --runs-from "$there" -o "$part" --overwrite
     # The list comes last: a part without it is none.
-    { echo "$part"; cat "$there"; } | xargs -d '\n' stat -c "$state" >"$kept.$$"
-    mv "$kept.$$" "$kept"
+    fresh=$(mktemp "${kept%/*}/.${kept##*/}.part-$$-XXXXXX")
+    chmod =rw "$fresh"
+    { echo "$part"; cat "$there"; } | xargs -d '\n' stat -c "$state" >"$fresh"
+    mv "$fresh" "$kept"
     ;;
 esac

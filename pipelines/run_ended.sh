@@ -1,16 +1,14 @@
 #!/bin/sh
 # run_ended.sh NAME MARK FILE TOTAL BEGUN [must]: a run has ended; says how far the runs of this make
 # are, at most a hundred times. MARK is left where the run failed, FILE keeps a line a run, TOTAL runs
-# were lacking at BEGUN (s since 1970). With `must` the exit code is 1 where the run had no end.
+# were lacking at BEGUN (s since 1970). With `must` the exit code is 1 where the run failed.
 set -eu
 name=$1 mark=$2 file=$3 total=$4 begun=$5 must=${6:-}
-lost=
 outcome=done
 if [ -f "$mark" ]; then
   outcome=failed
   if grep -q 'did not end by itself' "$mark"; then
-    lost=yes
-    echo "$name: $(cut -f2 "$mark")" >&2
+    printf '%s: %s\n' "$name" "$(cut -f2 "$mark")" >&2
   fi
 fi
 echo $outcome >>"$file"
@@ -27,4 +25,4 @@ else
 fi
 [ $((100 * n / total)) -eq $((100 * (n - 1) / total)) ] ||
   echo "runs: $((n - n_failed)) done, $n_failed failed, $((n < total ? total - n : 0)) to go$left"
-[ -z "$lost" ] || [ -z "$must" ]
+[ -z "$must" ] || [ $outcome = done ]

@@ -88,8 +88,10 @@ print_lists() {
   for list in $lists; do
     new=$list.there
     [ -z "${parts:-}" ] || new=$list.in_parts
-    results $(cat "$list") | in_parts >"$new.$$"
-    mv "$new.$$" "$new"
+    fresh=$(mktemp "${new%/*}/.${new##*/}.part-$$-XXXXXX")
+    chmod =rw "$fresh"
+    results $(cat "$list") | in_parts >"$fresh"
+    mv "$fresh" "$new"
     case $list in */without.list) echo "--without-from $new" ;; *) echo "--runs-from $new" ;; esac
   done
 }
@@ -105,8 +107,8 @@ list() {
     if [ -f "$mark" ]; then
       while IFS=$tab read -r outcome words; do
         case $outcome in
-          kept) echo "  $name: $words ($used)" ;;
-          none) echo "  $name: $words (no result)" ;;
+          kept) printf '  %s: %s (%s)\n' "$name" "$words" "$used" ;;
+          none) printf '  %s: %s (no result)\n' "$name" "$words" ;;
         esac
       done <"$mark"
     else

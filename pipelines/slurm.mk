@@ -11,8 +11,6 @@
 FINAL ?= all
 .PHONY: submit
 
-# quoted(TEXT): a word of the shell
-quoted = '$(subst ','\'',$1)'
 # Of the command line, and of the environment what these rules know.
 known_variables := OUT BIN CONTOURS DEM RUNS SEED CASES WEIGHTS WITHOUT DB REDUCE SHARD_LAST EVALUATE_FLAGS \
   $(foreach stage,TIN TRN BLOCKS CHECK DDA RUNOUT MAPS FENCE PLACES HAZARD TRACE REPORT,$(stage)_FLAGS) $(filter CASE_%,$(.VARIABLES))
@@ -42,11 +40,3 @@ submit: $(if $(notes_runs),$(run_files) $(without_files)) ## SHARDS=n: the runs 
 	@mkdir -p $(OUT)/shards/log && rm -f $(OUT)/shards/jobs
 	$(Q)$(if $(lacking_runs),$(send_shards) && )\
 	  $(send_final)
-
-# While jobs of this folder wait or run nothing else may make the same runs; their own makes may.
-ifeq ($(is_dry_run)$(SHARD)$(SENT),)
-ifneq ($(and $(wildcard $(OUT)/shards/jobs),$(filter submit prepare $(run_goals),$(wanted))),)
-jobs_left := $(shell sh $(PIPELINES)jobs_left.sh $(OUT)/shards/jobs)
-$(if $(jobs_left),$(error Jobs of Slurm for $(OUT) wait or run: $(jobs_left). Wait for them, or end them: scancel $(jobs_left)))
-endif
-endif

@@ -7,6 +7,9 @@ $(error OUT is '$(OUT)', expected the name of a folder without blanks; the site'
 endif
 $(foreach sign,' " ` $$ ; & | < > * ? : %,$(if $(findstring $(sign),$(OUT)),$(error OUT is $(OUT), expected the name of a folder without $(sign))))
 override OUT := $(strip $(OUT))
+ifeq ($(realpath $(OUT)),$(realpath .))
+$(error OUT is $(OUT), the site's own folder, whose files results would replace: name another one, e.g. OUT=out2)
+endif
 $(if $(filter profile,$(MAKECMDGOALS)),$(if $(LINE),,$(error profile needs LINE, a file with one line: make profile LINE=road.geojson)))
 ifneq ($(LINE),)
 $(if $(word 2,$(LINE)),$(error LINE is '$(LINE)', expected the name of one file without blanks))

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "base/printable.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 
@@ -97,7 +98,7 @@ CsvTable read_csv(const std::string& path) {
 std::string csv_line(const std::vector<std::string>& values) {
   std::string line;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::string& value = values[i];
+    const std::string value = printable(values[i]);
     if (i > 0) line += ',';
     if (value.find_first_of(",\"\n") == std::string::npos) {
       line += value;

@@ -29,7 +29,7 @@ struct CsvTable {
 /// Throws InputError when the file cannot be read, or as parse_csv().
 [[nodiscard]] CsvTable read_csv(const std::string& path);
 
-/// One line of values, quoted where they must be, with a line feed.
+/// One line of values, printable() and quoted where they must be, with a line feed.
 [[nodiscard]] std::string csv_line(const std::vector<std::string>& values);
 
 }  // namespace talus

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/printable.hpp"
+
 namespace talus {
 namespace {
 
@@ -75,19 +77,20 @@ std::string lower(std::string_view text) {
 }
 
 std::string xml_escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
+  std::string allowed, out;
+  for (const char c : text)
+    if (static_cast<unsigned char>(c) >= 32 || c == '\n' || c == '\t') allowed += c;
+  for (const char c : printable(allowed)) {
+    if (c == '&')
       out += "&amp;";
-    } else if (c == '<') {
+    else if (c == '<')
       out += "&lt;";
-    } else if (c == '>') {
+    else if (c == '>')
       out += "&gt;";
-    } else if (c == '"') {
+    else if (c == '"')
       out += "&quot;";
-    } else if (static_cast<unsigned char>(c) >= 32 || c == '\n' || c == '\t') {
+    else
       out += c;
-    }
   }
   return out;
 }

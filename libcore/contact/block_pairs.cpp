@@ -36,6 +36,36 @@ void for_each_movable(const Hulls& hulls, const PairMotion& motion, Visit&& visi
   for (const int b : motion.shifted) visit(b);
 }
 
+// Places the fixed bodies that the free body at hand has pushed where they are for it, and those
+// of the one before back.
+class Arrangement {
+ public:
+  Arrangement(const Hulls& hulls, const PairMotion& motion, PlacedHulls& placed,
+              std::vector<ShiftedBody>& shifted)
+      : hulls_(hulls), motion_(motion), placed_(placed), shifted_(shifted) {
+    shifted.clear();
+  }
+  void make_for(int free) {
+    if (motion_.own == nullptr || free == free_) return;
+    put_back();
+    free_ = free;
+    motion_.own->of(free, shifted_);
+    for (const ShiftedBody& s : shifted_) place_body(hulls_, s.body, s.now, placed_);
+  }
+  void put_back() {
+    for (const ShiftedBody& s : shifted_) place_body(hulls_, s.body, s.at_first, placed_);
+    shifted_.clear();
+    free_ = -1;
+  }
+
+ private:
+  const Hulls& hulls_;
+  const PairMotion& motion_;
+  PlacedHulls& placed_;
+  std::vector<ShiftedBody>& shifted_;
+  int free_ = -1;
+};
+
 // Mean over the bodies; zero where budgets are not relative to it.
 template <class Value>
 Vec3 frame_mean(const Hulls& hulls, bool in_frame, Value&& value) {
@@ -97,6 +127,12 @@ bool list_is_good(const Hulls& hulls, const PlacedHulls& placed, const PairMotio
     if (!keeps_within(b, state.budget[b], work.reach[b])) return false;
   if (motion.n_fixed == 0) return true;
   const double reach = fixed_reach(settings);
+  if (motion.own != nullptr) {
+    const auto first = static_cast<std::size_t>(n_free(hulls, motion));
+    const double most = *std::max_element(state.travel.begin() + static_cast<std::ptrdiff_t>(first),
+                                          state.travel.end());
+    return reach + most <= state.fixed_budget;
+  }
   const Box budget{Vec3::Constant(-state.fixed_budget), Vec3::Constant(state.fixed_budget)};
   return reach <= state.fixed_budget &&
          std::all_of(motion.shifted.begin(), motion.shifted.end(),
@@ -117,6 +153,8 @@ void set_budgets(const Hulls& hulls, const PlacedHulls& placed, const PairMotion
     state.listed_turned[b] = state.last_turned[b] = placed.turned[b];
     state.travel[b] = 0;
   });
+  if (motion.own != nullptr)
+    std::fill(state.travel.begin() + n_free(hulls, motion), state.travel.end(), 0);
   state.fixed_budget = 2 * fixed_reach(settings);
   state.budget.resize(n_free(hulls, motion));
   const Vec3 frame_step = mean_step(hulls, motion, state.in_frame);
@@ -154,7 +192,7 @@ Box grown(Box box, double by) {
 
 // Adds the pairs of free parts with those of the fixed bodies that stand near them.
 int add_fixed_pairs(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
-                    const PairState& state, PairWork& work) {
+                    const PairState& state, Arrangement& arrangement, PairWork& work) {
   TALUS_ASSERT(motion.grid != nullptr && motion.grid->n_bodies == motion.n_fixed);
   const int first = n_free(hulls, motion);
   int n_near = 0;
@@ -162,10 +200,14 @@ int add_fixed_pairs(const Hulls& hulls, const PlacedHulls& placed, const PairMot
     find_near(*motion.grid, grown(work.boxes[p], state.fixed_budget), work.near);
     for (int& f : work.near) f += first;
     const auto by_grid = work.near.size();
-    for (const int body : motion.shifted)
+    const auto add = [&](int body) {
       if (!std::binary_search(work.near.begin(),
                               work.near.begin() + static_cast<std::ptrdiff_t>(by_grid), body))
         work.near.push_back(body);
+    };
+    for (const int body : motion.shifted) add(body);
+    arrangement.make_for(hulls.body[p]);
+    for (const ShiftedBody& s : work.shifted) add(s.body);
     n_near += static_cast<int>(work.near.size());
     for (const int body : work.near)
       for (int q = hulls.part_begin[body]; q < hulls.part_begin[body + 1]; ++q)
@@ -199,14 +241,16 @@ void merge_list(PairState& state, PairWork& work) {
 
 // Returns how many fixed bodies were looked at.
 int relist(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
-           const PairSettings& settings, PairState& state, PairWork& work) {
+           const PairSettings& settings, PairState& state, Arrangement& arrangement,
+           PairWork& work) {
   set_budgets(hulls, placed, motion, settings, state);
   box_parts(hulls, placed, motion, state, work.boxes);
   work.close.clear();
   if (motion.free_meet)
     find_overlaps(work.boxes, std::span(hulls.body).first(work.boxes.size()), {}, work.overlaps,
                   work.close);
-  const int n_near = motion.n_fixed > 0 ? add_fixed_pairs(hulls, placed, motion, state, work) : 0;
+  const int n_near =
+      motion.n_fixed > 0 ? add_fixed_pairs(hulls, placed, motion, state, arrangement, work) : 0;
   merge_list(state, work);
   return n_near;
 }
@@ -223,6 +267,7 @@ struct Search {
   const PairMotion& motion;
   const PairSettings& settings;
   PairState& state;
+  Arrangement& arrangement;
   PairWork& work;
   PairReport& report;
 };
@@ -371,6 +416,7 @@ void refresh(const Search& s, const PairWatch& watch, Lookup& now, ListedPair& p
 void look_at(const Search& s, PairWatch& watch, ListedPair& pair) {
   const int a = s.hulls.body[watch.part_a], b = s.hulls.body[watch.part_b];
   if (!is_awake(s, a) && !is_awake(s, b)) return keep_features(s, pair);
+  s.arrangement.make_for(a);
   Lookup now = look_up(s, pair, a, b);
   if (!stays_apart(s, watch, now, pair)) refresh(s, watch, now, pair);
   if (!pair.touches) {
@@ -488,34 +534,37 @@ void drop_manifolds(PairWork& work) {
 }
 
 int drop_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
-                 const PairSettings& settings, PairWork& work) {
+                 const PairSettings& settings, Arrangement& arrangement, PairWork& work) {
   if (work.shallow.empty()) return 0;
   list_supports(hulls, motion, settings, work);
   work.dropped.clear();
-  for (const int m : work.shallow)
+  for (const int m : work.shallow) {
+    arrangement.make_for(work.manifolds[m].block_a);
     if (is_grazing(hulls, placed, motion, settings, work.manifolds[m], work))
       work.dropped.push_back(m);
+  }
   if (!work.dropped.empty()) drop_manifolds(work);
   return static_cast<int>(work.dropped.size());
 }
 
 }  // namespace
 
-PairReport find_pair_contacts(const Hulls& hulls, const PlacedHulls& placed,
-                              const PairMotion& motion, const PairSettings& settings,
-                              PairState& state, PairWork& work) {
+PairReport find_pair_contacts(const Hulls& hulls, PlacedHulls& placed, const PairMotion& motion,
+                              const PairSettings& settings, PairState& state, PairWork& work) {
   PairReport report;
   work.manifolds.clear();
   work.points.clear();
   work.shallow.clear();
+  Arrangement arrangement(hulls, motion, placed, work.shifted);
   follow_motion(hulls, placed, motion, settings, state, work);
   if (!list_is_good(hulls, placed, motion, settings, state, work)) {
-    report.n_fixed_near = relist(hulls, placed, motion, settings, state, work);
+    report.n_fixed_near = relist(hulls, placed, motion, settings, state, arrangement, work);
     report.relisted = true;
   }
-  look_at_pairs({hulls, placed, motion, settings, state, work, report});
+  look_at_pairs({hulls, placed, motion, settings, state, arrangement, work, report});
   report.n_listed = static_cast<int>(state.pairs.size());
-  report.n_grazing = drop_grazing(hulls, placed, motion, settings, work);
+  report.n_grazing = drop_grazing(hulls, placed, motion, settings, arrangement, work);
+  arrangement.put_back();
   return report;
 }
 

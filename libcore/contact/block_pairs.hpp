@@ -31,6 +31,19 @@ struct PairSettings {
   bool use_cache = true;  ///< off: list and axes are searched anew each time, for tests
 };
 
+/// A fixed body that stands elsewhere than it did first, for one free body alone.
+struct ShiftedBody {
+  int body = 0;
+  Pose at_first, now;
+};
+/// Says which do, where free bodies that do not meet push fixed bodies each for itself.
+class ShiftedBodies {
+ public:
+  virtual ~ShiftedBodies() = default;
+  /// Appends those of free body `free`.
+  virtual void of(int free, std::vector<ShiftedBody>& out) const = 0;
+};
+
 /// How far each body moves in the coming step, for margins and for the list's range. The last
 /// bodies of the hulls may be fixed: they need no contacts of their own, and only those that stand
 /// near a free one are looked at.
@@ -42,6 +55,8 @@ struct PairMotion {  // clang-format off
   const BodyGrid* grid = nullptr;   ///< the fixed bodies, where they stood first
   std::span<const int> shifted = {};  ///< bodies: the fixed ones that stand elsewhere by now
   bool free_meet = true;            ///< free bodies meet each other
+  const ShiftedBodies* own = nullptr;  ///< then none are in `shifted`, and travel of a fixed body
+                                       ///< (PairState) is as long as all pushes together
   std::span<const std::uint8_t> absent = {};  ///< 1: touches nothing; empty: none      (n_free)
 };  // clang-format on
 
@@ -110,7 +125,8 @@ struct PairWork {
   std::vector<int> shallow;   ///< manifolds that may be grazing
   std::vector<int> bearing, dropped;
   std::vector<int> support_begin, supports;
-  std::vector<int> near;  ///< fixed bodies near the part at hand
+  std::vector<int> near;             ///< fixed bodies near the part at hand
+  std::vector<ShiftedBody> shifted;  ///< of the free body at hand
 };
 
 /// All contacts between blocks at the placed poses with gap <= margin + motion of the coming step,
@@ -118,9 +134,9 @@ struct PairWork {
 ///
 /// The list is made anew when a body has used up its budget, with boxes grown along the motion
 /// ahead and measured in a frame that moves with the bodies' mean, so that a mass that slides as a
-/// whole uses none. Deterministic; allocates only while its arrays still grow.
-PairReport find_pair_contacts(const Hulls& hulls, const PlacedHulls& placed,
-                              const PairMotion& motion, const PairSettings& settings,
-                              PairState& state, PairWork& work);
+/// whole uses none. Deterministic; allocates only while its arrays still grow. `placed` is changed
+/// on the way where motion.own says so, and left as it was.
+PairReport find_pair_contacts(const Hulls& hulls, PlacedHulls& placed, const PairMotion& motion,
+                              const PairSettings& settings, PairState& state, PairWork& work);
 
 }  // namespace talus

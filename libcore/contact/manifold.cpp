@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "base/make_room.hpp"
+#include "contact/pair_axes.hpp"
+#include "geometry/corner_shares.hpp"
 
 namespace talus {
 namespace {
@@ -78,31 +80,6 @@ void add_vertices_behind(const Hulls& hulls, const PlacedHulls& placed, const Fa
              : ContactKey{ContactMode::vertex_face, hulls.body[pair.reference_part], vertex, face},
          0});
   }
-}
-
-// Area of the polygon, and into `held` what belongs to each corner: half of the two triangles that
-// it makes with the polygon's centre of area, which keeps the area and its first moment exactly.
-double share_area(const std::vector<ClipCorner>& polygon, HeldPoint* held) {
-  const std::size_t n = polygon.size();
-  if (n < 3) return 0;
-  const auto twice = [](const Vec2& p, const Vec2& q) { return p.x() * q.y() - p.y() * q.x(); };
-  const auto at = [&](std::size_t i) { return Vec2(polygon[i].u, polygon[i].v); };
-  double sum = 0;
-  Vec2 centre = Vec2::Zero();
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const Vec2 p = at(i) - at(0), q = at(i + 1) - at(0);
-    sum += twice(p, q);
-    centre += twice(p, q) * (p + q);
-  }
-  if (!(sum > 0)) return 0;
-  centre = at(0) + centre / (3 * sum);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t next = i + 1 == n ? 0 : i + 1;
-    const double area = twice(at(i) - centre, at(next) - centre) / 4;
-    held[i].area += area;
-    held[next].area += area;
-  }
-  return sum / 2;
 }
 
 // The places of the contacts of a face axis. `n` is the outward normal of the reference face.
@@ -303,7 +280,12 @@ double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const FaceFrame frame = clip_incident_face(hulls, placed, pair, scratch);
   const std::size_t begin = held.size();
   for (const ClipCorner& corner : scratch.polygon) held.push_back({key_of(hulls, pair, corner), 0});
-  const double area = with_areas ? share_area(scratch.polygon, held.data() + begin) : 0;
+  double area = 0;
+  if (with_areas)
+    area = share_area(
+        scratch.polygon.size(),
+        [&](std::size_t i) { return Vec2(scratch.polygon[i].u, scratch.polygon[i].v); },
+        [&](std::size_t i, double share) { held[begin + i].area += share; });
   add_vertices_behind(hulls, placed, pair, frame, scratch.reference, held);
   return area;
 }
@@ -345,6 +327,10 @@ void keep_edges(const Hulls& hulls, const PlacedHulls& placed, int part_a, int p
     const PairAxis edges{AxisKind::edges, edge_of_part(part_a, h.key.feature_a),
                          edge_of_part(part_b, h.key.feature_b)};
     if (edges.feature_a < 0 || edges.feature_b < 0) continue;
+    const Segment a = segment_of(hulls, placed, part_a, edges.feature_a),
+                  b = segment_of(hulls, placed, part_b, edges.feature_b);
+    const Vec3 along_a = a.end - a.start, along_b = b.end - b.start;
+    if (are_parallel(along_a, along_b, along_a.cross(along_b))) continue;
     if (axis_normal(hulls, placed, part_a, part_b, edges).dot(normal) >= same_axis_cos)
       add_near_edges(hulls, placed, part_a, part_b, edges, normal, begin, held);
   }

@@ -28,10 +28,15 @@ inline Vec3 edge_direction(const PartPair& parts, int part, const HullEdge& edge
          parts.placed.vertices[slot(parts.hulls, part, edge.a)];
 }
 
-/// Are two edges parallel within a degree, or is one of them without length? Of their cross
-/// product.
-inline bool are_parallel(const Vec3& along_a, const Vec3& along_b, const Vec3& cross) {
-  return !(cross.squaredNorm() > parallel_sin_sq * along_a.squaredNorm() * along_b.squaredNorm());
+/// sin^2 of 0.005 degrees: edges nearer than that have no direction across both that is more than
+/// rounding of what cut them.
+inline constexpr double no_crossing_sin_sq = 7.6e-9;
+
+/// Are two edges parallel within a degree, or an angle of another sin^2, or is one of them without
+/// length? Of their cross product.
+inline bool are_parallel(const Vec3& along_a, const Vec3& along_b, const Vec3& cross,
+                         double sin_sq = parallel_sin_sq) {
+  return !(cross.squaredNorm() > sin_sq * along_a.squaredNorm() * along_b.squaredNorm());
 }
 
 /// The vertex of `part` that lies farthest against `normal`.

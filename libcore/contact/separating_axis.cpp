@@ -21,6 +21,8 @@ constexpr double none = -infinity;
 constexpr double keep_ratio = 0.1;   // another face must be better by this part of |separation|
 constexpr double face_ratio = 1e-3;  // ... and of the thickness; edges too
 constexpr double same_axis_ratio = 2e-2;  // ... in the same direction
+// Edges parallel within a degree bear where no face is nearer to their direction than 8 degrees.
+constexpr double no_face_cos = 0.990268068741570;
 // Of bodies of several parts: what is nearer than this part of the thickness may be the same place
 // on both sides of a seam; what is not this part of its depth is as good as free.
 constexpr double seam_ratio = 5e-3, touch_ratio = 1e-3;
@@ -44,17 +46,36 @@ struct BestEdges {
   double elsewhere = none;  // of those in other directions than the best face
   int a = -1, b = -1;
   Vec3 normal = Vec3::Zero();
+  bool nearly_parallel = false;  // within a degree
 };
+
+/// The face along which two parts are farthest apart, and by how much edges that are parallel
+/// within a degree have to be better, over the sine of the angle at which they cross.
+struct BesideFace {
+  Vec3 normal = Vec3::Zero();  // from B to A
+  double separation = none;
+  double bar_per_sine = infinity;
+};
+
+// Whether edges that are parallel within a degree are an axis of their own. Along a face their
+// parts are farther in than along them by the way from where they cross to the end of one, times
+// the sine of their angle: the less that is, the less tells them from an edge that rests on a face
+// all along, so they need as much less above it as their angle is less than a degree.
+bool cross_beside(const BesideFace& face, const Vec3& normal, double separation, double sine_sq) {
+  return normal.dot(face.normal) < no_face_cos &&
+         separation > face.separation + face.bar_per_sine * std::sqrt(sine_sq);
+}
 
 // Two edges whose arcs cross; `points_to_a`: their cross product does.
 void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a, bool points_to_a,
-                    const Vec3& best_face, BestEdges& best) {
+                    const BesideFace& face, BestEdges& best) {
   const Hulls& hulls = parts.hulls;
   const HullEdge& edge_a = hulls.edges[hulls.edge_begin[parts.a] + e_a];
   const HullEdge& edge_b = hulls.edges[hulls.edge_begin[parts.b] + e_b];
   const Vec3 along_b = edge_direction(parts, parts.b, edge_b);
   Vec3 cross = along_a.cross(along_b);
-  if (are_parallel(along_a, along_b, cross)) return;
+  if (are_parallel(along_a, along_b, cross, no_crossing_sin_sq)) return;
+  const bool nearly_parallel = are_parallel(along_a, along_b, cross);
   if (!points_to_a) cross = -cross;
   const double length_sq = cross.squaredNorm();
   const double along = cross.dot(parts.placed.vertices[slot(hulls, parts.a, edge_a.a)] -
@@ -63,13 +84,16 @@ void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a, b
   if (along < 0 && least < 0 && along * along > least * least * length_sq) return;
   const double scale = 1 / std::sqrt(length_sq), separation = scale * along;
   const Vec3 normal = scale * cross;
-  if (separation > best.elsewhere && normal.dot(best_face) < same_axis_cos)
+  if (nearly_parallel && !cross_beside(face, normal, separation,
+                                       length_sq / (along_a.squaredNorm() * along_b.squaredNorm())))
+    return;
+  if (separation > best.elsewhere && normal.dot(face.normal) < same_axis_cos)
     best.elsewhere = separation;
   if (separation <= best.separation) {
     best.second = std::max(best.second, separation);
     return;
   }
-  best = {separation, best.separation, best.elsewhere, e_a, e_b, normal};
+  best = {separation, best.separation, best.elsewhere, e_a, e_b, normal, nearly_parallel};
 }
 
 // The vertex of the other part that is nearest to the face of `part` along which they are farthest
@@ -135,7 +159,7 @@ int near_edges(const Parts& parts, int part, bool inner, double least, AxisScrat
 // apart than `least`; see near_edges() for `inner`. Along an edge, left x right of its arc points
 // as the edge does, so the arcs' cross products are the edges' directions, and the test needs only
 // the products of edge directions with the other part's normals.
-BestEdges find_edges(const Parts& parts, const Vec3& best_face, bool inner, double least,
+BestEdges find_edges(const Parts& parts, const BesideFace& face, bool inner, double least,
                      AxisScratch& scratch) {
   const Hulls& hulls = parts.hulls;
   const std::size_t width_a = hulls.face_begin[parts.a + 1] - hulls.face_begin[parts.a];
@@ -176,7 +200,7 @@ BestEdges find_edges(const Parts& parts, const Vec3& best_face, bool inner, doub
     }
     for (int m = 0; m < n_both; ++m) {  // along_b is left x right of its arc
       const int e_b = near_b[crossing[m]];
-      consider_edges(parts, e_a, e_b, along_a, row[edges_b[e_b].arc_right] > 0, best_face, best);
+      consider_edges(parts, e_a, e_b, along_a, row[edges_b[e_b].arc_right] > 0, face, best);
     }
   }
   return best;
@@ -522,7 +546,11 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const double longest = std::min(longest_hold, longest_hold_ratio * radius);
   const bool pieces = has_pieces(hulls, part_a) || has_pieces(hulls, part_b);
   const double least = pieces ? none : least_edges(farthest.separation, thickness, longest);
-  BestEdges edges = find_edges(parts, to_a(parts, farthest), false, least, scratch);
+  // what edges need above the best face: half as much when an edge pair was chosen last
+  const double edge_bar = face_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
+  const BesideFace face{to_a(parts, farthest), farthest.separation,
+                        edge_bar / std::sqrt(parallel_sin_sq)};
+  BestEdges edges = find_edges(parts, face, false, least, scratch);
   if (edges.separation > margin && edges.separation > apart.separation) return apart_choice(edges);
 
   const double seam = std::max(seam_ratio * thickness, margin);
@@ -530,7 +558,7 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   if (pieces) covered = remove_covered(parts, edges.separation, seam, scratch);
   const FaceAxis best = best_face(parts, scratch);
   if (pieces) {
-    const BestEdges inner = find_edges(parts, to_a(parts, farthest), true, none, scratch);
+    const BestEdges inner = find_edges(parts, face, true, none, scratch);
     if (inner.separation > margin) return apart_choice(inner);
     if (inner.separation > std::max(best.separation, edges.separation)) {
       covered.is_chosen = leads_out(parts, {inner.normal, inner.separation}, seam);
@@ -549,12 +577,11 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
     }
     covered.is_chosen = true;
   }
-  // what edges need above the best face: half as much when an edge pair was chosen last
-  const double edge_bar = face_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
+  const double bar = edges.nearly_parallel ? 0 : edge_bar;  // what they need, they have
   AxisChoice choice;
-  if (edges.separation > best.separation + edge_bar) {
+  if (edges.separation > best.separation + bar) {
     const double near = same_axis_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
-    choice = edge_choice(parts, scratch, edges, best, edge_bar, near);
+    choice = edge_choice(parts, scratch, edges, best, bar, near);
   } else if (best.separation > none) {
     const FaceAxis face =
         settled_face(parts, scratch, best, last_face(parts, scratch, last), thickness);
@@ -591,7 +618,7 @@ Vec3 axis_normal(const Hulls& hulls, const PlacedHulls& placed, int part_a, int 
   const HullEdge& edge_b = hulls.edges[hulls.edge_begin[part_b] + axis.feature_b];
   const Vec3 along_a = edge_direction(parts, part_a, edge_a),
              along_b = edge_direction(parts, part_b, edge_b), cross = along_a.cross(along_b);
-  if (are_parallel(along_a, along_b, cross)) return Vec3::Zero();
+  if (are_parallel(along_a, along_b, cross, no_crossing_sin_sq)) return Vec3::Zero();
   const int first = hulls.face_begin[part_b];
   const Vec3 outward =
       normal_at(placed, first + edge_b.arc_left) + normal_at(placed, first + edge_b.arc_right);

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/write_bytes.hpp"
 #include "io/h5_hdf5.hpp"
-#include "io/write_bytes.hpp"
 
 namespace talus {
 namespace {

@@ -98,14 +98,6 @@ std::string without_unit(const std::string& name) {
   return plain;
 }
 
-bool is_in_feet(const std::string& name) {
-  std::string small = lower(name);
-  std::erase_if(small, [](char c) { return c == ')' || c == ']' || c == ' '; });
-  for (const char* end : {"_ft", "feet", "_foot", "(ft", "[ft", "(foot", "[foot"})
-    if (small.ends_with(end)) return true;
-  return false;
-}
-
 // Fields with a usual name, the most telling first.
 std::vector<int> fields_with_usual_name(OGRFeatureDefn& definition) {
   std::vector<int> found;
@@ -161,17 +153,6 @@ double field_value(const OGRFeature& feature, const ElevationField& field, std::
     throw InputError(where,
                      "the field " + field.name + " is " + text(value) + ", expected an elevation");
   return value;
-}
-
-double height_unit_of(double elevation_unit_m, double plan_unit_m) {
-  return elevation_unit_m > 0 ? elevation_unit_m : plan_unit_m;
-}
-
-// A name like ELEV_FT says that the numbers are no metres.
-void check_unit_in_name(const std::string& name, double unit_m, const Where& where) {
-  if (is_in_feet(name) && unit_m == 1)
-    throw InputError(where, "the field " + name + " is in feet by its name, expected metres",
-                     "--elevation-unit-m 0.3048 (or 0.3048006096 for US survey feet)");
 }
 
 bool differ(double a, double b) { return std::abs(a - b) > 1e-3 * std::max(1.0, std::abs(a)); }
@@ -540,9 +521,6 @@ Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
   const HeightRange z = heights_of(raw.lines);
   const bool take_field = stand_in_field(choice, source, raw, z, field, true);
   if (take_field) {
-    check_unit_in_name(
-        field->name,
-        height_unit_of(sources.elevation_unit_m, choice.unit_m > 0 ? choice.unit_m : 1), where);
     if (choice.elevation_field.empty()) values.check_rivals();
     check_z_beside_field(choice, source, raw, *field, values.values());
     if (raw.n_no_number > 0) reading.contours.remarks.push_back(remark_on_z(raw));
@@ -562,7 +540,7 @@ Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
   return std::move(raw.lines);
 }
 
-Polylines read_measured_lines(const LayerChoice& choice, OpenLayer& source, double unit_m,
+Polylines read_measured_lines(const LayerChoice& choice, OpenLayer& source,
                               std::vector<std::string>& notes, LayerReading& taken) {
   const std::optional<ElevationField> field = find_field(choice, source);
   RawLines raw;
@@ -573,7 +551,6 @@ Polylines read_measured_lines(const LayerChoice& choice, OpenLayer& source, doub
   const Where where = where_of_layer(choice, source);
   const bool take_field = stand_in_field(choice, source, raw, heights_of(raw.lines), field, false);
   if (take_field) {
-    check_unit_in_name(field->name, unit_m, where);
     FieldValues values(choice, source, *field);
     for_each_part(choice, source,
                   [&](const OGRGeometry&, const OGRFeature& feature) { values.add(feature); });
@@ -587,9 +564,16 @@ Polylines read_measured_lines(const LayerChoice& choice, OpenLayer& source, doub
   notes.push_back(choice.path + ": layer " + source.name + ", " +
                   counted(source.n_features, "feature"));
   taken.elevation_from = take_field ? "field " + field->name : "Z";
-  taken.unit_m = unit_m;
   add_remarks(taken, notes);
   return std::move(raw.lines);
+}
+
+bool is_in_feet(const std::string& name) {
+  std::string small = lower(name);
+  std::erase_if(small, [](char c) { return c == ')' || c == ']' || c == ' '; });
+  for (const char* end : {"_ft", "feet", "_foot", "(ft", "[ft", "(foot", "[foot"})
+    if (small.ends_with(end)) return true;
+  return false;
 }
 
 void add_remarks(const LayerReading& taken, std::vector<std::string>& notes) {

@@ -26,11 +26,13 @@ struct HeightRange {
 [[nodiscard]] Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
                                            ContourReading& reading);
 
-/// Breaklines, or points as lines of one point: a height a point. `unit_m`: metres in one unit of
-/// the heights, held against the field's name. Throws InputError where heights are missing.
+/// Breaklines, or points as lines of one point: a height a point. Throws InputError where heights
+/// are missing.
 [[nodiscard]] Polylines read_measured_lines(const LayerChoice& choice, OpenLayer& source,
-                                            double unit_m, std::vector<std::string>& notes,
-                                            LayerReading& taken);
+                                            std::vector<std::string>& notes, LayerReading& taken);
+
+/// Whether the name of a field says that its numbers are feet: "ELEV_FT", "Height (ft)".
+[[nodiscard]] bool is_in_feet(const std::string& name);
 
 /// Sentences on what was passed over, and the remarks of a source, to its notes.
 void add_remarks(const LayerReading& taken, std::vector<std::string>& notes);

@@ -26,10 +26,11 @@ struct LayerChoice {
 struct ContourSources {
   LayerChoice contours, breaklines, spots, boundary;  ///< all but contours may have an empty path
   LayerChoice labels;  ///< points with the heights of the contours as text; empty path: none
-  double elevation_unit_m = 0;  ///< metres in one unit of all elevations read; 0: that of the plan
-  bool crs_given = false;       ///< `crs` stands for the CRS of contours that have none
-  std::string crs;              ///< WKT; empty: local metres
-  std::string t_srs;            ///< WKT to reproject to; empty: the CRS of the contours
+  /// Metres in one unit of all elevations read; 0: the unit of the source, else height_unit_m().
+  double elevation_unit_m = 0;
+  bool crs_given = false;    ///< `crs` stands for the CRS of contours that have none
+  std::string crs;           ///< WKT; empty: local metres
+  std::string t_srs;         ///< WKT to reproject to; empty: the CRS of the contours
   std::string vertical_crs;  ///< what the heights of contours are in that do not say it: WKT of a
                              ///< vertical system, or ellipsoidal_heights
   std::string t_vertical;    ///< WKT of the vertical system to take all heights to; empty: none

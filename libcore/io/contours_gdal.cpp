@@ -68,9 +68,9 @@ void check_crs(const std::string& crs, const std::string& path, const Vec3& plac
   if (crs.empty()) return;
   const CrsProblem problem = find_crs_problem(crs, place.head<2>());
   if (problem.finding.empty()) return;
-  throw InputError({path}, problem.finding,
-                   "--t-srs " + (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to) +
-                       " reprojects; elevations in feet need --elevation-unit-m 0.3048");
+  throw InputError(
+      {path}, problem.finding,
+      "--t-srs " + (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to) + " reprojects");
 }
 
 // Whether the coordinates of a source can be in `crs`, to be used in `work_crs`.
@@ -78,7 +78,7 @@ void check_place_of(const LayerChoice& choice, const OpenLayer& source, const st
                     const std::string& work_crs, const std::vector<Vec3>& points,
                     ContourReading& reading) {
   if (crs.empty() || points.empty()) return;
-  CrsExtent place{crs, window_of(points), work_crs};
+  CrsExtent place{crs, window_of(points, crs), work_crs};
   place.has_crs_option = place.has_unit_option = std::string(source.role.options) == "--";
   place.layer = source.layer->GetName();
   place.geometry_column = source.layer->GetGeometryColumn();
@@ -91,21 +91,14 @@ void check_place_of(const LayerChoice& choice, const OpenLayer& source, const st
 // Metres in one unit of the coordinates as they stand in the source; 1 also where the CRS has the
 // unit of the drawing, which takes care of it in plan.
 double plan_unit_of(const LayerChoice& choice, const OpenLayer& source, const std::string& crs,
-                    double elevation_unit_m, ContourReading& reading) {
+                    ContourReading& reading) {
   const std::string opened = source.dataset->GetDescription();
   if (const std::string doubt = doubt_on_unit(opened, choice.unit_m); !doubt.empty())
     reading.warnings.push_back(choice.path + ": " + doubt);
   const DrawingUnit unit = drawing_unit(opened);
-  const double crs_unit_m = length_unit_m(crs);
   const std::string metres = unit.metres > 0 ? text(unit.metres) : "METRES";
   const std::string option = std::string(source.role.options) + "unit-m";
-  const bool is_in_crs = crs_unit_m != 1 && std::abs(unit.metres / crs_unit_m - 1) < 1e-5;
-  if (is_in_crs && choice.unit_m == 0 && elevation_unit_m == 0)
-    throw InputError({choice.path},
-                     "the drawing is in " + unit.name + " ($INSUNITS " + std::to_string(unit.code) +
-                         "), as " + crs_name(crs) + " is: are its heights, too?",
-                     "--elevation-unit-m " + metres + ", or 1 where they are metres");
-  return scale_of_drawing(opened, choice.unit_m, crs_unit_m, {choice.path},
+  return scale_of_drawing(opened, choice.unit_m, length_unit_m(crs), {choice.path},
                           option + " " + metres + " scales plan and heights; " + option +
                               " 1 if it is in metres whatever its header says");
 }
@@ -115,8 +108,33 @@ void scale_plan(double unit_m, std::vector<Vec3>& points) {
   for (Vec3& point : points) point.head<2>() *= unit_m;
 }
 
-double height_unit_of(double elevation_unit_m, double plan_unit_m) {
-  return elevation_unit_m > 0 ? elevation_unit_m : plan_unit_m;
+// What the user says of the unit of heights; 0: nothing.
+double unit_by_user(const LayerChoice& choice, double elevation_unit_m) {
+  return elevation_unit_m > 0 ? elevation_unit_m : choice.unit_m;
+}
+
+// Metres in one unit of the heights that were read: what the user says, or their system of heights.
+double height_unit_of(const LayerChoice& choice, const OpenLayer& source, const std::string& crs,
+                      double by_user_m, ContourReading& reading, LayerReading& taken) {
+  const bool has_option = source.role.options != std::string(reference_role.options);
+  const double plan_unit_m = length_unit_m(crs);
+  const std::string way_out =
+      has_option ? "--elevation-unit-m METRES: " + text(plan_unit_m, 12) +
+                       " where they are in the unit of the plan, 1 where they are metres"
+                 : "name the system of heights with the CRS in the file, e.g. NAVD88 in US survey "
+                   "feet: ogr2ogr -a_srs " +
+                       crs_code(crs) + "+6360 named.gpkg " + command_words(choice.path) +
+                       "; in metres: " + crs_code(crs) + "+5703";
+  taken.unit_m = by_user_m > 0 ? by_user_m : height_unit_m(crs, {choice.path}, way_out);
+  if (by_user_m == 0 && taken.unit_m == 1 && is_in_feet(taken.elevation_from))
+    throw InputError(
+        where_of_layer(choice, source),
+        "the " + taken.elevation_from + " is in feet by its name, expected metres",
+        has_option ? "--elevation-unit-m 0.3048 (or 0.3048006096 for US survey feet)" : way_out);
+  if (by_user_m == 0 && taken.unit_m != 1)
+    reading.notes.push_back(choice.path + ": heights in " + crs_name(height_crs(crs)) +
+                            ", taken to metres");
+  return taken.unit_m;
 }
 
 // The system that the heights are in is held to the same as that of the map, where both say it.
@@ -133,7 +151,7 @@ void check_heights_alike(const std::string& own, const std::string& map_crs,
 void bring_to(const std::string& from, const std::string& to, const std::string& path,
               bool accept_ballpark, std::vector<Vec3>& points, ContourReading& reading) {
   const CrsOperation operation =
-      find_operation(from, to, window_of(points), {path}, accept_ballpark);
+      find_operation(from, to, window_of(points, from), {path}, accept_ballpark);
   if (!carry_out(operation, points))
     throw InputError({path},
                      "cannot be reprojected from " + crs_name(from) + " to " + crs_name(to));
@@ -191,15 +209,17 @@ Polylines read_measured(const LayerChoice& choice, const LayerRole& role,
                         ContourReading& reading, LayerReading& taken) {
   OpenLayer source = open_layer(choice, role);
   const std::string own_crs = wkt_of(source.layer->GetSpatialRef());
-  const double plan_unit_m = plan_unit_of(choice, source, own_crs.empty() ? map_crs : own_crs,
-                                          sources.elevation_unit_m, reading);
-  const double unit_m = height_unit_of(sources.elevation_unit_m, plan_unit_m);
-  Polylines lines = read_measured_lines(choice, source, unit_m, reading.notes, taken);
+  const std::string& crs = own_crs.empty() ? map_crs : own_crs;
+  const double plan_unit_m = plan_unit_of(choice, source, crs, reading);
+  Polylines lines = read_measured_lines(choice, source, reading.notes, taken);
+  const double unit_m = height_unit_of(
+      choice, source, crs, unit_by_user(choice, sources.elevation_unit_m), reading, taken);
   scale_plan(plan_unit_m, lines.points);
   bring_to_map(choice, source, map_crs, sources.accept_ballpark, lines.points, reading);
   check_heights_alike(own_crs, map_crs, choice.path);
   const std::string assumed = assumed_heights(own_crs, map_crs);
-  if (!assumed.empty()) reading.notes.push_back(choice.path + " and the map: both are " + assumed);
+  if (unit_m == 1 && !assumed.empty())
+    reading.notes.push_back(choice.path + " and the map: both are " + assumed);
   scale_heights(unit_m, choice.path, lines.points);
   bring_heights_to(sources, choice.path, map_crs, lines.points, reading);
   return lines;
@@ -228,7 +248,7 @@ std::vector<BoundaryRing> read_boundary(const ContourSources& sources, const std
   reading.notes.push_back(choice.path + ": layer " + source.name + ", " +
                           counted(n_polygons, "polygon"));
   add_remarks(reading.boundary, reading.notes);
-  scale_plan(plan_unit_of(choice, source, map_crs, 1, reading), points);
+  scale_plan(plan_unit_of(choice, source, map_crs, reading), points);
   bring_to_map(choice, source, map_crs, sources.accept_ballpark, points, reading);
   begin.push_back(points.size());
   for (std::size_t r = 0; r < rings.size(); ++r)
@@ -282,31 +302,35 @@ std::string with_user_heights(const ContourSources& sources, const std::string& 
 double plan_unit_of_map(const ContourSources& sources, const OpenLayer& source,
                         ContourReading& reading) {
   const std::string named = wkt_of(source.layer->GetSpatialRef());
-  return plan_unit_of(sources.contours, source, named.empty() ? sources.crs : named,
-                      sources.elevation_unit_m, reading);
+  return plan_unit_of(sources.contours, source, named.empty() ? sources.crs : named, reading);
 }
 
-// Points as they stand in the source to the system that is computed in; heights stay.
-void take_to_map(const ContourSources& sources, const OpenLayer& source, double plan_unit_m,
-                 double unit_m, std::vector<Vec3>& points, ContourMap& map,
-                 ContourReading& reading) {
-  scale_plan(plan_unit_m, points);
-  const std::string own =
-      with_user_heights(sources, crs_of_contours(sources, source, points, reading), unit_m);
-  if (own.empty() && !sources.t_srs.empty())
+// Metres in one unit of the heights of the contours, or of the points that stand for them, which
+// are in the system `named`. A system that the user names is in metres.
+double height_unit_of_map(const ContourSources& sources, const OpenLayer& source,
+                          const std::string& named, ContourReading& reading) {
+  double by_user_m = unit_by_user(sources.contours, sources.elevation_unit_m);
+  if (by_user_m == 0 && !sources.vertical_crs.empty() && height_crs(named).empty()) by_user_m = 1;
+  return height_unit_of(sources.contours, source, named, by_user_m, reading, reading.contours);
+}
+
+// Points as they stand in the source to the system that is computed in, and to metres of height.
+void take_to_map(const ContourSources& sources, const OpenLayer& source, std::vector<Vec3>& points,
+                 ContourMap& map, ContourReading& reading) {
+  scale_plan(plan_unit_of_map(sources, source, reading), points);
+  const std::string named = crs_of_contours(sources, source, points, reading);
+  if (named.empty() && !sources.t_srs.empty())
     throw InputError({map.source}, "local metres cannot be reprojected", "leave --t-srs away");
+  const bool is_there = sources.t_srs.empty() || same_crs(named, sources.t_srs);
+  if (is_there) check_crs(horizontal_crs(named), map.source, points.front());
+  const double unit_m = height_unit_of_map(sources, source, named, reading);
+  const std::string own = with_user_heights(sources, named, unit_m);
   map.crs_wkt = sources.t_srs.empty() ? own : with_heights_of(own, sources.t_srs, {map.source});
-  const bool is_there = sources.t_srs.empty() || same_crs(own, sources.t_srs);
-  if (is_there) check_crs(map.crs_wkt, map.source, points.front());
   check_place_of(sources.contours, source, own, map.crs_wkt, points, reading);
-  if (is_there) return;
-  bring_to(own, sources.t_srs, map.source, sources.accept_ballpark, points, reading);
-  check_crs(map.crs_wkt, map.source, points.front());
-}
-
-// The contours, or the points that stand for them, with heights in metres.
-void finish_heights(const ContourSources& sources, double unit_m, std::vector<Vec3>& points,
-                    const ContourMap& map, ContourReading& reading) {
+  if (!is_there) {
+    bring_to(own, sources.t_srs, map.source, sources.accept_ballpark, points, reading);
+    check_crs(map.crs_wkt, map.source, points.front());
+  }
   scale_heights(unit_m, map.source, points);
   bring_heights_to(sources, map.source, map.crs_wkt, points, reading);
 }
@@ -315,11 +339,7 @@ void read_contours_to(const ContourSources& sources, ContourMap& map, ContourRea
   OpenLayer source = open_layer(sources.contours, contours_role);
   map.contours = read_contour_lines(sources, source, reading);
   add_remarks(reading.contours, reading.notes);
-  const double plan_unit_m = plan_unit_of_map(sources, source, reading);
-  const double unit_m = height_unit_of(sources.elevation_unit_m, plan_unit_m);
-  reading.contours.unit_m = unit_m;
-  take_to_map(sources, source, plan_unit_m, unit_m, map.contours.points, map, reading);
-  finish_heights(sources, unit_m, map.contours.points, map, reading);
+  take_to_map(sources, source, map.contours.points, map, reading);
 }
 
 // The boundary, the system of heights, the origin.
@@ -349,15 +369,11 @@ ContourMap read_ground_points(const ContourSources& sources, ContourReading& rea
   map.source = sources.contours.path;
   refuse_laser_scan(map.source);
   OpenLayer source = open_layer(sources.contours, ground_points_role);
-  const double plan_unit_m = plan_unit_of_map(sources, source, reading);
-  const double unit_m = height_unit_of(sources.elevation_unit_m, plan_unit_m);
-  map.spots =
-      read_measured_lines(sources.contours, source, unit_m, reading.notes, reading.contours).points;
+  map.spots = read_measured_lines(sources.contours, source, reading.notes, reading.contours).points;
   reading.layer = source.name;
   reading.n_features = source.n_features;
   reading.elevation_from = reading.contours.elevation_from;
-  take_to_map(sources, source, plan_unit_m, unit_m, map.spots, map, reading);
-  finish_heights(sources, unit_m, map.spots, map, reading);
+  take_to_map(sources, source, map.spots, map, reading);
   finish_map(sources, map, reading);
   return map;
 }

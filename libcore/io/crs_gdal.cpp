@@ -126,6 +126,7 @@ double length_unit_m(const std::string& crs_wkt) {
   if (crs_wkt.empty()) return 1;
   const GdalErrors errors;
   const OGRSpatialReference srs = plan_of(crs_wkt);
+  if (srs.IsVertical() != 0) return srs.GetTargetLinearUnits("VERT_CS");
   return srs.IsProjected() ? srs.GetLinearUnits() : 1;
 }
 
@@ -154,6 +155,18 @@ std::string height_crs(const std::string& crs_wkt) {
   char* wkt = nullptr;
   node->exportToWkt(&wkt);
   return as_wkt(parse(copied(wkt)));
+}
+
+double height_unit_m(const std::string& crs_wkt, const Where& where, const std::string& way_out) {
+  const std::string heights = height_crs(crs_wkt);
+  const double unit_m = length_unit_m(heights.empty() ? crs_wkt : heights);
+  if (std::isnan(unit_m) || std::abs(unit_m - 1) < 1e-9) return 1;
+  if (heights.empty())
+    throw InputError(where,
+                     "the plan is in units of " + text(unit_m, 10) +
+                         " m, and nothing says what unit the heights are in",
+                     way_out);
+  return unit_m;
 }
 
 bool same_heights(const std::string& a, const std::string& b) {

@@ -109,9 +109,7 @@ std::string accuracy_text(double accuracy_m) {
                                 : "good to " + text(accuracy_m, 3) + " m";
 }
 
-std::string way_to_grid(const std::string& grid) {
-  return "fetch it with projsync --file " + grid + ", or let PROJ fetch it: PROJ_NETWORK=ON";
-}
+std::string way_to_grid(const std::string& grid) { return "fetch it with projsync --file " + grid; }
 
 // --- transformations of GDAL that follow one operation -------------------------------------------
 
@@ -203,7 +201,7 @@ bool carry_out(const CrsOperation& operation, std::vector<Vec3>& points) {
 }
 
 bool reproject(const std::string& from, const std::string& to, std::vector<Vec3>& points) {
-  return points.empty() || carry_out(find_operation(from, to, window_of(points), {}), points);
+  return points.empty() || carry_out(find_operation(from, to, window_of(points, from), {}), points);
 }
 
 std::string sentence_on(const CrsOperation& operation) {

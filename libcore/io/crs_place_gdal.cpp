@@ -27,6 +27,7 @@ constexpr double askew_deg = 5;         // of grid north from north, worth a war
 constexpr double beside_deg = 0.1;      // outside of the area of use, worth a warning
 constexpr double widest_degrees = 5;    // of a map that is taken to be in degrees
 constexpr double same_place_m = 0.1;    // of two systems that differ by their datum alone
+constexpr double million = 1e6;
 
 using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
 
@@ -74,9 +75,13 @@ std::optional<Area> area_of(const OGRSpatialReference& srs) {
 
 class Ground {
  public:
-  explicit Ground(const std::string& crs_wkt) : srs_(parse_plan(crs_wkt)), wkt_(crs_wkt) {
+  // A zone of UTM is one projection on both sides of the equator, where northings go on.
+  explicit Ground(const std::string& crs_wkt, bool on_both_sides_of_equator = false)
+      : srs_(parse_plan(crs_wkt)), wkt_(crs_wkt) {
     if (srs_.IsLocal() || srs_.IsGeocentric()) return;
     area_ = area_of(srs_);
+    if (area_ && on_both_sides_of_equator && srs_.GetUTMZone() != 0)
+      area_->south = -80, area_->north = 84;
     const std::unique_ptr<OGRSpatialReference> base(srs_.CloneGeogCS());
     if (!base) return;
     base->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
@@ -96,6 +101,19 @@ class Ground {
   [[nodiscard]] const std::string& wkt() const { return wkt_; }
   [[nodiscard]] double false_easting() const {
     return srs_.IsProjected() ? srs_.GetProjParm(SRS_PP_FALSE_EASTING, 0) : 0;
+  }
+  // Whether zones that have this central meridian have this number: those of UTM, or those of Gauss
+  // and Krueger, which are 6 or 3 degrees wide.
+  [[nodiscard]] bool has_zone_number(double number) const {
+    const char* const projection = srs_.GetAttrValue("PROJECTION");
+    if (projection == nullptr || !EQUAL(projection, SRS_PT_TRANSVERSE_MERCATOR)) return false;
+    const double meridian = srs_.GetNormProjParm(SRS_PP_CENTRAL_MERIDIAN) + meridian_deg_;
+    const double scale = srs_.GetNormProjParm(SRS_PP_SCALE_FACTOR, 1);
+    const auto is_at = [meridian](double degrees) {
+      return std::abs(std::remainder(meridian - degrees, 360)) < 1e-6;
+    };
+    if (scale == 0.9996) return is_at(6 * number - 183);
+    return scale == 1 && (is_at(6 * number - 3) || is_at(3 * number));
   }
 
   // Longitude and latitude of a place; nothing where the projection does not reach.
@@ -192,8 +210,10 @@ bool is_stretched(const Ground& ground, const std::vector<Vec2>& places) {
 enum class Verdict { inside, beside, far };
 
 // Maps reach beyond the area of their system by as much as it is wide: neighbours' zones are used.
-Verdict verdict_in(const Area& area, const std::vector<Vec2>& places) {
-  const double margin_x = std::clamp(area.width(), 1.0, 6.0);
+// To the east and west a whole country may be in one zone; there the scale decides, not the area.
+Verdict verdict_in(const Ground& ground, const std::vector<Vec2>& places) {
+  const Area& area = *ground.area();
+  const double margin_x = ground.is_geographic() ? std::clamp(area.width(), 1.0, 6.0) : 180;
   const double margin_y = std::clamp(area.north - area.south, 1.0, 6.0);
   Verdict verdict = Verdict::inside;
   for (const Vec2& place : places) {
@@ -201,7 +221,8 @@ Verdict verdict_in(const Area& area, const std::vector<Vec2>& places) {
     if (x > margin_x || y > margin_y) return Verdict::far;
     if (x > beside_deg || y > beside_deg) verdict = Verdict::beside;
   }
-  return verdict;
+  // outside of its area, a projection still serves where its metres are metres
+  return verdict == Verdict::beside && is_stretched(ground, places) ? Verdict::far : verdict;
 }
 
 // The systems that a place must fit: that of its coordinates and the one computed in.
@@ -212,12 +233,7 @@ struct Systems {
     if (places.empty()) return Verdict::far;
     Verdict worst = Verdict::inside;
     for (const Ground* ground : {&own, &work}) {
-      if (!ground->area()) continue;
-      const Verdict verdict = verdict_in(*ground->area(), places);
-      // outside of its area, a projection still serves where its metres are metres
-      worst =
-          std::max(worst, verdict == Verdict::beside && is_stretched(*ground, places) ? Verdict::far
-                                                                                      : verdict);
+      if (ground->area()) worst = std::max(worst, verdict_in(*ground, places));
     }
     return worst;
   }
@@ -225,7 +241,7 @@ struct Systems {
   // The one that the places lie farther outside of.
   [[nodiscard]] const Ground& narrower(const std::vector<Vec2>& places) const {
     const bool own_fits =
-        !own.area() || (!places.empty() && verdict_in(*own.area(), places) == Verdict::inside);
+        !own.area() || (!places.empty() && verdict_in(own, places) == Verdict::inside);
     return own_fits && work.area() ? work : own;
   }
 };
@@ -275,6 +291,28 @@ std::string mended_command(const CrsExtent& place, const Where& where, const std
          function.substr(hole + 1) + " AS " + column + ", * FROM \"" + place.layer + "\"'";
 }
 
+std::string way_out(const CrsExtent& place, const Where& where) {
+  if (place.has_crs_option)
+    return "is it the CRS of these coordinates? name the right one with --crs EPSG:code";
+  if (!place.crs_said_in.empty())
+    return "is it the CRS of these coordinates? " + place.crs_said_in + " says so";
+  return "is it the CRS of these coordinates? name the right one in the file: " +
+         std::string(place.is_raster
+                         ? "gdal_translate -a_srs EPSG:code " + where.file + " named.tif"
+                         : "ogr2ogr -a_srs EPSG:code named.gpkg " + where.file);
+}
+
+std::string way_to_zone(const CrsExtent& place, const Where& where, const Vec2& lon_lat) {
+  const std::string zone = utm_zone(lon_lat);
+  const std::string to = zone.empty() ? "EPSG:code" : zone;
+  if (!place.way_to_other_crs.empty()) return place.way_to_other_crs + " " + to;
+  if (!place.has_crs_option) return "reproject it to " + to + " first";
+  return "--t-srs " + to +
+         (place.is_raster
+              ? ", or gdalwarp -r bilinear -t_srs " + to + " " + where.file + " projected.tif"
+              : " reprojects");
+}
+
 class Guesses {
  public:
   Guesses(const CrsExtent& place, const Where& where, const Systems& systems)
@@ -283,7 +321,9 @@ class Guesses {
   [[nodiscard]] std::optional<Guess> best() const {
     if (auto guess = degrees()) return guess;
     if (auto guess = exchanged()) return guess;
+    if (auto guess = other_hemisphere()) return guess;
     if (auto guess = zone_number()) return guess;
+    if (auto guess = gauss_krueger()) return guess;
     if (auto guess = other_unit()) return guess;
     return turned_over();
   }
@@ -321,6 +361,8 @@ class Guesses {
   const Where& where_;
   const Systems& systems_;
 
+  [[nodiscard]] double first_million() const { return std::floor(place_.extent.x_min / million); }
+
   [[nodiscard]] bool fits(const MapWindow& window) const {
     return systems_.knows_area() &&
            systems_.verdict(places_of(systems_.own, window)) == Verdict::inside;
@@ -349,12 +391,22 @@ class Guesses {
                    "ScaleCoords(SwapCoords(@), -1)");
   }
 
-  // The number of the zone in millions before the easting, or missing there.
+  [[nodiscard]] std::optional<Guess> other_hemisphere() const {
+    const Ground both(systems_.own.wkt(), true);
+    const std::vector<Vec2> places = places_of(both, place_.extent);
+    if (!both.area() || places.empty() || verdict_in(both, places) != Verdict::inside ||
+        verdict_in(systems_.own, places) == Verdict::inside)
+      return std::nullopt;
+    return Guess{"they lie in its zone on the other side of the equator",
+                 way_to_zone(place_, where_, places.front())};
+  }
+
+  // The number of the zone in millions before the easting, or missing there. Only the number of
+  // this very zone is one: any other stands for another projection, which no shift brings here. Nor
+  // does the lack of one tell zones of Gauss and Krueger from those of UTM.
   [[nodiscard]] std::optional<Guess> zone_number() const {
-    constexpr double million = 1e6;
-    if (systems_.own.is_geographic()) return std::nullopt;
-    const double zone = std::floor(place_.extent.x_min / million);
-    if (zone >= 1 && zone <= 60)
+    const double zone = first_million();
+    if (zone >= 1 && systems_.own.has_zone_number(zone))
       if (auto guess = changed([&](const Vec2& p) { return Vec2(p.x() - zone * million, p.y()); },
                                "the eastings begin with the zone number " + text(zone) +
                                    ", which this CRS leaves out",
@@ -362,11 +414,30 @@ class Guesses {
         return with_system_of_zone(zone, *guess);
     const double false_easting = systems_.own.false_easting();
     const double missing = std::floor(false_easting / million);
-    if (missing < 1 || false_easting - missing * million != 500000) return std::nullopt;
-    return changed(
-        [&](const Vec2& p) { return Vec2(p.x() + missing * million, p.y()); },
+    if (missing < 1 || false_easting - missing * million != 500000 ||
+        !fits(mapped(place_.extent,
+                     [&](const Vec2& p) { return Vec2(p.x() + missing * million, p.y()); })))
+      return std::nullopt;
+    return Guess{
         "the eastings lack the zone number " + text(missing) + " that they have in this CRS",
-        "ShiftCoords(@, " + text(missing * million, 9) + ", 0)");
+        way_out(place_, where_)};
+  }
+
+  // Eastings that begin with the number of a zone of Gauss and Krueger, 3 or 6 degrees wide.
+  [[nodiscard]] std::optional<Guess> gauss_krueger() const {
+    const double zone = first_million();
+    if (systems_.own.is_geographic() || zone < 1 || zone > 60) return std::nullopt;
+    for (const double meridian : {3 * zone, 6 * zone - 3}) {
+      const Ground other(crs_from_user("+proj=tmerc +k=1 +ellps=bessel +lon_0=" + text(meridian) +
+                                           " +x_0=" + text(zone * million + 500000),
+                                       ""));
+      const std::vector<Vec2> places = places_of(other, place_.extent);
+      if (!systems_.knows_area() || systems_.verdict(places) != Verdict::inside) continue;
+      return Guess{"as eastings of zone " + text(zone) + " of Gauss and Krueger (meridian " +
+                       text(meridian) + " E) they would lie in it",
+                   way_out(place_, where_)};
+    }
+    return std::nullopt;
   }
 
   // ETRS89 / UTM zones 31 to 33 have codes of their own for eastings with the number.
@@ -381,19 +452,33 @@ class Guesses {
     return guess;
   }
 
+  // A zone from the equator to the pole takes in most coordinates when they are scaled, also metres
+  // of another system, which lie within 10,000 km of the equator.
+  [[nodiscard]] bool may_be_in_other_unit() const {
+    constexpr double widest_country_deg = 15, farthest_north_m = 10.1e6;
+    const std::optional<Area>& area = systems_.own.area();
+    return area && (area->north - area->south <= widest_country_deg ||
+                    std::min(std::abs(place_.extent.y_min), std::abs(place_.extent.y_max)) >
+                        farthest_north_m);
+  }
+
   [[nodiscard]] std::optional<Guess> other_unit() const {
     struct Unit {
       const char* name;
       double metres;
     };
-    if (systems_.own.is_geographic()) return std::nullopt;
+    if (systems_.own.is_geographic() || !may_be_in_other_unit()) return std::nullopt;
     for (const Unit& unit : {Unit{"feet", 0.3048}, Unit{"millimetres", 0.001},
                              Unit{"centimetres", 0.01}, Unit{"kilometres", 1000}}) {
       auto guess = changed([&](const Vec2& p) { return (p * unit.metres).eval(); },
                            std::string("as ") + unit.name + " they would lie in it",
                            "ScaleCoords(@, " + text(unit.metres) + ")");
       if (!guess) continue;
-      if (place_.has_unit_option)
+      // feet of two lengths are in use there, and systems of their own for each
+      const bool is_american = unit.metres == 0.3048 && systems_.own.area()->east < -60;
+      if (is_american)
+        guess->hint = way_out(place_, where_);
+      else if (place_.has_unit_option)
         guess->hint = "--unit-m " + text(unit.metres) + " scales plan and heights";
       return guess;
     }
@@ -407,17 +492,6 @@ std::string outside_words(const CrsExtent& place, const Ground& ground) {
   return "its coordinates, " + extent_words(place.extent) + ", lie outside the area that " +
          crs_name(ground.wkt()) + " is made for" +
          (ground.area() ? " (" + area_text(*ground.area()) + ")" : "");
-}
-
-std::string way_out(const CrsExtent& place, const Where& where) {
-  if (place.has_crs_option)
-    return "is it the CRS of these coordinates? name the right one with --crs EPSG:code";
-  if (!place.crs_said_in.empty())
-    return "is it the CRS of these coordinates? " + place.crs_said_in + " says so";
-  return "is it the CRS of these coordinates? name the right one in the file: " +
-         std::string(place.is_raster
-                         ? "gdal_translate -a_srs EPSG:code " + where.file + " named.tif"
-                         : "ogr2ogr -a_srs EPSG:code named.gpkg " + where.file);
 }
 
 void check_degrees(const Guesses& guesses, const CrsExtent& place, const Where& where) {
@@ -439,17 +513,6 @@ void check_area(const Systems& systems, const std::vector<Vec2>& places, const G
   if (verdict == Verdict::far)
     throw InputError(where, finding, guess ? guess->hint : way_out(place, where));
   warnings.push_back(where.text() + ": " + finding + ": is it the right CRS?");
-}
-
-std::string way_to_zone(const CrsExtent& place, const Where& where, const Vec2& lon_lat) {
-  const std::string zone = utm_zone(lon_lat);
-  const std::string to = zone.empty() ? "EPSG:code" : zone;
-  if (!place.way_to_other_crs.empty()) return place.way_to_other_crs + " " + to;
-  if (!place.has_crs_option) return "reproject it to " + to + " first";
-  return "--t-srs " + to +
-         (place.is_raster
-              ? ", or gdalwarp -r bilinear -t_srs " + to + " " + where.file + " projected.tif"
-              : " reprojects");
 }
 
 void check_axes(const Ground& ground, const std::vector<Vec2>& places, const CrsExtent& place,
@@ -525,7 +588,7 @@ std::vector<std::string> check_place(const CrsExtent& place, const Where& where)
   if (place.crs_wkt.empty()) return warnings;
   const GdalErrors errors;
   const bool is_taken_on = !place.work_wkt.empty() && !same_crs(place.crs_wkt, place.work_wkt);
-  const Ground own(place.crs_wkt);
+  const Ground own(place.crs_wkt, is_taken_on);
   const std::optional<Ground> target =
       is_taken_on ? std::make_optional<Ground>(place.work_wkt) : std::nullopt;
   const Systems systems{own, target ? *target : own};
@@ -558,12 +621,22 @@ std::string reason_to_replace(const std::string& own, const std::string& given,
   return "whose datum is not known";
 }
 
-MapWindow window_of(const std::vector<Vec3>& points) {
+MapWindow window_of(const std::vector<Vec3>& points, const std::string& crs_wkt) {
   MapWindow window{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  double turn = 0;  // 360 degrees, where x is a longitude
+  if (!crs_wkt.empty()) {
+    const GdalErrors errors;
+    const OGRSpatialReference srs = parse_plan(crs_wkt);
+    if (srs.IsGeographic() != 0) turn = 360 * degree / srs.GetAngularUnits();
+  }
   for (const Vec3& p : points) {
-    window.x_min = std::min(window.x_min, p.x());
+    const double first = points.front().x();
+    const double x = turn > 0 && std::isfinite(p.x() - first)
+                         ? first + std::remainder(p.x() - first, turn)
+                         : p.x();
+    window.x_min = std::min(window.x_min, x);
     window.y_min = std::min(window.y_min, p.y());
-    window.x_max = std::max(window.x_max, p.x());
+    window.x_max = std::max(window.x_max, x);
     window.y_max = std::max(window.y_max, p.y());
   }
   return window;

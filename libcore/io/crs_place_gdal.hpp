@@ -70,7 +70,8 @@ std::vector<std::string> check_place(const CrsExtent& place, const Where& where)
 [[nodiscard]] std::string reason_to_replace(const std::string& own, const std::string& given,
                                             const MapWindow& extent);
 
-/// The smallest window that holds the points.
-[[nodiscard]] MapWindow window_of(const std::vector<Vec3>& points);
+/// The smallest window that holds the points, which are in `crs_wkt`: longitudes count modulo 360
+/// degrees, so that it reaches beyond 180 degrees where the points lie on both sides.
+[[nodiscard]] MapWindow window_of(const std::vector<Vec3>& points, const std::string& crs_wkt = {});
 
 }  // namespace talus

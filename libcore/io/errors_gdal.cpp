@@ -6,6 +6,7 @@
 #include <ogr_spatialref.h>
 
 #include "base/error.hpp"
+#include "io/library_settings_gdal.hpp"
 #include "io/network_gdal.hpp"
 
 namespace talus {
@@ -28,6 +29,7 @@ void check_proj_database() {
 }  // namespace
 
 GdalErrors::GdalErrors() {
+  fix_library_settings();
   CPLPushErrorHandlerEx(collect, this);
   CPLErrorReset();
 }
@@ -48,6 +50,7 @@ void GdalErrors::note(bool is_failure, bool is_warning, const char* message) {
 
 void register_gdal_drivers() {
   static const bool once = [] {
+    fix_library_settings();
     GDALAllRegister();
     forbid_network();
     check_proj_database();

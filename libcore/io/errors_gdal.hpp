@@ -7,6 +7,7 @@
 namespace talus {
 
 /// While it lives, GDAL's and PROJ's complaints of this thread are collected instead of printed.
+/// The first one fixes the settings of these libraries (library_settings_gdal.hpp).
 class GdalErrors {
  public:
   GdalErrors();

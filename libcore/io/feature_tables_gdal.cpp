@@ -45,6 +45,13 @@ FeatureTable table_of(OGRLayer& layer, const std::string& name, const std::strin
 
 }  // namespace
 
+std::vector<std::string> layers_of(const std::string& path) {
+  const VectorDataset source = open_vectors(parse_source_path(path));
+  std::vector<std::string> names;
+  for (OGRLayer* const layer : source.dataset->GetLayers()) names.emplace_back(layer->GetName());
+  return names;
+}
+
 std::vector<FeatureTable> read_feature_tables(const std::string& path,
                                               const std::vector<std::string>& layers) {
   const VectorDataset source = open_vectors(parse_source_path(path));

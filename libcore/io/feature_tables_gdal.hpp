@@ -20,6 +20,9 @@ struct FeatureTable {
   std::vector<Row> rows;
 };
 
+/// Names of all layers. Throws InputError when the source cannot be opened.
+[[nodiscard]] std::vector<std::string> layers_of(const std::string& path);
+
 /// Those of `layers` that the source has, in the order of `layers`. Throws InputError when it
 /// cannot be opened or a layer has more than 100 000 features.
 [[nodiscard]] std::vector<FeatureTable> read_feature_tables(const std::string& path,

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "base/printable.hpp"
 #include "geometry/convex_outline.hpp"
 #include "io/errors_gdal.hpp"
 
@@ -79,7 +80,7 @@ void add_block(OGRLayer& layer, const BlockSet& set, int b, const std::string& p
   feature->SetField("longest_m", size.x());
   feature->SetField("middle_m", size.y());
   feature->SetField("shortest_m", size.z());
-  feature->SetField("material", set.material_names[set.material[b]].c_str());
+  feature->SetField("material", printable(set.material_names[set.material[b]]).c_str());
   OGRPolygon polygon = polygon_of(footprint(set, b));
   feature->SetGeometry(&polygon);
   if (layer.CreateFeature(feature.get()) != OGRERR_NONE) fail(path, errors);
@@ -130,7 +131,8 @@ void write_footprints(const std::string& path, const BlockSet& set,
   srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   const bool has_crs =
       !set.crs_wkt.empty() && srs.importFromWkt(set.crs_wkt.c_str()) == OGRERR_NONE;
-  for (const auto& [name, value] : tags) dataset->SetMetadataItem(name.c_str(), value.c_str());
+  for (const auto& [name, value] : tags)
+    dataset->SetMetadataItem(name.c_str(), printable(value).c_str());
   if (dataset->StartTransaction() != OGRERR_NONE) fail(path, errors);
   OGRLayer* layer = dataset->CreateLayer("blocks", has_crs ? &srs : nullptr, wkbPolygon, nullptr);
   if (!layer) fail(path, errors);

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "base/printable.hpp"
 #include "io/errors_gdal.hpp"
 
 namespace talus {
@@ -96,7 +97,7 @@ void set_field(OGRFeature& feature, int index, const FieldValue& value) {
   else if (const auto* real = std::get_if<double>(&value); real != nullptr && !std::isnan(*real))
     feature.SetField(index, *real);
   else if (const auto* words = std::get_if<std::string>(&value))
-    feature.SetField(index, words->c_str());
+    feature.SetField(index, printable(*words).c_str());
   else
     feature.SetFieldNull(index);
 }
@@ -181,7 +182,8 @@ void write_geopackage(const std::string& path, const std::string& crs_wkt,
     OGRSpatialReference crs;
     const bool has_crs = !crs_wkt.empty() && crs.SetFromUserInput(crs_wkt.c_str()) == OGRERR_NONE;
     crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    for (const auto& [key, value] : tags) dataset->SetMetadataItem(key.c_str(), value.c_str());
+    for (const auto& [key, value] : tags)
+      dataset->SetMetadataItem(key.c_str(), printable(value).c_str());
     static_cast<void>(dataset->StartTransaction());
     for (const VectorLayer& layer : layers) write_layer(*dataset, has_crs ? &crs : nullptr, layer);
     write_styles(*dataset, layers);

@@ -6,14 +6,12 @@
 #include <gdal_utils.h>
 
 #include <array>
-#include <memory>
 
 #include "io/errors_gdal.hpp"
+#include "io/raster_bands_gdal.hpp"
 
 namespace talus {
 namespace {
-
-using Dataset = std::unique_ptr<GDALDataset>;
 
 // A raster in memory over the elevations themselves; GDAL only reads it.
 Dataset wrap(const Trn& trn) {

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "base/printable.hpp"
 #include "io/errors_gdal.hpp"
 
 namespace talus {
@@ -61,7 +62,8 @@ Dataset to_dataset(const MapRaster& raster) {
   dataset->SetGeoTransform(transform.data());
   if (!raster.crs_wkt.empty()) dataset->SetProjection(raster.crs_wkt.c_str());
   dataset->SetMetadataItem("AREA_OR_POINT", "Area");
-  for (const auto& [key, value] : raster.tags) dataset->SetMetadataItem(key.c_str(), value.c_str());
+  for (const auto& [key, value] : raster.tags)
+    dataset->SetMetadataItem(key.c_str(), printable(value).c_str());
   for (std::size_t b = 0; b < raster.bands.size(); ++b) {
     const MapRasterBand& from = raster.bands[b];
     GDALRasterBand& band = *dataset->GetRasterBand(static_cast<int>(b) + 1);

@@ -7,7 +7,6 @@
 #include <cpl_string.h>
 #include <cpl_vsi_virtual.h>
 #include <gdal_priv.h>
-#include <ogr_srs_api.h>
 #include <ogrsf_frmts.h>
 
 #include <cctype>
@@ -301,7 +300,6 @@ void forbid_network() {
   static NoFiles no_files;
   for (const char* folder : network_folders) VSIFileManager::InstallHandler(folder, &no_files);
   CPLHTTPPushFetchCallback(fetch_nothing, nullptr);
-  OSRSetPROJEnableNetwork(0);
 }
 
 void check_virtual(const std::string& path) {

@@ -14,11 +14,13 @@
 #include <utility>
 
 #include "base/memory.hpp"
+#include "base/printable.hpp"
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_operation_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/judged_heights_gdal.hpp"
 #include "io/network_gdal.hpp"
 #include "io/raster_bands_gdal.hpp"
 #include "terrain/elevation.hpp"
@@ -28,7 +30,6 @@
 namespace talus {
 namespace {
 
-constexpr double nodata_written = -9999;
 constexpr double lattice_tolerance = 1e-3;  // of a cell, at the far end of the raster
 constexpr int rows_at_once = 256;
 
@@ -50,11 +51,12 @@ std::string to_metres(const std::string& unit, const std::string& crs, const std
   return is_foot ? ": " + scale_command(0.3048, crs, path) : std::string();
 }
 
-void check_band(GDALDataset& dataset, const std::string& path) {
+void check_band(GDALDataset& dataset, const std::string& path, bool has_heights) {
   check_one_band(dataset, path);
   GDALRasterBand& band = *dataset.GetRasterBand(1);
   if (GDALDataTypeIsComplex(band.GetRasterDataType()))
-    throw InputError({path}, "the band holds complex numbers, expected elevations");
+    throw InputError({path}, "the band holds complex numbers, expected real ones");
+  if (!has_heights) return;
   if (band.GetRasterDataType() == GDT_Byte)
     throw InputError({path},
                      "the values have 8 bits, 0 to 255, as the shades of a picture (a hillshade) "
@@ -69,19 +71,17 @@ void check_band(GDALDataset& dataset, const std::string& path) {
                    "convert them first" + to_metres(unit, wkt_of(dataset.GetSpatialRef()), path));
 }
 
-// A plan in feet says nothing of the heights, which may be in either unit: reprojecting the plan
-// alone would leave slopes 3.28 times too steep.
-void check_unit_of_heights(GDALDataset& dataset, const std::string& crs, const std::string& path) {
+// Heights are in metres by the unit of the band (check_band), by the user's word, or by
+// height_unit_m of the CRS; another unit that the CRS says is refused with it (check_crs).
+void check_unit_of_heights(GDALDataset& dataset, const std::string& crs, const std::string& path,
+                           const DemOptions& options) {
   const char* const unit = dataset.GetRasterBand(1)->GetUnitType();
-  const bool is_said = (unit != nullptr && *unit != '\0') || !height_crs(crs).empty();
-  const double metres = length_unit_m(crs);
-  if (crs.empty() || is_said || metres == 1 || std::isnan(metres)) return;
-  throw InputError({path},
-                   "the plan is in units of " + text(metres, 10) +
-                       " m, and nothing says what unit the heights are in",
-                   "in metres: --vertical-crs with their system, e.g. EPSG:5703 (NAVD88); in the "
-                   "units of the plan: " +
-                       scale_command(metres, crs, path) + ", then the former of metres.tif");
+  if ((unit != nullptr && *unit != '\0') || !options.vertical_crs.empty()) return;
+  (void)height_unit_m(
+      crs, {path},
+      "in metres: --vertical-crs with their system, e.g. EPSG:5703 (NAVD88); in the units of the "
+      "plan: " +
+          scale_command(length_unit_m(crs), crs, path) + ", then the former of metres.tif");
 }
 
 // The lattice of the cell centres; refuses what no TRN can stand on.
@@ -246,7 +246,8 @@ struct DemFile::Impl {
   Dataset source, ringed, warped;  // warped reads from ringed and is closed first
   GDALRasterBand* band = nullptr;
   double scale = 1, offset = 0;
-  bool accepts_doubts = false;
+  bool has_heights = true;
+  mutable std::optional<bool> accepts_doubts;  // asked once: it may take a look at all heights
 
   [[nodiscard]] Where where(std::size_t index, int row, int col, int n_cols) const {
     const int r = row + static_cast<int>(index / static_cast<std::size_t>(n_cols));
@@ -266,15 +267,15 @@ struct DemFile::Impl {
 DemFile::DemFile(const std::string& path, const DemOptions& options)
     : impl_(std::make_unique<Impl>()) {
   impl_->path = path;
+  impl_->has_heights = options.has_heights;
   impl_->open();
   GDALDataset* dataset = impl_->source.get();
-  const char* const tag = dataset->GetMetadataItem("DOUBTS_ACCEPTED");
-  impl_->accepts_doubts = options.accepts_doubts || (tag != nullptr && std::string(tag) == "YES");
+  if (options.accepts_doubts || !options.has_heights) impl_->accepts_doubts = true;
   DemReading& reading = impl_->reading;
   impl_->crs = with_vertical(effective_crs(*dataset, path, options, reading), path, options);
   const MapWindow edges = edges_of(*dataset);
   if (!options.t_srs.empty()) {
-    check_unit_of_heights(*dataset, impl_->crs, path);
+    check_unit_of_heights(*dataset, impl_->crs, path, options);
     if (impl_->crs.empty())
       throw InputError({path}, "there is no CRS to reproject from", "name it with --crs EPSG:code");
     impl_->take_to(options.t_srs, options.accept_ballpark, edges);
@@ -286,7 +287,11 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
             {g[0] + 0.5 * g[1] * dataset->GetRasterXSize(),
              g[3] + 0.5 * g[5] * dataset->GetRasterYSize()});
   impl_->frame = frame_of_raster(*dataset, path);
-  if (!impl_->warped) impl_->check_place_of(edges, impl_->crs, !options.crs_may_be_missing);
+  if (!impl_->warped) {
+    const MapWindow read = intersection(edges, options.window);
+    const bool is_beside = read.x_min > read.x_max || read.y_min > read.y_max;
+    impl_->check_place_of(is_beside ? edges : read, impl_->crs, !options.crs_may_be_missing);
+  }
   if (!options.t_vertical.empty()) impl_->take_heights_to(options);
   impl_->band = dataset->GetRasterBand(1);
   impl_->scale = impl_->source->GetRasterBand(1)->GetScale();
@@ -297,7 +302,7 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
 void DemFile::Impl::open() {
   name = path;
   source = open_raster(path);
-  check_band(*source, path);
+  check_band(*source, path, has_heights);
   const std::string masked = with_alpha_as_mask(*source);
   if (masked.empty()) return;
   int has_nodata = 0;
@@ -352,7 +357,10 @@ const std::string& DemFile::path() const { return impl_->path; }
 const GridFrame& DemFile::frame() const { return impl_->frame; }
 const std::string& DemFile::crs_wkt() const { return impl_->crs; }
 const DemReading& DemFile::reading() const { return impl_->reading; }
-bool DemFile::accepts_doubts() const { return impl_->accepts_doubts; }
+bool DemFile::accepts_doubts() const {
+  if (!impl_->accepts_doubts) impl_->accepts_doubts = were_heights_judged(impl_->path);
+  return *impl_->accepts_doubts;
+}
 double DemFile::raw_of(double z) const { return (z - impl_->offset) / impl_->scale; }
 Where DemFile::where_of_cell(int row, int col) const {
   return impl_->where(0, row, col, impl_->frame.n_cols);
@@ -397,7 +405,8 @@ void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) 
       z = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
-    if (!(std::abs(z) < 9999)) impl_->check_value(z, impl_->where(i, row, col, n_cols));
+    if (impl_->has_heights && !(std::abs(z) < 9999))
+      impl_->check_value(z, impl_->where(i, row, col, n_cols));
     if (impl_->scale != 1 || impl_->offset != 0) z = z * impl_->scale + impl_->offset;
   }
   if (impl_->to_vertical) impl_->shift_heights(row, n_rows, col, n_cols, elevation);
@@ -450,7 +459,7 @@ void refuse_lone_level(const DemFile& dem, const RowResampler& part,
                        text(step, 6) + " m off " + std::to_string(found->n_far) + " of the " +
                        std::to_string(found->n_beside) +
                        " beside them, and the file does not declare it as nodata (talus-trn "
-                       "--accept-doubts takes it as ground)",
+                       "--accept-doubts takes it as ground, make TRN_FLAGS=--accept-doubts)",
                    "if it stands for nodata: gdal_translate -a_nodata " +
                        text(dem.raw_of(found->value)) + " " + dem.path() + " declared.tif");
 }
@@ -495,7 +504,7 @@ struct ElevationSums {
 std::vector<double> rows_to_write(const Trn& trn, int row, int n_rows, ElevationSums& sums) {
   const double* z = trn.elevation.data() + node_index(trn, row, 0);
   const std::size_t n = static_cast<std::size_t>(n_rows) * static_cast<std::size_t>(trn.n_cols);
-  std::vector<double> rows(n, nodata_written);
+  std::vector<double> rows(n, terrain_nodata);
   for (std::size_t i = 0; i < n; ++i) {
     if (std::isnan(z[i])) continue;
     rows[i] = z[i] + trn.origin.z();
@@ -536,9 +545,11 @@ void describe(GDALDataset& dataset, const Trn& trn, const TrnFileOptions& option
   if (!trn.crs_wkt.empty() && srs.importFromWkt(trn.crs_wkt.c_str()) == OGRERR_NONE)
     dataset.SetSpatialRef(&srs);
   for (const auto& [name, value] : options.tags)
-    dataset.SetMetadataItem(name.c_str(), value.c_str());
+    dataset.SetMetadataItem(name.c_str(), printable(value).c_str());
+  if (!options.accepted_doubts.empty())
+    dataset.SetMetadataItem(accepted_tag, options.accepted_doubts.c_str());
   GDALRasterBand& band = *dataset.GetRasterBand(1);
-  band.SetNoDataValue(nodata_written);
+  band.SetNoDataValue(terrain_nodata);
   band.SetDescription("elevation of the TRN's nodes");
   band.SetUnitType("m");
 }
@@ -551,12 +562,15 @@ void write_trn(const std::string& path, const Trn& trn, const TrnFileOptions& op
   CPLErr status = dataset ? CE_None : CE_Failure;
   if (dataset) describe(*dataset, trn, options);
   ElevationSums sums;
+  HeightsDigest digest(trn.n_rows, trn.n_cols, trn.cell_size);
   for (int row = 0; row < trn.n_rows && status == CE_None; row += rows_at_once) {
     const int n_rows = std::min(rows_at_once, trn.n_rows - row);
     std::vector<double> rows = rows_to_write(trn, row, n_rows, sums);
+    digest.add(rows.data(), rows.size());
     status = dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, row, trn.n_cols, n_rows, rows.data(),
                                                  trn.n_cols, n_rows, GDT_Float64, 0, 0, nullptr);
   }
+  if (dataset) dataset->SetMetadataItem(judged_tag, digest.hex().c_str());
   if (dataset && sums.n > 0) {
     const double mean = sums.sum / sums.n;
     dataset->GetRasterBand(1)->SetStatistics(

@@ -7,6 +7,7 @@
 // has the half cell of a Point raster in it already.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -32,6 +33,10 @@ struct DemOptions {
                                     ///< vertical system, or ellipsoidal_heights
   std::string t_vertical;           ///< WKT; not empty: take heights to this vertical system
   bool accept_ballpark = false;     ///< reproject though nothing is known of the datum
+  bool has_heights = true;          ///< false: other numbers, to which no rule of heights applies
+  /// Part that is read, in map coordinates: only this must lie where the CRS is used. Not looked at
+  /// with t_srs.
+  MapWindow window{-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL};
 };
 
 /// What was done on the way in.
@@ -57,7 +62,7 @@ class DemFile {
   [[nodiscard]] const GridFrame& frame() const;      ///< its cell centres
   [[nodiscard]] const std::string& crs_wkt() const;  ///< empty for local metres
   [[nodiscard]] const DemReading& reading() const;
-  /// By the options, or by the tag DOUBTS_ACCEPTED=YES of a TRN that was made so.
+  /// By the options, or because the file's heights were judged (judged_heights_gdal.hpp).
   [[nodiscard]] bool accepts_doubts() const;
   [[nodiscard]] double raw_of(double z) const;  ///< what stands in the file for an elevation
   [[nodiscard]] Where where_of_cell(int row, int col) const;  ///< with its place on the map
@@ -80,7 +85,8 @@ class DemFile {
 /// Elevations of `dem` on the nodes of `frame`, which is in the CRS of `dem`: area-weighted means
 /// where the cell grows, bilinear where it shrinks, copies where the nodes are the DEM's own
 /// (RowResampler). Reads the rows and columns that the frame needs, strip by strip. Throws
-/// InputError for an area of one value that stands far off what is beside it (lone_levels.hpp).
+/// InputError for an area of one value that stands far off what is beside it (lone_levels.hpp),
+/// unless the DEM accepts doubts.
 [[nodiscard]] std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
                                            const ProgressFunction& progress = {});
 
@@ -88,11 +94,13 @@ class DemFile {
 struct TrnFileOptions {
   std::map<std::string, std::string> tags;    ///< metadata, e.g. RUN_ID
   std::vector<std::string> creation_options;  ///< GTiff's, NAME=VALUE; they win over ours
+  std::string accepted_doubts = {};           ///< places that the user accepted; empty: none
 };
 
 /// Writes a tiled, deflated GeoTIFF of Float64 node elevations, AREA_OR_POINT=Point, nodata -9999,
-/// to `path`, byte by byte the same for the same TRN and options. Throws InputError when it cannot
-/// be written whole.
+/// to `path`, byte by byte the same for the same TRN and options. The file says that its heights
+/// were judged: who writes a TRN has judged it, or made it from one that was. Throws InputError
+/// when it cannot be written whole.
 void write_trn(const std::string& path, const Trn& trn, const TrnFileOptions& options = {});
 
 }  // namespace talus

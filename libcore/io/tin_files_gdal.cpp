@@ -212,10 +212,13 @@ void check_landxml_unit(const CPLXMLNode* root, const std::string& path) {
                      "export the surface in metres");
   });
   for_each_element(root, "Metric", [&](const CPLXMLNode* units) {
-    const std::string unit = lower(CPLGetXMLValue(units, "linearUnit", "meter"));
-    if (unit != "meter" && unit != "metre")
-      throw InputError({path}, "the linear unit is " + unit + ", expected meter",
-                       "export the surface in metres");
+    for (const auto& [attribute, name] :
+         {std::pair{"linearUnit", "linear unit"}, std::pair{"elevationUnit", "unit of heights"}}) {
+      const std::string unit = lower(CPLGetXMLValue(units, attribute, "meter"));
+      if (unit != "meter" && unit != "metre")
+        throw InputError({path}, std::string("the ") + name + " is " + unit + ", expected meter",
+                         "export the surface in metres");
+    }
   });
 }
 
@@ -313,7 +316,6 @@ TinFile read_landxml(const std::string& path) {
 TinFile read_ply(const std::string& path) {
   TinFile file;
   file.tin = read_tin(path);
-  file.is_ours = first_bytes(path, 8192).find("comment origin_m ") != std::string::npos;
   return file;
 }
 

@@ -18,7 +18,6 @@ namespace talus {
 
 struct TinFile {
   Tin tin;
-  bool is_ours = false;               ///< a PLY with an origin, as talus-tin writes it
   std::vector<std::string> notes;     ///< what was taken and passed over
   std::vector<std::string> warnings;  ///< a header that says inches
   LayerReading taken;                 ///< of a drawing; without a file: it is none

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/sha256.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -36,6 +37,7 @@ struct Element {
 struct Header {
   std::vector<Element> elements;
   std::string crs, crs_wkt;  // one line, and all lines of the WKT
+  std::string judged, accepted;
   bool has_origin = false;
   Vec3 origin = Vec3::Zero();
   std::size_t n_bytes = 0;  // up to and with the line end_header
@@ -44,7 +46,9 @@ struct Header {
 
 constexpr std::size_t bytes_of_face = 13;        // a count and three corners
 constexpr std::size_t longest_header = 1 << 20;  // bytes; a WKT takes two thousand
-constexpr std::size_t longest_wkt_line = 400;    // MeshLab gives up on lines of more than 500 bytes
+constexpr std::size_t longest_line = 400;        // MeshLab gives up on lines of more than 500 bytes
+constexpr std::string_view wkt_comment = "comment crs_wkt ";
+constexpr std::string_view accepted_comment = "comment doubts_accepted ";
 
 [[noreturn]] void refuse(const std::string& source, const std::string& finding) {
   throw InputError({source}, finding, "write the TIN anew with talus-tin");
@@ -122,9 +126,12 @@ void read_property(const std::vector<std::string>& words, const std::string& sou
 
 void read_comment(const std::string& line, const std::vector<std::string>& words,
                   const std::string& source, Header& header) {
-  constexpr std::string_view wkt_begin = "comment crs_wkt ";
-  if (line.starts_with(wkt_begin)) {
-    header.crs_wkt += line.substr(wkt_begin.size());
+  if (line.starts_with(wkt_comment)) {
+    header.crs_wkt += line.substr(wkt_comment.size());
+  } else if (line.starts_with(accepted_comment)) {
+    header.accepted += line.substr(accepted_comment.size());
+  } else if (words.size() == 3 && words[1] == "heights_judged") {
+    header.judged = words[2];
   } else if (words.size() > 2 && words[1] == "crs") {
     header.crs = line.substr(line.find("crs") + 4);
   } else if (words.size() == 5 && words[1] == "origin_m") {
@@ -435,6 +442,21 @@ class EntryWriter {
   std::vector<char> buffer_;
 };
 
+// Calls visit(bytes, n_bytes) for what stands behind the header, in order.
+template <class Visit>
+void for_each_entry(const Tin& tin, const Visit& visit) {
+  for (const Vec3& point : tin.points) {
+    const Vec3 on_map = point + tin.origin;
+    visit(on_map.data(), 3 * sizeof(double));
+  }
+  std::array<char, bytes_of_face> face = {3};  // its count of corners
+  for (const auto& corners : tin.triangles) {
+    static_assert(sizeof corners + 1 == bytes_of_face);
+    std::memcpy(face.data() + 1, corners.data(), sizeof corners);
+    visit(face.data(), face.size());
+  }
+}
+
 // The code at the end of a WKT that has one for the whole system; empty when it has none.
 std::string epsg_code(const std::string& wkt) {
   constexpr std::string_view begin = "ID[\"EPSG\",", end = "]]";
@@ -445,15 +467,26 @@ std::string epsg_code(const std::string& wkt) {
   return code.find_first_not_of("0123456789") == code.npos ? code : std::string();
 }
 
-std::string header_text(const Tin& tin) {
-  std::string wkt = tin.crs_wkt;
+std::string in_one_line(std::string text) {
   std::replace_if(
-      wkt.begin(), wkt.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+std::string comment_lines(std::string_view comment, const std::string& text) {
+  std::string lines;
+  for (std::size_t at = 0; at < text.size(); at += longest_line)
+    lines += std::string(comment) + text.substr(at, longest_line) + "\n";
+  return lines;
+}
+
+std::string header_text(const Tin& tin, const std::string& digest) {
+  const std::string wkt = in_one_line(tin.crs_wkt);
   std::string header = "ply\nformat binary_little_endian 1.0\n";
   const std::string code = epsg_code(wkt);
   if (!code.empty()) header += "comment crs EPSG:" + code + "\n";
-  for (std::size_t at = 0; at < wkt.size(); at += longest_wkt_line)
-    header += "comment crs_wkt " + wkt.substr(at, longest_wkt_line) + "\n";
+  header += comment_lines(wkt_comment, wkt) + "comment heights_judged " + digest + "\n" +
+            comment_lines(accepted_comment, in_one_line(tin.accepted_doubts));
   header += "comment origin_m " + text(tin.origin.x()) + " " + text(tin.origin.y()) + " " +
             text(tin.origin.z()) + "\n";
   header += "element vertex " + std::to_string(tin.points.size()) +
@@ -466,19 +499,12 @@ std::string header_text(const Tin& tin) {
 }  // namespace
 
 void write_tin(const std::string& path, const Tin& tin) {
+  Sha256 digest;
+  for_each_entry(tin, [&digest](const void* bytes, std::size_t n) { digest.add(bytes, n); });
   std::ofstream file(path, std::ios::binary);
-  file << header_text(tin);
+  file << header_text(tin, digest.hex());
   EntryWriter writer(file);
-  for (const Vec3& point : tin.points) {
-    const Vec3 on_map = point + tin.origin;
-    writer.add(on_map.data(), 3 * sizeof(double));
-  }
-  for (const auto& corners : tin.triangles) {
-    constexpr char n_corners = 3;
-    static_assert(sizeof corners + sizeof n_corners == bytes_of_face);
-    writer.add(&n_corners, sizeof n_corners);
-    writer.add(corners.data(), sizeof corners);
-  }
+  for_each_entry(tin, [&writer](const void* bytes, std::size_t n) { writer.add(bytes, n); });
   writer.flush();
   file.close();
   if (!file)
@@ -502,6 +528,12 @@ Tin parse_tin(std::span<const char> bytes, const std::string& source) {
   make_relative(header, tin);
   turn_clockwise_triangles(tin);
   tin.crs_wkt = header.crs_wkt.empty() ? header.crs : header.crs_wkt;
+  if (!header.judged.empty()) {
+    Sha256 digest;
+    digest.add(data.data(), data.size());
+    tin.is_judged = digest.hex() == header.judged;
+  }
+  if (tin.is_judged) tin.accepted_doubts = header.accepted;
   return tin;
 }
 

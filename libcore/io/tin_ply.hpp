@@ -5,6 +5,8 @@
 //   comment crs EPSG:code             for viewers, when the WKT ends with a code of its own
 //   comment crs_wkt PROJCRS["..."]    the WKT in lines of 400 bytes; left out when there is no CRS
 //   comment origin_m X Y Z            map coordinates of the local zero used while computing
+//   comment heights_judged SHA256     of all bytes behind the header: the heights were judged
+//   comment doubts_accepted WORDS     places that the user accepted, in lines of 400 bytes
 #pragma once
 
 #include <span>
@@ -15,13 +17,15 @@
 namespace talus {
 
 /// Writes binary little-endian PLY: vertices x y z (double), faces as lists of three (uchar, int).
-/// Throws InputError when the file cannot be written.
+/// The file says that its heights were judged, whatever `is_judged` is. Throws InputError when it
+/// cannot be written.
 void write_tin(const std::string& path, const Tin& tin);
 
 /// Reads a TIN written by write_tin, or any PLY of triangles, as text or little-endian: float or
 /// double x y z, further numbers at a vertex or behind a face's corners are passed over. Clockwise
 /// triangles are turned. Without an origin in the file the lowest corner, floored to 100 m, is
-/// taken. Throws InputError, with what was expected, for anything else, a truncated or a lying
+/// taken. `is_judged` holds where the file has the digest of its own data; else no doubts count as
+/// accepted. Throws InputError, with what was expected, for anything else, a truncated or a lying
 /// file.
 [[nodiscard]] Tin read_tin(const std::string& path);
 

@@ -5,8 +5,11 @@
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -153,6 +156,92 @@ VectorDataset table_as_dataset(const PointTable& table, const std::string& name)
   return made;
 }
 
+// --- tables beside shapes ------------------------------------------------------------------------
+
+// The first n bytes of a file and its size; nothing where it cannot be read.
+struct FileHead {
+  std::vector<unsigned char> bytes;
+  std::int64_t size = -1;
+};
+
+FileHead head_of(const std::string& file, std::size_t n) {
+  FileHead head;
+  VSILFILE* const in = VSIFOpenL(file.c_str(), "rb");
+  if (in == nullptr) return head;
+  head.bytes.resize(n);
+  head.bytes.resize(VSIFReadL(head.bytes.data(), 1, n, in));
+  VSIFSeekL(in, 0, SEEK_END);
+  head.size = static_cast<std::int64_t>(VSIFTellL(in));
+  VSIFCloseL(in);
+  return head;
+}
+
+std::int64_t little_endian(const FileHead& head, std::size_t at, std::size_t n) {
+  std::int64_t value = 0;
+  for (std::size_t i = n; i-- > 0;) value = 256 * value + head.bytes[at + i];
+  return value;
+}
+
+// Rows of a dBASE table (.dbf, MapInfo's .dat): as its header says and as it has room for; of a
+// table as text (.mid) its lines. -1: it is none.
+std::int64_t rows_of_table(const std::string& file) {
+  if (extension_of(file) == ".mid") {
+    const std::string lines = read_all(file);
+    return std::count(lines.begin(), lines.end(), '\n') +
+           (lines.empty() || lines.back() == '\n' ? 0 : 1);
+  }
+  constexpr std::size_t n_needed = 12;
+  const FileHead head = head_of(file, n_needed);
+  if (head.bytes.size() < n_needed) return -1;
+  const std::int64_t n_rows = little_endian(head, 4, 4), begin = little_endian(head, 8, 2),
+                     row_size = little_endian(head, 10, 2);
+  if (row_size <= 0) return -1;
+  return std::min(n_rows, std::max<std::int64_t>(0, head.size - begin) / row_size);
+}
+
+// Shapes of a Shapefile by its index (.shx), objects of a MapInfo table by its own (.id), or as
+// GDAL counts them where they are text. -1: there are none.
+std::int64_t shapes_of(GDALDataset& dataset, const std::string& file) {
+  if (extension_of(file) == ".mif") {
+    OGRLayer* const layer = dataset.GetLayerByName(fs::path(file).stem().c_str());
+    return layer != nullptr ? layer->GetFeatureCount() : -1;
+  }
+  const FileHead head = head_of(file, 0);
+  if (head.size < 0) return -1;
+  return extension_of(file) == ".shx" ? (head.size - 100) / 8 : head.size / 4;
+}
+
+std::string without_extension(const std::string& file) {
+  return fs::path(file).replace_extension().string();
+}
+
+// Shapes and rows belong together by their numbers alone: where one is lost, all behind it have the
+// values of others, and GDAL does not say so.
+void check_rows(GDALDataset& dataset, const SourcePath& path) {
+  const std::string driver = dataset.GetDriverName();
+  if (driver != "ESRI Shapefile" && driver != "MapInfo File") return;
+  const CPLStringList files(dataset.GetFileList());
+  std::map<std::string, std::pair<std::string, std::string>> parts;  // of shapes and of rows
+  for (int i = 0; i < files.size(); ++i) {
+    const std::string file = files[i], extension = extension_of(file);
+    auto& [shapes, table] = parts[without_extension(file)];
+    if (extension == ".shx" || extension == ".id" || extension == ".mif") shapes = file;
+    if (extension == ".dbf" || extension == ".dat" || extension == ".mid") table = file;
+  }
+  for (const auto& [name, part] : parts) {
+    if (part.first.empty() || part.second.empty()) continue;
+    const std::int64_t n_shapes = shapes_of(dataset, part.first),
+                       n_rows = rows_of_table(part.second);
+    if (n_shapes < 0 || n_rows < 0 || n_shapes == n_rows) continue;
+    throw InputError({part.second},
+                     "the table has " + counted(n_rows, "row") + ", the file beside it " +
+                         counted(n_shapes, "shape") + ": which row is of which shape is not known",
+                     "export the data again; their shapes alone, without the table: ogr2ogr "
+                     "-select '' shapes.gpkg " +
+                         command_words(path.source));
+  }
+}
+
 }  // namespace
 
 VectorDataset open_vectors(const SourcePath& path) {
@@ -174,7 +263,10 @@ VectorDataset open_vectors(const SourcePath& path) {
   const GdalErrors errors;
   opened.dataset = GDALDatasetUniquePtr(
       GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR));
-  if (opened.dataset) return opened;
+  if (opened.dataset) {
+    check_rows(*opened.dataset, path);
+    return opened;
+  }
   const std::string way_out = needs_permission(errors.failure());
   throw InputError(
       {path.file},

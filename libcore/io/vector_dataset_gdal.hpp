@@ -18,7 +18,8 @@ struct VectorDataset {
   std::vector<std::string> remarks;  ///< sentences: the member of an archive, columns of a table
 };
 
-/// Throws InputError when the source cannot be opened, or is an archive with several.
+/// Throws InputError when the source cannot be opened, is an archive with several, or has a table
+/// with more or fewer rows than shapes (Shapefile, MapInfo).
 [[nodiscard]] VectorDataset open_vectors(const SourcePath& path);
 
 }  // namespace talus

@@ -132,7 +132,7 @@ std::vector<Vec3> all_points(const Rings& shapes) {
 void check_place_of(const std::string& crs, const std::string& work_crs, OGRLayer& layer,
                     const Where& where, VectorShapes& found) {
   if (crs.empty() || found.shapes.empty()) return;
-  CrsExtent place{crs, window_of(all_points(found.shapes)), work_crs};
+  CrsExtent place{crs, window_of(all_points(found.shapes), crs), work_crs};
   place.layer = layer.GetName();
   place.geometry_column = layer.GetGeometryColumn();
   for (std::string& warning : check_place(place, {parse_source_path(where.file).source}))
@@ -142,7 +142,7 @@ void check_place_of(const std::string& crs, const std::string& work_crs, OGRLaye
 void take_to(const std::string& crs_wkt, const Where& where, VectorShapes& found) {
   std::vector<Vec3> points = all_points(found.shapes);
   const CrsOperation operation =
-      find_operation(found.source_crs, crs_wkt, window_of(points), where);
+      find_operation(found.source_crs, crs_wkt, window_of(points, found.source_crs), where);
   if (!carry_out(operation, points))
     throw InputError(
         where,

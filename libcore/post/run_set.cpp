@@ -102,7 +102,8 @@ std::string outcome_of(const RunFile& run) {
 RunMember member_of(const std::string& file, const RunFile& run) {
   RunMember member{file, run.info, run.grid, n_blocks(run),  0, 0, 0, 0, 0,
                    0,    0,        "",       run.run_weight, ""};
-  for (std::string* words : {&member.info.config, &member.info.plan}) std::string().swap(*words);
+  for (std::string* words : {&member.info.config, &member.info.made_with, &member.info.plan})
+    std::string().swap(*words);
   for (int block = 0; block < member.n_blocks; ++block) member.weight += weight_of(run, block);
   for (const HealthRow& row : run.health) {
     member.largest_penetration = std::max(member.largest_penetration, row.largest_penetration);

@@ -15,7 +15,7 @@ namespace talus {
 /// What is kept of a run for the set.
 struct RunMember {
   std::string file;  ///< of a run in a part: that it stood in, with its folder
-  RunInfo info;      ///< without config and plan, which are as large as a small run
+  RunInfo info;      ///< without config, made_with and plan, as large as a small run
   PassageGrid grid;
   int n_blocks = 0;
   int n_moving = 0;   ///< at the end, by the evaluation's own limit of speed

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "record/passage_table.hpp"
@@ -181,6 +182,25 @@ void merge_pieces(RunFile& run) {
   keep(lineage.bodies, run.phase);
   blocks.body = lineage.bodies;
   blocks.parent.clear();
+}
+
+std::vector<int> worlds_of(const RunFile& run) {
+  std::vector<int> worlds(run.blocks.mass.size(), 0);
+  if (!run.info.independent) return worlds;
+  std::map<int, int> released;  // of pieces
+  for (const Break& broken : run.breaks)
+    for (const int piece : {broken.first_piece, broken.first_piece + 1})
+      released[piece] = broken.released;
+  for (size_t b = 0; b < worlds.size(); ++b) {
+    const int body = run.blocks.body.empty() ? static_cast<int>(b) : run.blocks.body[b];
+    const auto found = released.find(body);
+    worlds[b] = found == released.end() ? body : found->second;
+  }
+  return worlds;
+}
+
+int count_worlds(const std::vector<int>& worlds) {
+  return static_cast<int>(std::set<int>(worlds.begin(), worlds.end()).size());
 }
 
 }  // namespace talus

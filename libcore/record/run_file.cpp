@@ -1,5 +1,7 @@
 #include "record/run_file.hpp"
 
+#include "scene/worlds.hpp"
+
 namespace talus {
 
 void append(RunFrames& frames, const Frame& frame, bool with_strain) {
@@ -17,14 +19,27 @@ void append(RunFrames& frames, const Frame& frame, bool with_strain) {
   }
 }
 
-std::vector<PanelRow> panel_rows(const FixedBodies& fixed, const YieldingState& state) {
+std::vector<PanelRow> panel_rows(const Scene& scene, const State& state) {
+  const FixedBodies& fixed = scene.fixed;
   std::vector<PanelRow> rows;
-  for (const FencePanel& panel : fixed.panels) {
-    const auto y = static_cast<std::size_t>(panel.yielding);
-    const Yielded& met = state.met[y];
-    rows.push_back({panel.line, panel.number, fixed.yieldings[y].capacity, met.work, met.deflection,
-                    met.broken_at, met.broken_by});
-  }
+  const auto add = [&](const FencePanel& panel, const Yielded& met, int rock) {
+    rows.push_back({panel.line, panel.number,
+                    fixed.yieldings[static_cast<std::size_t>(panel.yielding)].capacity, met.work,
+                    met.deflection, met.broken_at, met.broken_by, rock});
+  };
+  const bool is_shared = shares_world(scene);
+  for (const FencePanel& panel : fixed.panels)
+    add(panel, is_shared ? met_by(state.yielding, 0, panel.yielding) : Yielded{}, -1);
+  if (is_shared || fixed.panels.empty()) return rows;
+  const std::vector<std::vector<MetBody>>& worlds = state.yielding.worlds;
+  for (std::size_t rock = 0; rock < worlds.size(); ++rock)
+    for (const MetBody& of : worlds[rock]) {
+      if (of.yielding >= static_cast<int>(fixed.yieldings.size())) break;  // stems
+      const int panel = fixed.panel[static_cast<std::size_t>(
+          fixed.yieldings[static_cast<std::size_t>(of.yielding)].body)];
+      if (panel >= 0)
+        add(fixed.panels[static_cast<std::size_t>(panel)], of.met, static_cast<int>(rock));
+    }
   return rows;
 }
 

@@ -38,13 +38,17 @@ struct RunInfo {
   std::string blocks_hash;     ///< of the block set
   std::string law;             ///< "talus" or "paper"
   std::int64_t seed = 0;
-  std::string status = "running";  ///< "running", "done" or "failed"
-  std::string reason;              ///< why it failed
-  double duration = 0;             ///< asked for [s]
-  double time = 0;                 ///< reached [s]
-  std::string config;              ///< effective settings, TOML
-  std::string plan;                ///< what was computed and what left out, JSON
-  std::string warnings;            ///< a line each, of inputs and settings; no paths
+  bool independent = false;              ///< each block moved as if it were alone, among
+                                         ///< fences and trees as they were at the start
+  bool weights_are_frequencies = false;  ///< weights of blocks are events a year, not shares
+  std::string status = "running";        ///< "running", "done" or "failed"
+  std::string reason;                    ///< why it failed
+  double duration = 0;                   ///< asked for [s]
+  double time = 0;                       ///< reached [s]
+  std::string config;                    ///< effective settings, TOML
+  std::string made_with;  ///< options that are not in `config`, digests of the files read
+  std::string plan;       ///< what was computed and what left out, JSON
+  std::string warnings;   ///< a line each, of inputs and settings; no paths
 };
 
 /// The blocks as they are drawn and weighed.
@@ -96,7 +100,8 @@ struct HealthRow {
 /// How the warning of a run begins that is the same with any seed.
 inline constexpr const char* seed_draws_nothing = "the seed draws nothing";
 
-/// A panel of a fence that stood, as it was at the end.
+/// A panel of a fence that stood, as it was at the end. In a run of independent rocks: as it was at
+/// the start, and once more for each rock that pushed it, as that rock left it.
 struct PanelRow {
   std::int32_t line = 0, panel = 0;  ///< panel: number in its line, from 0
   double capacity = 0;               ///< infinite: rigid [J]
@@ -104,9 +109,11 @@ struct PanelRow {
   double deflection = 0;             ///< to the left of the line, lasting [m]
   double broken_at = 0;              ///< infinite: stands [s]
   std::int32_t broken_by = -1;       ///< block, -1: stands
+  std::int32_t rock = -1;            ///< that alone met it so: the released block, by its number in
+                                     ///< the run; -1: all blocks
 };
-[[nodiscard]] std::vector<PanelRow> panel_rows(const FixedBodies& fixed,
-                                               const YieldingState& state);
+/// By line; after them those of rocks, by rock, then line.
+[[nodiscard]] std::vector<PanelRow> panel_rows(const Scene& scene, const State& state);
 
 /// A block that was in something by more than a tenth of its thickness, and what it may have moved.
 struct DeepRow {
@@ -160,7 +167,7 @@ struct RunFile {
   std::vector<RecordObject> objects;
   std::vector<ObjectHit> object_hits;  ///< by object, then block
   std::vector<FenceHit> fence_hits;    ///< by time, step by step
-  std::vector<PanelRow> panels;        ///< of the fences that stood, by line
+  std::vector<PanelRow> panels;        ///< of the fences that stood (panel_rows)
   std::vector<ForestInfo> forests;     ///< that stood
   std::vector<TreeHitRow> tree_hits;   ///< by time, step by step
   std::vector<HealthRow> health;
@@ -189,7 +196,7 @@ struct RunParts {
   bool objects = true;           ///< and what hit them
   bool only_last_frame = false;  ///< of the frames
   bool only_faults = false;      ///< of the health, penetrations and counts of what went wrong
-  bool words = true;             ///< info's config and plan
+  bool words = true;             ///< info's config, made_with and plan
   bool merge_pieces = true;      ///< of blocks that broke, see record/pieces.hpp
   bool trees = true;             ///< hits of trees
 };
@@ -199,7 +206,7 @@ struct RunParts {
 /// must be).
 [[nodiscard]] RunFile read_run_file(const std::string& path, const RunParts& parts = {});
 
-/// What tells whether a run belongs to others: `info` without config and plan, and `grid`.
+/// What tells whether a run belongs to others: `info` without plan, and `grid`.
 [[nodiscard]] RunFile read_run_head(const std::string& path);
 
 /// Writes `run` to `path` itself, synced. Equal content gives equal bytes.

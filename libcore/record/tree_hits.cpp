@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/stems.hpp"
+#include "scene/worlds.hpp"
 
 namespace talus {
 
@@ -10,7 +11,7 @@ std::vector<TreeHitRow> tree_hit_rows(const Scene& scene, const State& state) {
   std::vector<TreeHitRow> rows;
   for (const StemHit& hit : state.stem_hits) {
     const Stem& stem = scene.forest.stems[hit.stem];
-    const Yielded& met = met_by_stem(state.yielding, hit.stem);
+    const Yielded& met = met_by_stem(scene, state, world_of(scene, hit.block), hit.stem);
     TreeHitRow row;
     row.forest = stem.section;
     row.stem = stem.id;

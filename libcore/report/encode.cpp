@@ -4,6 +4,8 @@
 #include <bit>
 #include <type_traits>
 
+#include "base/printable.hpp"
+
 namespace talus {
 namespace {
 
@@ -51,7 +53,7 @@ std::string data_address(const std::string& media_type, std::string_view bytes) 
 std::string json_string(std::string_view text) {
   static constexpr std::string_view hex = "0123456789abcdef";
   std::string out = "\"";
-  for (const char c : text) {
+  for (const char c : printable(text)) {
     const auto u = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\') {
       out += std::string("\\") + c;

@@ -6,12 +6,16 @@
 namespace talus {
 namespace {
 
-// What stands between `name="` and the next quote.
+// What stands between `name="` and the next quote, its entities as they stand there. A file of a
+// stranger may have signs beside them that XML does not allow.
 std::string attribute(const std::string& xml, const std::string& name) {
   const std::size_t begin = xml.find(" " + name + "=\"");
   if (begin == std::string::npos) return "";
   const std::size_t first = begin + name.size() + 3;
-  return xml.substr(first, xml.find('"', first) - first);
+  std::string out;
+  for (const char c : xml.substr(first, xml.find('"', first) - first))
+    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return out;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "io/errors_gdal.hpp"
 
 namespace talus {
 namespace {
@@ -42,7 +43,7 @@ std::map<std::string, std::string> styles_of(GDALDataset& dataset) {
 }  // namespace
 
 std::vector<StyledLayer> styled_layers(const std::string& path) {
-  GDALAllRegister();
+  register_gdal_drivers();
   const std::unique_ptr<GDALDataset> dataset(
       GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   if (!dataset) throw InputError({path}, "cannot be read as a GeoPackage");

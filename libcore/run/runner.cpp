@@ -6,6 +6,7 @@
 #include "base/text.hpp"
 #include "record/deep_rows.hpp"
 #include "record/tree_hits.hpp"
+#include "scene/worlds.hpp"
 #include "step/step.hpp"
 #include "store/checkpoint.hpp"
 
@@ -172,13 +173,6 @@ double energy_loss(const Runner& runner, const HealthRow& row, double restitutio
   return lost / turned_over(runner, row);
 }
 
-double lost_share(const Runner& runner) {
-  const auto n = std::count_if(runner.state.phase.begin(), runner.state.phase.end(),
-                               [](Phase phase) { return exists(phase); });
-  return n == 0 ? 0
-                : static_cast<double>(runner.state.counters.left_domain) / static_cast<double>(n);
-}
-
 double unconverged_share(const Runner& runner) {
   const RunCounters& counters = runner.state.counters;
   return static_cast<double>(counters.unconverged) /
@@ -256,8 +250,9 @@ std::vector<HealthCheck> checks_of(const Runner& runner, const WorstOfRows& wors
                            worst.loss.value, limits.max_energy_gain, false, worst.loss.where()));
   checks.push_back(check("steps accepted unconverged, share", unconverged_share(runner),
                          limits.max_unconverged_share, false, first(mishaps.unconverged)));
-  checks.push_back(check("blocks that left the terrain, share", lost_share(runner),
-                         limits.max_lost_share, false, first(mishaps.left_domain)));
+  checks.push_back(check("mass of blocks that left the terrain, share",
+                         lost_share(runner.scene, runner.state), limits.max_lost_share, false,
+                         first(mishaps.left_domain)));
   if (std::isnan(limits.max_penetration))
     add_deep_checks(runner, checks);
   else
@@ -287,6 +282,7 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
   runner.file.passages_by_centroid = options.passages_by_centroid;
   runner.file.lines = runner.crossings.lines;
   runner.file.info.duration = options.duration;
+  runner.file.info.independent = !shares_world(scene);
   return runner;
 }
 
@@ -397,7 +393,7 @@ void update_file(Runner& runner, bool with_checkpoint) {
   file.crossings = sorted(runner.crossings);
   file.object_hits = sorted(runner.objects);
   file.fence_hits = runner.state.fence.hits;
-  file.panels = panel_rows(runner.scene.fixed, runner.state.yielding);
+  file.panels = panel_rows(runner.scene, runner.state);
   file.tree_hits = tree_hit_rows(runner.scene, runner.state);
   file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
   file.breaks = runner.state.breaks;
@@ -415,6 +411,16 @@ std::vector<HealthCheck> health_checks(const Runner& runner) {
   for (const HealthRow& row : runner.file.health) meet(runner, row, worst);
   const HealthRow last = runner.file.health.empty() ? HealthRow{} : runner.file.health.back();
   return checks_of(runner, worst, last);
+}
+
+double lost_share(const Scene& scene, const State& state) {
+  double lost = 0, all = 0;
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    if (!exists(state.phase[b])) continue;
+    all += scene.blocks.mass[b];
+    if (state.phase[b] == Phase::left_domain) lost += scene.blocks.mass[b];
+  }
+  return all > 0 ? lost / all : 0;
 }
 
 bool has_failed(const Runner& runner) {

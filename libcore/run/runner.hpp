@@ -26,7 +26,7 @@ struct RunLimits {
   double max_penetration = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none [m]
   /// Mechanical energy gained, or lost where all hits return almost all, share of the fall energy.
   double max_energy_gain = 0.01;
-  double max_lost_share = 0;           ///< blocks that left the terrain, share of all [-]
+  double max_lost_share = 0.01;        ///< mass of the blocks that left the terrain, share [-]
   double max_unconverged_share = 0.1;  ///< accepted without convergence, share of the steps [-]
   double max_deep_share = 1e-3;        ///< mass of the blocks that were deep, share of all [-]
 };
@@ -96,6 +96,9 @@ void update_file(Runner& runner, bool with_checkpoint);
 [[nodiscard]] std::vector<HealthCheck> health_checks(const Runner& runner);
 /// A limit that ends the run is broken: checked after each row of health.
 [[nodiscard]] bool has_failed(const Runner& runner);
+
+/// Mass of the blocks that left the known terrain, share of all [-].
+[[nodiscard]] double lost_share(const Scene& scene, const State& state);
 
 /// The blocks of a scene as a run file stores them; faces of the shells from the block set, whose
 /// vertices stand in the same order.

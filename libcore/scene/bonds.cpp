@@ -2,20 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <limits>
+#include <utility>
 
 #include "contact/start_contacts.hpp"
-#include "solver/contact_law.hpp"
+#include "scene/bond_face.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-// Faces farther apart, as a share of the smallest block's size, do not hold together ...
-constexpr double bonded_gap_ratio = 1e-4;
-// ... nor do those that are not parallel within this angle [rad].
+// Faces that are not parallel within this angle do not hold together [rad].
 constexpr double bonded_angle = 1e-3;
+// What lies against the faces of a bond may have another normal by less than the first; two faces
+// of one block that meet the same other one differ by more than the second.
+constexpr double same_direction = 1 - 1e-5, still_its_face = 0.99;
 
 GroundClass face_class(const Scene& scene, int block, int joint_set) {
   const JointClasses& joints = scene.joints;
@@ -28,7 +30,18 @@ GroundClass face_class(const Scene& scene, int block, int joint_set) {
   return made;
 }
 
-auto order(const BlockBond& bond) { return std::tuple(bond.block_a, bond.block_b); }
+/// Orders bonds by their blocks.
+struct ByBlocks {
+  using Blocks = std::pair<int, int>;
+  static Blocks of(const BlockBond& bond) { return {bond.block_a, bond.block_b}; }
+  bool operator()(const BlockBond& bond, const Blocks& blocks) const { return of(bond) < blocks; }
+  bool operator()(const Blocks& blocks, const BlockBond& bond) const { return blocks < of(bond); }
+};
+
+template <class Bonds>
+auto bonds_of(Bonds& bonds, int block_a, int block_b) {
+  return std::equal_range(bonds.begin(), bonds.end(), std::pair(block_a, block_b), ByBlocks());
+}
 
 GroundClass smaller(const GroundClass& a, const GroundClass& b) {
   return {std::min(a.friction, b.friction), std::min(a.cohesion, b.cohesion),
@@ -68,32 +81,32 @@ std::vector<BlockBond> start_bonds(const Scene& scene) {
     const GroundClass face = smaller(face_class(scene, c.block_a, c.joint_set_a),
                                      face_class(scene, c.block_b, c.joint_set_b));
     if (!has_strength(face)) continue;
-    const BlockBond bond{c.block_a, c.block_b, c.area, face};
-    const auto at = std::lower_bound(
-        bonds.begin(), bonds.end(), bond,
-        [](const BlockBond& p, const BlockBond& q) { return order(p) < order(q); });
-    if (at != bonds.end() && order(*at) == order(bond))
-      at->area += bond.area;
+    const Vec3 normal = scene.blocks.rest[c.block_a].attitude.conjugate() * c.normal;
+    const auto [begin, end] = bonds_of(bonds, c.block_a, c.block_b);
+    const auto same = std::find_if(begin, end, [&](const BlockBond& bond) {
+      return bond.normal.dot(normal) > same_direction;
+    });
+    if (same != end)
+      same->area += c.area;
     else
-      bonds.insert(at, bond);
+      bonds.insert(end, BlockBond{c.block_a, c.block_b, c.area, face, normal});
   }
   return bonds;
 }
 
-int find_bond(std::span<const BlockBond> bonds, int block_a, int block_b) {
-  const auto at =
-      std::lower_bound(bonds.begin(), bonds.end(), std::tuple(block_a, block_b),
-                       [](const BlockBond& bond, const auto& pair) { return order(bond) < pair; });
-  const bool found = at != bonds.end() && order(*at) == std::tuple(block_a, block_b);
-  return found && at->area > 0 ? static_cast<int>(at - bonds.begin()) : -1;
-}
-
-void add_load(double N, const Vec3& shear, double area, const GroundClass& face, BondLoad& load) {
-  load.shear += shear;
-  double bound;
-  Strength<double>{face.friction, face.cohesion * area, 0}.bound(N, bound);
-  load.strength += bound;
-  load.torn |= face.tension > 0 && -N > face.tension * area;
+int find_bond(std::span<const BlockBond> bonds, int block_a, int block_b, const Quat& attitude,
+              const Vec3& normal) {
+  const auto [begin, end] = bonds_of(bonds, block_a, block_b);
+  if (begin == end) return -1;
+  const Vec3 in_a = attitude.conjugate() * normal;
+  int found = -1;
+  double nearest = still_its_face;
+  for (auto bond = begin; bond != end; ++bond)
+    if (bond->area > 0 && bond->normal.dot(in_a) > nearest) {
+      nearest = bond->normal.dot(in_a);
+      found = static_cast<int>(bond - bonds.begin());
+    }
+  return found;
 }
 
 }  // namespace talus

@@ -13,11 +13,12 @@
 
 namespace talus {
 
-/// Two blocks whose joint faces hold together: intact while area > 0. Part of the state.
+/// Two blocks whose faces in one direction hold together: intact while area > 0. Part of the state.
 struct BlockBond {
   int block_a = 0, block_b = 0;  ///< block_a < block_b
   double area = 0;               ///< A_c of the common faces; 0 once broken [m2]
   GroundClass face;              ///< friction and strength of the joint
+  Vec3 normal = Vec3::Zero();    ///< unit, from B to A, body axes of A
 };
 
 /// Class of the contacts of a manifold: of the two faces the smaller friction and restitution.
@@ -27,28 +28,13 @@ struct BlockBond {
 [[nodiscard]] GroundClass pair_class(const Scene& scene, const PairManifold& manifold);
 
 /// Bonds of all faces that lie against each other where the blocks stand and both have cohesion, or
-/// both tensile strength. Sorted by block_a, then block_b.
+/// both tensile strength: one for the faces of two blocks in one direction. Sorted by block_a, then
+/// block_b.
 [[nodiscard]] std::vector<BlockBond> start_bonds(const Scene& scene);
 
-/// Index of the intact bond of two blocks, -1: none.
-[[nodiscard]] int find_bond(std::span<const BlockBond> bonds, int block_a, int block_b);
-
-/// What a bond carries at the end of a substep, and what it holds, summed over its contact points:
-/// elastic forces, not those of damping, which would break a bond that is loaded suddenly at less
-/// than its strength.
-struct BondLoad {
-  int bond = -1;
-  Vec3 shear = Vec3::Zero();  ///< sum of the tangential forces [N]
-  double strength = 0;        ///< sum of tan(phi) N + c A_c [N]
-  bool torn = false;          ///< a point is pulled beyond its tensile strength
-};
-
-/// Adds a contact point with normal force N (> 0 pressed) and a share `area` of a bond of class
-/// `face`.
-void add_load(double N, const Vec3& shear, double area, const GroundClass& face, BondLoad& load);
-
-[[nodiscard]] inline bool breaks(const BondLoad& load) {
-  return load.torn || load.shear.norm() > load.strength;
-}
+/// Index of the intact bond of two blocks along `normal`, from B to A, local axes, where A has
+/// `attitude`; -1: none.
+[[nodiscard]] int find_bond(std::span<const BlockBond> bonds, int block_a, int block_b,
+                            const Quat& attitude, const Vec3& normal);
 
 }  // namespace talus

@@ -48,6 +48,53 @@ double drag_at(const std::vector<Canopy>& canopies, const Trn& trn, const Vec3& 
   return drag;
 }
 
+namespace {
+
+// Adds where the height above the canopy's top is zero on a way that the ground below bends in
+// pieces; `low` and `high` are shares of it.
+void add_top(const Canopy& canopy, const Trn& trn, const Vec3& from, const Vec3& to,
+             std::vector<double>& shares) {
+  constexpr int pieces = 4, halvings = 40;  // a substep goes over a few triangles at most
+  const auto is_below = [&](double share) {
+    const Vec3 x = from + share * (to - from);
+    return x.z() < elevation_at(trn, x.x(), x.y()) + canopy.height;
+  };
+  for (int i = 0; i < pieces; ++i) {
+    double low = static_cast<double>(i) / pieces, high = static_cast<double>(i + 1) / pieces;
+    const bool begins_below = is_below(low);
+    if (is_below(high) == begins_below) continue;
+    for (int k = 0; k < halvings; ++k) {
+      const double middle = (low + high) / 2;
+      (is_below(middle) == begins_below ? low : high) = middle;
+    }
+    shares.push_back(high);
+  }
+}
+
+}  // namespace
+
+double mean_drag(const std::vector<Canopy>& canopies, const Trn& trn, const Vec3& from,
+                 const Vec3& to) {
+  const Vec2 low = from.head<2>().cwiseMin(to.head<2>()),
+             high = from.head<2>().cwiseMax(to.head<2>());
+  std::vector<double> shares;
+  for (const Canopy& canopy : canopies) {
+    if ((high.array() < canopy.low.array()).any() || (low.array() > canopy.high.array()).any())
+      continue;
+    canopy.area.add_crossings(from.head<2>(), to.head<2>(), shares);
+    add_top(canopy, trn, from, to, shares);
+  }
+  shares.push_back(1);
+  std::sort(shares.begin(), shares.end());
+  double drag = 0, begin = 0;
+  for (const double end : shares) {
+    if (end > begin)
+      drag += (end - begin) * drag_at(canopies, trn, from + (begin + end) / 2 * (to - from));
+    begin = end;
+  }
+  return drag;
+}
+
 bool comes_over(const std::vector<Canopy>& canopies, const Vec3& position, const Vec3& velocity,
                 const Vec3& a, double time) {
   if (canopies.empty()) return false;

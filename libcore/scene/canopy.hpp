@@ -23,6 +23,11 @@ struct Canopy {
 
 [[nodiscard]] Canopy make_canopy(const Area& area, double height, double drag);
 
+/// Mean of drag_at() over the straight way from one place to another. Borders of the stands and the
+/// tops of their canopies are located on it [kg/s].
+[[nodiscard]] double mean_drag(const std::vector<Canopy>& canopies, const Trn& trn,
+                               const Vec3& from, const Vec3& to);
+
 /// Drag on a mass centre at `position`: the sum of all stands over whose area and below whose
 /// canopy it is [kg/s].
 [[nodiscard]] double drag_at(const std::vector<Canopy>& canopies, const Trn& trn,

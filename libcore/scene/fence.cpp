@@ -42,11 +42,10 @@ double rotational(const Scene& scene, int block, const Motion& m) {
   return 0.5 * spin_of(scene, block, m).dot(m.angular_momentum);
 }
 
-FenceHit* find_hit(FenceState& fence, int block, const FencePanel& panel) {
-  const auto found = std::find_if(fence.hits.rbegin(), fence.hits.rend(), [&](const FenceHit& h) {
-    return h.block == block && h.line == panel.line && h.panel == panel.number;
+FenceHit* hit_on(FenceState& fence, int block, const FencePanel& panel) {
+  return find_hit(fence.hits, fence.chain, block, [&](const FenceHit& h) {
+    return h.line == panel.line && h.panel == panel.number;
   });
-  return found == fence.hits.rend() ? nullptr : &*found;
 }
 
 FenceHit first_touch(const Scene& scene, int block, const FencePanel& panel, const Vec3& point,
@@ -118,9 +117,10 @@ int panel_number(const Scene& scene, int body) {
 void note_hit(const Scene& scene, int block, int body, const Vec3& point, double time,
               const Motion& before, const Motion& after, FenceState& fence) {
   const FencePanel& panel = panel_of(scene, body);
-  FenceHit* hit = find_hit(fence, block, panel);
+  FenceHit* hit = hit_on(fence, block, panel);
   if (hit == nullptr)
-    hit = &fence.hits.emplace_back(first_touch(scene, block, panel, point, time, before));
+    hit = &add_hit(first_touch(scene, block, panel, point, time, before), n_blocks(scene),
+                   fence.hits, fence.chain);
   hit->energy_after = translational(scene, block, after) + rotational(scene, block, after);
 }
 
@@ -129,7 +129,7 @@ void note_work(const Scene& scene, std::span<const YieldPush> pushes, FenceState
     if (push.yielding >= static_cast<int>(scene.fixed.yieldings.size())) continue;  // a stem
     const int body = scene.fixed.yieldings[push.yielding].body;
     if (panel_number(scene, body) < 0) continue;
-    if (FenceHit* hit = find_hit(fence, push.block, panel_of(scene, body))) hit->work += push.work;
+    if (FenceHit* hit = hit_on(fence, push.block, panel_of(scene, body))) hit->work += push.work;
   }
 }
 

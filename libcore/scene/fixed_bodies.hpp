@@ -16,6 +16,7 @@
 #include "base/types.hpp"
 #include "contact/ground.hpp"
 #include "motion/pose.hpp"
+#include "scene/hit_chain.hpp"
 
 namespace talus {
 
@@ -59,17 +60,18 @@ struct Yielded {
   int broken_by = -1;                     ///< block; -1 while it stands
 };
 
-/// What a stem of the forest has met; those that nothing hit have none.
-struct StemMet {
-  std::int32_t stem = 0;
+/// What a body that was pushed has met; those that nothing pushed have none.
+struct MetBody {
+  std::int32_t yielding = 0;  ///< index into `yieldings`; after them, the stems
   Yielded met;
 };
 
-/// Part of the state.
+/// Part of the state. Blocks that meet each other share one world: each finds fences and trees as
+/// the others left them. Rocks that fall one by one have a world each: all stands there as it did
+/// at the start, but for what the rock itself and its pieces pushed.
 struct YieldingState {  // clang-format off
-  std::vector<Yielded> met;         ///<                                                (n_yielding)
-  std::vector<int> shifted;         ///< fixed bodies that have been pushed, in that order
-  std::vector<StemMet> stems;       ///< stems that were pushed, ascending
+  std::vector<std::vector<MetBody>> worlds;  ///< what was pushed there, ascending       (n_worlds)
+  std::vector<int> shifted;         ///< fixed bodies pushed in the shared world, in that order
 };  // clang-format on
 
 /// What one block does to one body that gives way, over a substep.
@@ -99,6 +101,7 @@ struct FenceHit {
 /// What touched the panels of fences since the start; part of the state.
 struct FenceState {
   std::vector<FenceHit> hits;  ///< in the order of their times, step by step
+  HitChain chain;              ///< of `hits`
 };
 
 // --- names of what a block may touch -----------------------------------------------------------

@@ -5,23 +5,16 @@
 
 #include "base/error.hpp"
 #include "motion/rotation.hpp"
+#include "scene/worlds.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-template <class Stems>
-auto place_of(Stems& stems, int stem) {
-  return std::lower_bound(stems.begin(), stems.end(), stem,
-                          [](const StemMet& met, int s) { return met.stem < s; });
-}
-
-StemHit* find_hit(std::vector<StemHit>& hits, int block, int stem) {
-  const auto found = std::find_if(hits.rbegin(), hits.rend(), [&](const StemHit& h) {
-    return h.block == block && h.stem == stem;
-  });
-  return found == hits.rend() ? nullptr : &*found;
+StemHit* hit_on(State& state, int block, int stem) {
+  return find_hit(state.stem_hits, state.stem_chain, block,
+                  [stem](const StemHit& h) { return h.stem == stem; });
 }
 
 double translational(const Scene& scene, int block, const Motion& m) {
@@ -60,47 +53,38 @@ void add_forest(Scene& scene, std::vector<Stem> stems, std::vector<GroundClass> 
   forest.grid = make_body_grid(centre, reach);
 }
 
-const Yielded& met_by_stem(const YieldingState& yielding, int stem) {
-  static const Yielded nothing;
-  const auto found = place_of(yielding.stems, stem);
-  return found != yielding.stems.end() && found->stem == stem ? found->met : nothing;
+const Yielded& met_by_stem(const Scene& scene, const State& state, int world, int stem) {
+  return met_by(state.yielding, world, static_cast<int>(scene.fixed.yieldings.size()) + stem);
 }
 
-Yielded& meet_stem(YieldingState& yielding, int stem) {
-  auto found = place_of(yielding.stems, stem);
-  if (found == yielding.stems.end() || found->stem != stem)
-    found = yielding.stems.insert(found, StemMet{stem, {}});
-  return found->met;
-}
-
-Vec2 axis_of_stem(const Scene& scene, const State& state, int stem) {
-  const Vec3 at = scene.forest.stems[stem].foot + met_by_stem(state.yielding, stem).shift;
+Vec2 axis_of_stem(const Scene& scene, const State& state, int world, int stem) {
+  const Vec3 at = scene.forest.stems[stem].foot + met_by_stem(scene, state, world, stem).shift;
   return at.head<2>();
 }
 
 void note_stem_touch(const Scene& scene, int block, int body, const Vec3& point, double time,
-                     const Motion& before, const Motion& after, std::vector<StemHit>& hits) {
+                     const Motion& before, const Motion& after, State& state) {
   const int stem = stem_of(scene, body);
-  StemHit* hit = find_hit(hits, block, stem);
+  StemHit* hit = hit_on(state, block, stem);
   if (hit == nullptr) {
-    hit = &hits.emplace_back();
-    hit->block = block;
-    hit->stem = stem;
-    hit->time = time;
-    hit->height = point.z() - scene.forest.stems[stem].foot.z();
-    hit->velocity = before.velocity;
-    hit->translational_energy = translational(scene, block, before);
-    hit->rotational_energy = rotational(scene, block, before);
+    StemHit first;
+    first.block = block;
+    first.stem = stem;
+    first.time = time;
+    first.height = point.z() - scene.forest.stems[stem].foot.z();
+    first.velocity = before.velocity;
+    first.translational_energy = translational(scene, block, before);
+    first.rotational_energy = rotational(scene, block, before);
+    hit = &add_hit(first, n_blocks(scene), state.stem_hits, state.stem_chain);
   }
   hit->energy_after = translational(scene, block, after) + rotational(scene, block, after);
 }
 
-void note_stem_work(const Scene& scene, std::span<const YieldPush> pushes,
-                    std::vector<StemHit>& hits) {
+void note_stem_work(const Scene& scene, std::span<const YieldPush> pushes, State& state) {
   const int first = static_cast<int>(scene.fixed.yieldings.size());
   for (const YieldPush& push : pushes)
     if (push.yielding >= first)
-      if (StemHit* hit = find_hit(hits, push.block, push.yielding - first)) hit->work += push.work;
+      if (StemHit* hit = hit_on(state, push.block, push.yielding - first)) hit->work += push.work;
 }
 
 }  // namespace talus

@@ -33,21 +33,19 @@ namespace talus {
 /// Adds stems to a scene whose blocks and fixed bodies are all there. `faces`: of each section.
 void add_forest(Scene& scene, std::vector<Stem> stems, std::vector<GroundClass> faces);
 
-/// What stem `stem` has met; nothing where nothing pushed it.
-[[nodiscard]] const Yielded& met_by_stem(const YieldingState& yielding, int stem);
-/// The same to be changed.
-[[nodiscard]] Yielded& meet_stem(YieldingState& yielding, int stem);
+/// What stem `stem` has met in a world (YieldingState); nothing where nothing pushed it.
+[[nodiscard]] const Yielded& met_by_stem(const Scene& scene, const State& state, int world,
+                                         int stem);
 
-/// Where the axis of `stem` stands now, local x, y [m].
-[[nodiscard]] Vec2 axis_of_stem(const Scene& scene, const State& state, int stem);
+/// Where the axis of `stem` stands now in `world`, local x, y [m].
+[[nodiscard]] Vec2 axis_of_stem(const Scene& scene, const State& state, int world, int stem);
 
 /// Notes that `block` touches fixed body `body`, a stem, at `point`, having had motion `before` at
 /// `time`, and leaves it with motion `after`; what is known from the first touch stays.
 void note_stem_touch(const Scene& scene, int block, int body, const Vec3& point, double time,
-                     const Motion& before, const Motion& after, std::vector<StemHit>& hits);
+                     const Motion& before, const Motion& after, State& state);
 
 /// Adds what stems took from the blocks that pushed them in an accepted substep to their hits.
-void note_stem_work(const Scene& scene, std::span<const YieldPush> pushes,
-                    std::vector<StemHit>& hits);
+void note_stem_work(const Scene& scene, std::span<const YieldPush> pushes, State& state);
 
 }  // namespace talus

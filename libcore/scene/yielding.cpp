@@ -22,14 +22,6 @@ const Yielding& yielding_of(const Scene& scene, int y) {
   const int n = n_with_hulls(scene);
   return y < n ? scene.fixed.yieldings[y] : scene.forest.yieldings[y - n];
 }
-const Yielded& met_by(const Scene& scene, const YieldingState& state, int y) {
-  const int n = n_with_hulls(scene);
-  return y < n ? state.met[y] : met_by_stem(state, y - n);
-}
-Yielded& met_by(const Scene& scene, YieldingState& state, int y) {
-  const int n = n_with_hulls(scene);
-  return y < n ? state.met[y] : meet_stem(state, y - n);
-}
 
 int hardest_pusher(std::span<const YieldPush> pushes, int yielding) {
   const auto work_on = [yielding](const YieldPush& p) {
@@ -41,10 +33,14 @@ int hardest_pusher(std::span<const YieldPush> pushes, int yielding) {
       ->block;
 }
 
-void wake_sleepers_at(int body, State& state) {
+void wake_sleepers_at(const Scene& scene, int body, int world, State& state) {
   const int name = name_of_fixed(body);
-  for (size_t b = 0; b < state.memory.size(); ++b) {
-    if (state.phase[b] != Phase::asleep) continue;
+  // a rock that is alone in its world has the world's number
+  const bool is_alone = !shares_world(scene) && scene.fragments.empty();
+  const size_t first = is_alone ? static_cast<size_t>(world) : 0;
+  const size_t end = is_alone ? first + 1 : state.memory.size();
+  for (size_t b = first; b < end; ++b) {
+    if (state.phase[b] != Phase::asleep || world_of(scene, static_cast<int>(b)) != world) continue;
     const auto touches = [name](const ContactMemory& m) { return m.key.body_b == name; };
     if (std::any_of(state.memory[b].begin(), state.memory[b].end(), touches))
       wake(state, b, state.time);
@@ -63,8 +59,19 @@ void deflect(const Yielding& yielding, const YieldPush& push, Yielded& met) {
       push.shift < 0 ? std::min(met.deflection, push.to) : std::max(met.deflection, push.to);
 }
 
-void note_shifted(int body, const Yielded& met, std::vector<int>& shifted) {
+// Where blocks share it, the search of pairs follows where a body is. Where each rock pushes its
+// own, that follows how far all of them together pushed it: no rock's is farther.
+void note_shifted(const Scene& scene, int body, const Yielded& before, const Yielded& met,
+                  State& state) {
+  if (!shares_world(scene)) {
+    std::vector<double>& travel = state.pairs.travel;
+    if (!travel.empty())
+      travel[static_cast<size_t>(hull_of_fixed(scene, body))] +=
+          std::abs(met.deflection - before.deflection) + (met.shift - before.shift).norm();
+    return;
+  }
   if (met.deflection == 0 && met.shift.isZero(0)) return;
+  std::vector<int>& shifted = state.yielding.shifted;
   if (std::find(shifted.begin(), shifted.end(), body) == shifted.end()) shifted.push_back(body);
 }
 
@@ -91,7 +98,8 @@ int let_yield(Scene& scene, int body, Yielding how) {
 
 YieldingState start_yielding(const Scene& scene) {
   YieldingState state;
-  state.met.resize(scene.fixed.yieldings.size());
+  if (anything_yields(scene))
+    state.worlds.resize(shares_world(scene) ? 1 : static_cast<size_t>(n_blocks(scene)));
   return state;
 }
 
@@ -100,16 +108,16 @@ int yielding_number(const Scene& scene, int body) {
                               : scene.fixed.yielding[body];
 }
 
-bool stands(const Scene& scene, const State& state, int body) {
+bool stands(const Scene& scene, const State& state, int world, int body) {
   const int y = yielding_number(scene, body);
-  return y < 0 || met_by(scene, state.yielding, y).broken_by < 0;
+  return y < 0 || met_by(state.yielding, world, y).broken_by < 0;
 }
 
-Pose fixed_pose(const Scene& scene, const State& state, int body) {
+Pose fixed_pose(const Scene& scene, const State& state, int world, int body) {
   Pose pose = scene.fixed.pose[body];
   if (const int y = yielding_number(scene, body); y >= 0) {
     const Yielding& yielding = scene.fixed.yieldings[y];
-    const Yielded& met = state.yielding.met[y];
+    const Yielded& met = met_by(state.yielding, world, y);
     pose.position += has_axis(yielding) ? Vec3(met.deflection * yielding.axis) : met.shift;
   }
   return pose;
@@ -161,7 +169,8 @@ double time_to_first_break(const Scene& scene, const YieldingState& yielding,
       work += other.work;
       power += other.power;
     }
-    const double left = std::max(0.0, capacity - met_by(scene, yielding, push.yielding).work);
+    const Yielded& met = met_by(yielding, world_of(scene, push.block), push.yielding);
+    const double left = std::max(0.0, capacity - met.work);
     if (work <= left + (1 - law::used_up) * capacity) continue;
     const double change = (work - power * h) / (h * h);  // work(t) = power t + change t^2
     const double root = std::sqrt(std::max(0.0, power * power + 4 * change * left));
@@ -171,25 +180,27 @@ double time_to_first_break(const Scene& scene, const YieldingState& yielding,
 }
 
 void push_bodies(const Scene& scene, std::span<const YieldPush> pushes, double time, State& state) {
-  YieldingState& yielding = state.yielding;
   for (const YieldPush& push : pushes) {
     const Yielding& how = yielding_of(scene, push.yielding);
-    Yielded& met = met_by(scene, yielding, push.yielding);
+    const int world = world_of(scene, push.block);
+    Yielded& met = meet(state.yielding, world, push.yielding);
+    const Yielded before = met;
     met.work += push.work;
     state.ledger.fence += push.work;
     deflect(how, push, met);
     if (!is_stem(scene, how.body))
-      note_shifted(how.body, met, yielding.shifted);
+      note_shifted(scene, how.body, before, met, state);
     else if (push.shift != 0)
-      wake_sleepers_at(how.body, state);
+      wake_sleepers_at(scene, how.body, world, state);
   }
   for (const YieldPush& push : pushes) {
     const Yielding& how = yielding_of(scene, push.yielding);
-    Yielded& met = met_by(scene, yielding, push.yielding);
+    const int world = world_of(scene, push.block);
+    Yielded& met = meet(state.yielding, world, push.yielding);
     if (met.work < law::used_up * how.capacity || met.broken_by >= 0) continue;
     met.broken_at = time;
     met.broken_by = hardest_pusher(pushes, push.yielding);
-    wake_sleepers_at(how.body, state);
+    wake_sleepers_at(scene, how.body, world, state);
   }
 }
 

@@ -1,7 +1,7 @@
 // libcore/scene/yielding.hpp: public
 // Fixed bodies in a run: what they are, where they are now, and how those that give way do so.
 // in:    the scene's fixed bodies; what contacts did to them
-// out:   deflection, work and breaking of bodies that give way
+// out:   deflection, work and breaking of bodies that give way, world by world (YieldingState)
 // Fences are one use (scene/fence.hpp), stems of trees another (scene/stems.hpp). All bodies are
 // named by their ids.
 #pragma once
@@ -12,6 +12,7 @@
 #include "geometry/polyhedron.hpp"
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
+#include "scene/worlds.hpp"
 
 namespace talus {
 
@@ -25,8 +26,8 @@ int let_yield(Scene& scene, int body, Yielding how);
 /// What the bodies that give way have met before anything moves.
 [[nodiscard]] YieldingState start_yielding(const Scene& scene);
 
-/// Does fixed body `body` stop anything (any more)?
-[[nodiscard]] bool stands(const Scene& scene, const State& state, int body);
+/// Does fixed body `body` stop anything in `world` (any more)?
+[[nodiscard]] bool stands(const Scene& scene, const State& state, int world, int body);
 
 /// Whether there are bodies that give way.
 [[nodiscard]] inline bool anything_yields(const Scene& scene) {
@@ -36,8 +37,20 @@ int let_yield(Scene& scene, int body, Yielding how);
 /// Number of fixed body `body` among those that give way, -1: it does not.
 [[nodiscard]] int yielding_number(const Scene& scene, int body);
 
-/// Where fixed body `body` is now.
-[[nodiscard]] Pose fixed_pose(const Scene& scene, const State& state, int body);
+/// Where fixed body `body` is now in `world`.
+[[nodiscard]] Pose fixed_pose(const Scene& scene, const State& state, int world, int body);
+
+/// Calls visit(body) for the fixed bodies with hulls that are not where they stood first in
+/// `world`.
+template <class Visit>
+void for_each_shifted(const Scene& scene, const State& state, int world, Visit&& visit) {
+  const int n = static_cast<int>(scene.fixed.yieldings.size());
+  for (const MetBody& of : state.yielding.worlds[static_cast<std::size_t>(world)]) {
+    if (of.yielding >= n) return;  // stems
+    if (of.met.deflection != 0 || !of.met.shift.isZero(0))
+      visit(scene.fixed.yieldings[static_cast<std::size_t>(of.yielding)].body);
+  }
+}
 
 [[nodiscard]] const GroundClass& fixed_class(const Scene& scene, int body);
 

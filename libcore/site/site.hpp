@@ -148,7 +148,7 @@ struct SolverSettings {
   double friction_scatter_deg = 0, cor_scatter = 0, rolling_scatter = 0;
   double max_penetration_m = not_given;
   double max_energy_gain = 0.01;       ///< share of the fall energy; more makes the run fail
-  double max_lost_share = 0;           ///< of the blocks; more makes the run fail
+  double max_lost_share = 0.01;        ///< of the mass; more makes the run fail
   double max_unconverged_share = 0.1;  ///< of the steps; more makes the run fail
 };
 
@@ -387,6 +387,10 @@ struct Site {
 [[nodiscard]] Site read_site(const std::string& path);
 /// The same from text; `path` is what messages say.
 [[nodiscard]] Site parse_site(const std::string& text, const std::string& path);
+
+/// Where the key of "section.key=value" ends. A name may hold the sign too, so that the first one
+/// counts that a key of the site stands before; else the first one. npos: there is none.
+[[nodiscard]] std::size_t end_of_key(const Site& site, const std::string& words);
 
 /// Sets "section.key" from the command line, e.g. ("solver.duration_s", "30"). The value is TOML,
 /// or plain text where the key takes text. Throws InputError as read_site does.

@@ -183,7 +183,7 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"rolling_scatter", &S::rolling_scatter, "standard deviation of the logarithm of the ground's rolling resistance between runs", {0, 2}},
       {"max_penetration_m", &S::max_penetration_m, "deeper makes the run fail", positive},
       {"max_energy_gain", &S::max_energy_gain, "share of the fall energy; more makes the run fail", not_negative},
-      {"max_lost_share", &S::max_lost_share, "share of blocks that may leave the terrain", share},
+      {"max_lost_share", &S::max_lost_share, "share of the mass that may leave the terrain; more makes the run fail", share},
       {"max_unconverged_share", &S::max_unconverged_share, "share of the steps that may be accepted unconverged", share}};
   return table;
 }
@@ -349,7 +349,7 @@ template <> const std::vector<SiteKey<HazardSettings>>& keys_of() {
 template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of() {
   using S = HazardClassSettings;
   static const std::vector<SiteKey<S>> table = {
-      {"frequency_per_a", &S::frequency_per_a, "events a year", positive},
+      {"frequency_per_a", &S::frequency_per_a, "events a year; of rocks that move alone (--independent) the rocks that the whole class releases in a year", positive},
       {"events", &S::events, "events that were counted, instead", not_negative},
       {"observed_a", &S::observed_a, "years in which they were counted", positive},
       {"failure_probability", &S::failure_probability, "that the mass fails, mode localized", {0, 1, true, false}},

@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/printable.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "site/site_keys.hpp"
@@ -296,6 +297,15 @@ Texts keys_beside(const std::string& group) {
 }
 
 // [group.NAME] sections, in the order of the file (tables are kept sorted by name).
+// A name stands in messages, tables, pages and commands.
+void check_name(const std::string& group, const std::string& name, const Where& where) {
+  if (printable(name) == name && name.find_first_of("\n\t") == std::string::npos) return;
+  throw InputError(where,
+                   "the name " + name + " of a section [" + group +
+                       ".*] holds control characters, or others that are not seen",
+                   "use letters of any alphabet, digits, blanks and signs");
+}
+
 template <class Section>
 void read_named(Site& site, std::vector<Section>& sections, const std::string& group,
                 const toml::table& tables) {
@@ -311,6 +321,7 @@ void read_named(Site& site, std::vector<Section>& sections, const std::string& g
     const Where where{site.file, line_of(*node)};
     const auto* table = node->as_table();
     if (!table) refuse_value(site.file, group, name, *node, beside);
+    check_name(group, name, where);
     Section section;
     section.name = name;
     line_field(section) = where.line;
@@ -424,6 +435,22 @@ toml::table parsed_value(const std::string& value) {
   return toml::table{{"value", value}};
 }
 
+// Is "section.key" one of the site's?
+struct KeyFinder {
+  std::string section, key;
+  bool& is_found;
+
+  template <class Section>
+  void operator()(const char* candidate, const Section&) const {
+    is_found = is_found || (section == candidate && has_key<Section>(key));
+  }
+  template <class Section>
+  void operator()(const char* candidate, const std::vector<Section>& sections) const {
+    for (const Section& fields : sections)
+      is_found = is_found || (section == candidate + ("." + fields.name) && has_key<Section>(key));
+  }
+};
+
 struct Overrider {
   Site& site;
   std::string section, key;  // "hazard", "fence.upper", "hazard.class.V1"
@@ -496,6 +523,7 @@ struct SectionTaker {
   template <class Section>
   void operator()(const char* group, std::vector<Section>& sections) const {
     if (from.name.empty() || from.group != group) return;
+    check_name(from.group, from.name, {from.place});
     const auto is_it = [this](const Section& section) { return section.name == from.name; };
     auto at = std::find_if(sections.begin(), sections.end(), is_it);
     if (at == sections.end()) {
@@ -532,6 +560,18 @@ Site parse_site(const std::string& text, const std::string& path) {
 
 Site read_site(const std::string& path) {
   return parse_site(read_file(path, "give the path of a site.toml"), path);
+}
+
+std::size_t end_of_key(const Site& site, const std::string& words) {
+  for (std::size_t at = words.find('='); at != std::string::npos; at = words.find('=', at + 1)) {
+    const std::size_t last = words.rfind('.', at);
+    if (last == std::string::npos) continue;
+    bool is_found = false;
+    for_each_group(
+        site, KeyFinder{words.substr(0, last), words.substr(last + 1, at - last - 1), is_found});
+    if (is_found) return at;
+  }
+  return words.find('=');
 }
 
 void override_value(Site& site, const std::string& key, const std::string& value) {

@@ -555,7 +555,7 @@ void apply_draws(Site& site, DrawScope scope) {
     set_number(site, drawn.key, drawn.value, {ValueSource::from_draw, 0, words});
   }
   if (scope == DrawScope::rock && mass > 0) site.uncertainty.sample = mass;
-  if (mass < 2) return;
+  if (mass == 0) return;
   const ValueSource source{ValueSource::from_draw, 0, "rock mass " + std::to_string(mass)};
   site.source.seed += mass - 1;
   site.sources["source.seed"] = source;

@@ -36,13 +36,9 @@ void place_suspects(const Scene& scene, const State& state, DeepWork& w) {
   const auto n = static_cast<size_t>(n_blocks(scene));
   w.poses.resize(n);
   w.moving = w.is_suspect;
-  w.fixed.clear();
   for_each_listed(scene, state, w, [&](const PairWatch&, int a, int b) {
     w.moving[a] = 1;
-    if (is_fixed(scene, b))
-      w.fixed.push_back(b);
-    else
-      w.moving[b] = 1;
+    if (!is_fixed(scene, b)) w.moving[b] = 1;
   });
   for (size_t b = 0; b < n; ++b)
     if (w.moving[b] != 0)
@@ -53,8 +49,15 @@ void place_suspects(const Scene& scene, const State& state, DeepWork& w) {
     for (size_t b = 0; b < n; ++b) w.stretch[b] = stretch_of(state, static_cast<int>(b));
   }
   place_hulls(scene.blocks.hulls, w.poses, w.stretch, w.moving, w.placed);
-  for (const int body : w.fixed)
-    place_body(scene.blocks.hulls, body, fixed_pose(scene, state, fixed_of(scene, body)), w.placed);
+}
+
+// Whether body b stands in the way of block a, and if it is a fixed one, placed where a finds it.
+bool is_placed_for(const Scene& scene, const State& state, int a, int b, DeepWork& w) {
+  if (!is_fixed(scene, b)) return true;
+  const int world = world_of(scene, a), body = fixed_of(scene, b);
+  if (!stands(scene, state, world, body)) return false;
+  place_body(scene.blocks.hulls, b, fixed_pose(scene, state, world, body), w.placed);
+  return true;
 }
 
 // Which of the bodies of a pair is in the other: the thinner block.
@@ -70,13 +73,13 @@ void measure_pairs(const Scene& scene, const State& state, double largest, DeepW
   w.overlap_partner.assign(w.is_suspect.size(), ground_name);
   int last_a = -1, last_b = -1;
   for_each_listed(scene, state, w, [&](const PairWatch&, int a, int b) {
-    if (is_fixed(scene, b) && !stands(scene, state, fixed_of(scene, b))) return;
     const int thin = thinner_of(scene, a, b);
     const auto i = static_cast<size_t>(thin);
     if (w.is_suspect[i] == 0) return;
     if (a == last_a && b == last_b) return;  // another pair of parts of the same bodies
     last_a = a;
     last_b = b;
+    if (!is_placed_for(scene, state, a, b, w)) return;
     const double deep = law::deep_share * scene.blocks.shapes.thickness[i];
     const double ignored = std::max(w.overlap_depth[i], std::min(largest, deep));
     const double depth = body_overlap(scene.blocks.hulls, w.placed, a, b, ignored, w.overlaps);
@@ -142,7 +145,6 @@ DeepWork make_deep_work(const Scene& scene) {
   w.moving.assign(n, 1);
   w.overlap_depth.resize(n);
   w.overlap_partner.resize(n);
-  w.fixed.reserve(scene.fixed.pose.size());
   w.poses.assign(scene.blocks.rest.begin(), scene.blocks.rest.end());
   w.poses.insert(w.poses.end(), scene.fixed.pose.begin(), scene.fixed.pose.end());
   if (scene.settings.strains) w.stretch.reserve(w.poses.size());

@@ -16,7 +16,6 @@ struct DeepWork {  // clang-format off
   std::vector<std::uint8_t> is_suspect;   ///< 1: by a contact it is deep in something   (n_blocks)
   std::vector<Pose> poses;                ///< at the end of the step                    (n_bodies)
   std::vector<std::uint8_t> moving;       ///< 1: is placed there                        (n_blocks)
-  std::vector<int> fixed;                 ///< bodies: the fixed ones that suspects may be in
   std::vector<Mat3> stretch;              ///< empty for rigid blocks                    (n_bodies)
   PlacedHulls placed;
   BodyOverlapScratch overlaps;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "contact/search.hpp"
+#include "geometry/corner_shares.hpp"
 #include "step/lone/lone_substep.hpp"
 
 namespace talus {
@@ -19,6 +20,7 @@ void bond_faces(const Scene& scene, int b, const Pose& pose, const Work& work,
                 std::vector<ContactMemory>& memory) {
   constexpr double parallel = 1 - 1e-6;
   const Shapes& shapes = scene.blocks.shapes;
+  const std::span<const Vec3> vertices = vertices_of(shapes, b);
   const auto touching = [&](int vertex, const Vec3& outward) -> const Contact* {
     for (const Contact& c : work.contacts)
       if (c.key.mode == ContactMode::vertex_face && c.key.feature_a == vertex &&
@@ -36,6 +38,13 @@ void bond_faces(const Scene& scene, int b, const Pose& pose, const Work& work,
     for (int k = face.vertex_begin; k < face.vertex_end; ++k)
       held += touching(shapes.face_vertices[k], outward) != nullptr;
     if (held < n) continue;
+    const Vec3 u = face.normal.unitOrthogonal(), v = face.normal.cross(u);
+    const auto corner = [&](size_t k) {
+      const Vec3& x = vertices[shapes.face_vertices[face.vertex_begin + static_cast<int>(k)]];
+      return Vec2(u.dot(x), v.dot(x));
+    };
+    std::vector<double> share(static_cast<size_t>(n), 0);
+    share_area(share.size(), corner, [&](size_t k, double area) { share[k] += area; });
     for (int k = face.vertex_begin; k < face.vertex_end; ++k) {
       const Contact& c = *touching(shapes.face_vertices[k], outward);
       const GroundClass& ground = scene.ground.classes[c.ground_class];
@@ -44,7 +53,7 @@ void bond_faces(const Scene& scene, int b, const Pose& pose, const Work& work,
       bond.key = c.key;
       bond.normal = c.normal;
       bond.gap_end = c.gap;
-      bond.bond_area = face.area / n;
+      bond.bond_area = share[static_cast<size_t>(k - face.vertex_begin)];
       memory.push_back(bond);
     }
   }

@@ -31,14 +31,49 @@ double scar_work(const GroundClass& ground, double way) {
                                      (way * std::atan(x) - std::log1p(x * x) / (2 * kappa));
 }
 
-void drag_on_ground(const Scene& scene, double h, Motion& motion) {
-  const GroundClass* ground = class_below(scene, motion.pose.position);
-  if (ground == nullptr || !drags(*ground)) return;
-  const double per_time = std::exp(-ground->drag_per_time * h);
+void drag_on_ground(const GroundClass& ground, double h, Motion& motion) {
+  if (!drags(ground)) return;
+  const double per_time = std::exp(-ground.drag_per_time * h);
   const double speed = motion.velocity.norm();
-  const double per_way = 1 / (1 + ground->drag_per_way * speed * h);
+  const double per_way = 1 / (1 + ground.drag_per_way * speed * h);
   motion.velocity *= per_time * per_way;
   motion.angular_momentum *= per_time * per_way;
+}
+
+// Shares of a straight way at which it comes over another cell.
+void add_cell_borders(const Trn& trn, const Vec3& from, const Vec3& to,
+                      std::vector<double>& shares) {
+  const GridPoint a = locate(trn, from.x(), from.y()), b = locate(trn, to.x(), to.y());
+  const auto add = [&](double begin, double end) {
+    for (double line = std::floor(std::min(begin, end)) + 1; line < std::max(begin, end); ++line)
+      shares.push_back((line - begin) / (end - begin));
+  };
+  add(a.cell.col + a.east, b.cell.col + b.east);
+  add(a.cell.row + a.south, b.cell.row + b.south);
+}
+
+// Drag of the classes of ground below a way, each for its share of the time.
+void drag_on_ground(const Scene& scene, const HalfWay& half, double h, Motion& motion) {
+  std::vector<double> shares;
+  const Trn& trn = scene.ground.trn;
+  if (!scene.ground.cell_class.empty() && contains(trn, half.from.x(), half.from.y()) &&
+      contains(trn, half.to.x(), half.to.y()))
+    add_cell_borders(trn, half.from, half.to, shares);
+  shares.push_back(1);
+  std::sort(shares.begin(), shares.end());
+  const GroundClass* last = nullptr;
+  double since = 0, begin = 0;
+  for (const double end : shares) {
+    const Vec3 middle = half.from + (begin + end) / 2 * (half.to - half.from);
+    const GroundClass* ground = class_below(scene, middle);
+    if (ground != last) {
+      if (last != nullptr) drag_on_ground(*last, (begin - since) * h, motion);
+      since = begin;
+      last = ground;
+    }
+    begin = end;
+  }
+  if (last != nullptr) drag_on_ground(*last, (1 - since) * h, motion);
 }
 
 }  // namespace
@@ -122,10 +157,11 @@ const GroundClass* class_below(const Scene& scene, const Vec3& x) {
               .classes[static_cast<size_t>(class_of(scene.ground, triangle_at(trn, x.x(), x.y())))];
 }
 
-Motion after_drag(const Scene& scene, int b, const Motion& motion, bool is_pressed, double h) {
+Motion after_drag(const Scene& scene, int b, const Motion& motion, const HalfWay& half,
+                  bool is_pressed, double h) {
   Motion out = motion;
-  if (is_pressed) drag_on_ground(scene, h, out);
-  const double drag = drag_at(scene.canopies, scene.ground.trn, motion.pose.position);
+  if (is_pressed) drag_on_ground(scene, half, h, out);
+  const double drag = mean_drag(scene.canopies, scene.ground.trn, half.from, half.to);
   if (drag > 0) out.velocity *= std::exp(-drag * h / scene.blocks.mass[static_cast<size_t>(b)]);
   return out;
 }

@@ -69,10 +69,24 @@ void slide_on(int b, double way, double path, double t, State& state);
 /// The class of ground below the centroid of a block; nullptr: none is known there.
 [[nodiscard]] const GroundClass* class_below(const Scene& scene, const Vec3& position);
 
-/// `motion` of block b after drag for a time of `h`: of the ground below it where it `is_pressed`
-/// on that, and of the forests around it, which leave its spin; exact for each alone.
-[[nodiscard]] Motion after_drag(const Scene& scene, int b, const Motion& motion, bool is_pressed,
-                                double h);
+/// The straight way that a block's centroid goes in half of a substep. The two halves follow on
+/// each other, so that a border that the block crosses counts where it is.
+struct HalfWay {
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< [m]
+};
+/// The halves of a substep of `h` from the motion before drag, and that which ends at `end`.
+[[nodiscard]] inline HalfWay first_half(const Motion& start, double h) {
+  return {start.pose.position, start.pose.position + h / 2 * start.velocity};
+}
+[[nodiscard]] inline HalfWay second_half(const Motion& start, double h, const Motion& end) {
+  return {first_half(start, h).to, end.pose.position};
+}
+
+/// `motion` of block b after drag for a time of `h`, in which it goes the way `half`: of the ground
+/// below it where it `is_pressed` on that, and of the forests around it, which leave its spin;
+/// exact for each alone.
+[[nodiscard]] Motion after_drag(const Scene& scene, int b, const Motion& motion,
+                                const HalfWay& half, bool is_pressed, double h);
 
 /// Whether a class of ground or a forest drags.
 [[nodiscard]] bool any_drags(const Scene& scene);

@@ -328,6 +328,28 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   row.waits = row.memory < 0 && row.gap_start > c.touch && approach < -c.located_speed;
 }
 
+void hold(const GroundClass& face, double recovery_time, ContactRow& row) {
+  constexpr double without_limit = 1e100;
+  row.cohesion = without_limit;
+  row.tension = face.tension > 0 ? without_limit : 0;
+  row.bias = (row.gap_start + row.offset) / recovery_time;
+}
+
+BondCorner corner_of(const KeptContact& contact, const GroundClass& face, double k_n, double k_s,
+                     const Vec3& normal, const Vec3& path) {
+  BondCorner corner;
+  corner.point = contact.arm;
+  corner.area = contact.bond_area;
+  corner.cohesion = face.cohesion;
+  corner.tension = face.tension;
+  corner.friction = face.friction;
+  const double along = normal.dot(path);
+  double N = -k_n * (contact.gap_start + contact.offset + along);
+  if (!(face.tension > 0)) N = std::max(N, 0.0);
+  corner.force = N * normal - k_s * (contact.shear + path - along * normal);
+  return corner;
+}
+
 void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row) {
   set_law(scene, c, s.h, mobility(c.per_mass, c.per_inertia, row.arm, row.normal), approach(row, s),
           row);
@@ -421,9 +443,7 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
       row.offset = std::max(0.0, -row.gap_start);
     }
     set_ground_law(scene, c, s, row);
-    const GroundClass& ground = scene.ground.classes[row.ground_class];
-    row.cohesion = ground.cohesion * row.bond_area * s.h;
-    row.tension = ground.tension * row.bond_area * s.h;
+    if (row.bond_area > 0) hold(scene.ground.classes[row.ground_class], c.recovery_time, row);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "scene/bond_face.hpp"
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
 #include "solver/flips.hpp"
@@ -75,6 +76,16 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
              double approach, ContactRow& row);
 /// The same for a contact with the ground.
 void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row);
+
+/// Takes the contact of an intact bond as one without limit: what it carries is compared with the
+/// strength of its face afterwards.
+void hold(const GroundClass& face, double recovery_time, ContactRow& row);
+
+/// The corner of a bonded face of class `face` at a closed contact whose points moved by `path`
+/// within the substep: springs of stiffness k_n and k_s [N/m] as they end. Where there is no
+/// tensile strength nothing pulls.
+[[nodiscard]] BondCorner corner_of(const KeptContact& contact, const GroundClass& face, double k_n,
+                                   double k_s, const Vec3& normal, const Vec3& path);
 
 /// Makes the `rows` of `contacts`, which the search found between block b and the ground, in the
 /// body axes of s.R. `memory`: what the block remembers.

@@ -47,6 +47,7 @@ struct Work {  // clang-format off
   // make_rows, solve_contacts
   std::vector<ContactRow> rows;              ///< of the block at hand
   SoilWork soil;                             ///< beside them
+  std::vector<BondFace> bond_faces;          ///< its bonds with the ground that do not hold
   std::vector<ContactMemory> unbonded;       ///< its memory, less the bonds that its substep breaks
   // apply_impact
   ImpactScratch impact;

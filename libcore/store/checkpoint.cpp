@@ -16,14 +16,15 @@ namespace talus {
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 72 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 136 &&
               sizeof(HealthRow) == 208 + 8 * substep_cut_names.size());
-static_assert(sizeof(State) == 8 + 23 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
-                                   sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState) +
-                                   sizeof(YieldingState) + sizeof(Mishaps));
-static_assert(sizeof(YieldingState) == 3 * 24 && sizeof(Yielded) == 56);
-static_assert(sizeof(StemMet) == 64 && sizeof(StemHit) == 80);
-static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104);
+static_assert(sizeof(State) == 8 + 23 * 24 + sizeof(HitChain) + sizeof(EnergyLedger) +
+                                   sizeof(RunCounters) + sizeof(PairState) + sizeof(PlacedHulls) +
+                                   sizeof(FenceState) + sizeof(YieldingState) + sizeof(Mishaps));
+static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
+static_assert(sizeof(MetBody) == 64 && sizeof(StemHit) == 80);
+static_assert(sizeof(FenceState) == 24 + sizeof(HitChain) && sizeof(HitChain) == 2 * 24);
+static_assert(sizeof(FenceHit) == 104);
 // Of the face of a bond what joints have: they do not give way as ground does.
-static_assert(sizeof(BlockBond) == 16 + sizeof(GroundClass) && sizeof(GroundClass) == 128);
+static_assert(sizeof(BlockBond) == 40 + sizeof(GroundClass) && sizeof(GroundClass) == 128);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
 static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
@@ -51,7 +52,7 @@ void fields(Fields<Archive>& archive, EnergyLedger& ledger) {
 template <class Archive>
 void fields(Fields<Archive>& archive, BlockBond& bond) {
   archive(bond.block_a, bond.block_b, bond.area, bond.face.friction, bond.face.cohesion,
-          bond.face.tension, bond.face.restitution);
+          bond.face.tension, bond.face.restitution, bond.normal);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, FenceHit& hit) {
@@ -60,16 +61,20 @@ void fields(Fields<Archive>& archive, FenceHit& hit) {
           hit.top_height, hit.bottom_height);
 }
 template <class Archive>
+void fields(Fields<Archive>& archive, HitChain& chain) {
+  archive(chain.latest, chain.before);
+}
+template <class Archive>
 void fields(Fields<Archive>& archive, FenceState& fence) {
-  archive(fence.hits);
+  archive(fence.hits, fence.chain);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, Yielded& met) {
   archive(met.work, met.deflection, met.shift, met.broken_at, met.broken_by);
 }
 template <class Archive>
-void fields(Fields<Archive>& archive, StemMet& stem) {
-  archive(stem.stem, stem.met);
+void fields(Fields<Archive>& archive, MetBody& body) {
+  archive(body.yielding, body.met);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, StemHit& hit) {
@@ -78,7 +83,7 @@ void fields(Fields<Archive>& archive, StemHit& hit) {
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, YieldingState& yielding) {
-  archive(yielding.met, yielding.shifted, yielding.stems);
+  archive(yielding.worlds, yielding.shifted);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, DeepBlock& deep) {
@@ -164,7 +169,7 @@ void fields(Fields<Archive>& archive, State& state) {
           state.rest_steps, state.strain, state.strain_rate, state.memory, state.mass, state.pairs,
           state.placed, state.bonds, state.deep, state.slid, state.load, state.crushed,
           state.hit_loss, state.n_hits, state.breaks, state.mishaps, state.yielding, state.fence,
-          state.stem_hits, state.ledger, state.counters);
+          state.stem_hits, state.stem_chain, state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
@@ -229,6 +234,12 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
     return false;
   if (!state.load.empty() && state.load.size() != n_blocks) return false;
   if (!state.mass.empty() && state.mass.size() != n_blocks) return false;
+  for (const auto& [chain, n_hits] : {std::pair{&state.fence.chain, state.fence.hits.size()},
+                                      std::pair{&state.stem_chain, state.stem_hits.size()}})
+    if ((n_hits > 0 && chain->latest.size() != n_blocks) || chain->before.size() != n_hits)
+      return false;
+  const std::size_t n_worlds = state.yielding.worlds.size();
+  if (n_worlds > 1 && n_worlds != n_blocks) return false;
   if (state.hit_loss.size() != state.n_hits.size() ||
       (!state.n_hits.empty() && state.n_hits.size() != n_blocks))
     return false;

@@ -5,8 +5,8 @@
 
 #include "base/error.hpp"
 #include "base/sha256.hpp"
+#include "base/write_bytes.hpp"
 #include "io/h5_hdf5.hpp"
-#include "io/write_bytes.hpp"
 #include "record/part_file.hpp"
 #include "store/run_file_pieces_hdf5.hpp"
 #include "store/run_file_tables_hdf5.hpp"
@@ -15,7 +15,7 @@ namespace talus {
 namespace {
 
 const char* const format_name = "talus-part";
-constexpr std::int64_t format_version = 2;
+constexpr std::int64_t format_version = 3;
 
 // --- what runs share ---------------------------------------------------------------------------
 
@@ -216,6 +216,8 @@ constexpr InfoText info_texts[] = {
     {"status", "done or failed; running: not ended", &RunInfo::status},
     {"reason", "why it failed", &RunInfo::reason},
     {"config", "effective settings as TOML, each with its origin", &RunInfo::config},
+    {"made_with", "options beside the settings, digests of the files read, a line each",
+     &RunInfo::made_with},
     {"plan", "what was computed and what was left out, JSON", &RunInfo::plan},
     {"warnings", "what inputs and settings were warned of, a line each", &RunInfo::warnings}};
 struct InfoNumber {
@@ -225,6 +227,17 @@ struct InfoNumber {
 constexpr InfoNumber info_numbers[] = {
     {"duration_s", "s", "simulated time asked for", &RunInfo::duration},
     {"time_s", "s", "simulated time reached", &RunInfo::time}};
+
+struct InfoFlag {
+  const char *name, *description;
+  bool RunInfo::*field;
+};
+constexpr InfoFlag info_flags[] = {
+    {"independent",
+     "1: each block moved as if it were alone, among fences and trees as at the start",
+     &RunInfo::independent},
+    {"weights_are_frequencies", "1: weights of blocks are events a year",
+     &RunInfo::weights_are_frequencies}};
 
 bool has_objects(const Part& part) {
   return std::any_of(part.objects.begin(), part.objects.end(),
@@ -253,6 +266,11 @@ void write_runs(H5Writer& file, const Part& part) {
     for (const RunFile& run : part.runs) values.push_back(run.info.*number.field);
     file.array<double>(std::string("runs/") + number.name, values, {values.size()}, number.units,
                        number.description);
+  }
+  for (const InfoFlag& flag : info_flags) {
+    std::vector<int> values;
+    for (const RunFile& run : part.runs) values.push_back(run.info.*flag.field ? 1 : 0);
+    put_indices(file, std::string("runs/") + flag.name, values, flag.description);
   }
   std::vector<std::int64_t> seeds;
   for (const RunFile& run : part.runs) seeds.push_back(run.info.seed);
@@ -294,6 +312,11 @@ void read_runs(const H5Reader& file, const std::string& path, Part& part) {
     const std::vector<double> values = file.array<double>(std::string("runs/") + number.name, 1);
     same(number.name, values.size());
     for (std::size_t r = 0; r < values.size(); ++r) part.runs[r].info.*number.field = values[r];
+  }
+  for (const InfoFlag& flag : info_flags) {
+    const std::vector<int> values = file.array<std::int32_t>(std::string("runs/") + flag.name, 1);
+    same(flag.name, values.size());
+    for (std::size_t r = 0; r < values.size(); ++r) part.runs[r].info.*flag.field = values[r] != 0;
   }
   const std::vector<std::int64_t> seeds = file.array<std::int64_t>("runs/seed", 1);
   same("seed", seeds.size());

@@ -6,8 +6,8 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/write_bytes.hpp"
 #include "io/h5_hdf5.hpp"
-#include "io/write_bytes.hpp"
 #include "record/pieces.hpp"
 #include "record/run_file.hpp"
 #include "store/run_file_pieces_hdf5.hpp"
@@ -17,7 +17,7 @@ namespace talus {
 namespace {
 
 const char* const format_name = "talus-run";
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 
 // --- groups ------------------------------------------------------------------------------------
 
@@ -35,6 +35,8 @@ void write_info(H5Writer& file, const RunFile& run) {
   file.attribute("", "blocks_hash", info.blocks_hash);
   file.attribute("", "law", info.law);
   file.attribute("", "seed", info.seed);
+  file.attribute("", "independent", std::int64_t{info.independent});
+  file.attribute("", "weights_are_frequencies", std::int64_t{info.weights_are_frequencies});
   file.attribute("", "status", info.status);
   file.attribute("", "reason", info.reason);
   file.attribute("", "duration_s", info.duration);
@@ -42,9 +44,17 @@ void write_info(H5Writer& file, const RunFile& run) {
   if (!info.terrain_digest.empty())
     file.text("terrain_digest", info.terrain_digest, "of the terrain before the slide");
   file.text("config", info.config, "effective settings as TOML, each with its origin");
+  if (!info.made_with.empty())
+    file.text("made_with", info.made_with,
+              "options beside the settings, digests of the files read, a line each");
   file.text("plan", info.plan, "what was computed and what was left out, JSON");
   if (!info.warnings.empty())
     file.text("warnings", info.warnings, "what inputs and settings were warned of, a line each");
+}
+
+void read_settings(const H5Reader& file, RunInfo& info) {
+  info.config = file.text("config");
+  if (file.has("made_with")) info.made_with = file.text("made_with");
 }
 
 RunInfo read_info(const H5Reader& file, const std::string& path) {
@@ -70,6 +80,8 @@ RunInfo read_info(const H5Reader& file, const std::string& path) {
   info.blocks_hash = file.attribute_text("", "blocks_hash");
   info.law = file.attribute_text("", "law");
   info.seed = file.attribute_integer("", "seed");
+  info.independent = file.attribute_integer("", "independent") != 0;
+  info.weights_are_frequencies = file.attribute_integer("", "weights_are_frequencies") != 0;
   info.status = file.attribute_text("", "status");
   info.reason = file.attribute_text("", "reason");
   if (file.has("warnings")) info.warnings = file.text("warnings");
@@ -269,7 +281,7 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
   RunFile run;
   run.info = read_info(file, path);
   if (parts.words) {
-    run.info.config = file.text("config");
+    read_settings(file, run.info);
     run.info.plan = file.text("plan");
   }
   run.blocks = read_blocks(file, path);
@@ -302,6 +314,7 @@ RunFile read_run_head(const std::string& path) {
   const H5Reader file(path);
   RunFile run;
   run.info = read_info(file, path);
+  read_settings(file, run.info);
   if (file.has("passages")) run.grid = read_grid(file, "passages", path);
   return run;
 }

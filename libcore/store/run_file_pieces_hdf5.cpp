@@ -284,7 +284,7 @@ void check_fences(const RunFile& run, const std::string& path) {
            panel + 1 < static_cast<int>(run.lines[line].points.size());
   };
   for (const PanelRow& row : run.panels)
-    if (!is_known(row.line, row.panel) || row.broken_by >= n_blocks(run))
+    if (!is_known(row.line, row.panel) || row.broken_by >= n_blocks(run) || row.rock < -1)
       throw InputError({path, 0, "fence_panels"}, "a row names a panel that does not exist");
   for (const FenceHit& row : run.fence_hits)
     if (!is_known(row.line, row.panel) || row.block < 0 || row.block >= n_blocks(run))

@@ -518,12 +518,12 @@ using FieldType = std::remove_cvref_t<std::invoke_result_t<Field, Row&>>;
 
 template <class Row, class Columns>
 void write_table(H5Writer& file, const std::string& group, const std::string& description,
-                 std::vector<Row> rows, Columns&& columns) {
+                 const std::vector<Row>& rows, Columns&& columns) {
   file.group(group, description);
   columns([&](const char* name, const char* units, const char* meaning, auto field) {
     std::vector<FieldType<Row, decltype(field)>> values;
     values.reserve(rows.size());
-    for (Row& row : rows) values.push_back(field(row));
+    for (Row row : rows) values.push_back(field(row));  // no copy of all of them
     file.array<FieldType<Row, decltype(field)>>(group + "/" + name, values, {values.size()}, units,
                                                 meaning);
   });
@@ -598,9 +598,31 @@ void write_object_hit_table(H5Writer& file, const std::vector<ObjectHit>& rows) 
               [](auto&& column) { object_hit_columns(column); });
 }
 
+namespace {
+
+// Only where rocks fell one by one.
+template <class Visit>
+void rock_column(Visit&& column) {
+  column(
+      "rock", "1",
+      "released block that alone met the panel so, by its number in the run; -1: as it was at the "
+      "start",
+      [](PanelRow & p) -> auto& { return p.rock; });
+}
+
+}  // namespace
+
 void write_panel_table(H5Writer& file, const std::vector<PanelRow>& rows) {
-  write_table(file, "fence_panels", "one row per panel of the fences that stood, at the end", rows,
-              [](auto&& column) { panel_columns(column); });
+  const bool has_rocks =
+      std::any_of(rows.begin(), rows.end(), [](const PanelRow& row) { return row.rock >= 0; });
+  write_table(file, "fence_panels",
+              has_rocks ? "one row per panel of the fences that stood, and one more per rock that "
+                          "pushed it, as that left it"
+                        : "one row per panel of the fences that stood, at the end",
+              rows, [has_rocks](auto&& column) {
+                panel_columns(column);
+                if (has_rocks) rock_column(column);
+              });
 }
 
 void write_hit_table(H5Writer& file, const std::vector<FenceHit>& rows) {
@@ -676,7 +698,11 @@ std::vector<ObjectHit> read_object_hit_table(const H5Reader& file) {
 }
 
 std::vector<PanelRow> read_panel_table(const H5Reader& file) {
-  return read_table<PanelRow>(file, "fence_panels", [](auto&& column) { panel_columns(column); });
+  const bool has_rocks = file.has("fence_panels/rock");
+  return read_table<PanelRow>(file, "fence_panels", [has_rocks](auto&& column) {
+    panel_columns(column);
+    if (has_rocks) rock_column(column);
+  });
 }
 
 std::vector<FenceHit> read_hit_table(const H5Reader& file) {

@@ -91,7 +91,8 @@ struct RegistryBusy : InputError {
 
 /// Records what a run that still goes on has come to, before the first output is put in place:
 /// content id, inputs named since, outputs, metrics, events, checks. Who finds an output finds its
-/// ancestry and its health, though the run be killed the next moment.
+/// ancestry and its health, though the run be killed the next moment. A run whose row is gone, with
+/// its registry, gets a new one; finish_run does the same.
 void record_results(const std::string& db, const RunRecord& run);
 
 /// Completes the row `run.id`: outcome, times, and all that record_results writes.
@@ -107,13 +108,15 @@ int adopt_runs(const std::string& db, const std::string& other);
 /// What merge_runs did with the runs of other registries.
 struct RegistryMerge {
   int n_added = 0;
-  int n_completed = 0;  ///< were known as running, and have ended since
-  int n_known = 0;      ///< were there already, the same
+  int n_completed = 0;                ///< were known as running, and have ended since
+  int n_known = 0;                    ///< were there already, the same
+  std::vector<std::string> left_out;  ///< why, of each registry that is damaged
 };
 
 /// Takes over all runs of other registries, in the order of their starts, in one transaction: all
 /// or none. A run (tool, host, process, start, folder and command) that is known is not added
-/// again. Throws InputError when two entries of one run that has ended differ.
+/// again. A registry is a log: one that is damaged is left out. Throws InputError when all are, one
+/// is missing, or two entries of one run that has ended differ.
 RegistryMerge merge_runs(const std::string& db, const std::vector<std::string>& others);
 
 /// All runs without their details, in the order of their rows. Throws InputError when `db` does not

@@ -1,9 +1,13 @@
 // store/runs.hpp with SQLite.
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <map>
 
@@ -65,6 +69,18 @@ bool is_empty(SQLite::Database& database) {
   return database.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
 }
 
+// The path in a URI.
+std::string escaped(const std::string& path) {
+  std::string out;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_plain = std::isalnum(byte) || std::strchr("/-_.~", c);
+    constexpr const char* digits = "0123456789ABCDEF";
+    out += is_plain ? std::string(1, c) : std::string{'%', digits[byte / 16], digits[byte % 16]};
+  }
+  return out;
+}
+
 // Two processes may come to an empty file at once: both wait for the write lock, the second finds
 // the tables made.
 void make_tables(SQLite::Database& database) {
@@ -76,7 +92,14 @@ void make_tables(SQLite::Database& database) {
   transaction.commit();
 }
 
+// SQLite would make it writable for its owner alone; its journals have the rights of the file.
+void make_file(const std::string& db) {
+  const int file = ::open(db.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file >= 0) ::close(file);  // else SQLite says why
+}
+
 SQLite::Database open_to_write(const std::string& db, int wait_ms) {
+  make_file(db);
   SQLite::Database database(db, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, wait_ms);
   // The busy handler is not asked when the journal mode changes while another process reads, so
   // the mode is changed only where it is not WAL yet, and tried again until the other one is done.
@@ -97,10 +120,53 @@ SQLite::Database open_to_write(const std::string& db, int wait_ms) {
   return database;
 }
 
+bool may_write(const std::string& path) { return ::access(path.c_str(), W_OK) == 0; }
+
+// A copy in a folder that goes at once: what is open stays.
+SQLite::Database open_copy(const std::string& db) {
+  std::string folder = (std::filesystem::temp_directory_path() / "talus-runs-XXXXXX").string();
+  if (!::mkdtemp(folder.data())) refuse(db, "cannot be copied to " + folder);
+  struct Remover {
+    std::string folder;
+    ~Remover() {
+      std::error_code error;
+      std::filesystem::remove_all(folder, error);
+    }
+  } const remover{folder};
+  const std::string copy = folder + "/runs.sqlite";
+  for (const char* end : {"", "-wal"}) {
+    std::error_code error;
+    std::filesystem::copy_file(db + end, copy + end, error);
+    if (error) refuse(db + end, "cannot be copied to " + folder + ": " + error.message());
+  }
+  SQLite::Database database(copy, SQLite::OPEN_READWRITE, registry_wait_ms());
+  database.exec("SELECT count(*) FROM sqlite_master");
+  return database;
+}
+
+// Whoever may write lets SQLite keep its journal. Others read the file as it is, or, where a
+// process that was killed left a journal, a copy with it.
 SQLite::Database open_there(const std::string& db) {
   if (!std::filesystem::exists(db))
     throw InputError({db}, "there is no such registry", "name it with --db");
-  return {db, SQLite::OPEN_READWRITE, registry_wait_ms()};
+  const std::filesystem::path path = std::filesystem::absolute(db);
+  if (may_write(db) && may_write(path.parent_path().string())) {
+    SQLite::Database database(db, SQLite::OPEN_READWRITE, registry_wait_ms());
+    database.exec("PRAGMA query_only = ON");
+    return database;
+  }
+  try {
+    SQLite::Database database(db, SQLite::OPEN_READONLY, registry_wait_ms());
+    database.exec("SELECT count(*) FROM sqlite_master");
+    return database;
+  } catch (const SQLite::Exception& error) {
+    const int code = error.getErrorCode();
+    if (code != SQLITE_CANTOPEN && code != SQLITE_READONLY) throw;
+  }
+  std::error_code error;
+  if (std::filesystem::file_size(db + "-wal", error) > 0 && !error) return open_copy(db);
+  return {"file:" + escaped(path.string()) + "?immutable=1",
+          SQLite::OPEN_READONLY | SQLite::OPEN_URI, registry_wait_ms()};
 }
 
 SQLite::Database open_to_read(const std::string& db) {
@@ -251,6 +317,22 @@ std::int64_t insert_running(SQLite::Database& database, const RunRecord& run) {
   return id;
 }
 
+// The row of a run that has begun: the one it was given, if that is still its own. Somebody may
+// have removed the registry since, and another run may have that number in the new one.
+std::int64_t row_of(SQLite::Database& database, const RunRecord& run) {
+  SQLite::Statement row(database,
+                        "SELECT id FROM run WHERE tool = ? AND host = ? AND process_id = ? AND "
+                        "started = ? AND folder = ? AND command_line = ? ORDER BY id = ? DESC");
+  row.bind(1, run.tool);
+  row.bind(2, run.host);
+  row.bind(3, run.process_id);
+  row.bind(4, run.started);
+  row.bind(5, run.folder);
+  row.bind(6, run.command_line);
+  row.bind(7, run.id);
+  return row.executeStep() ? row.getColumn(0).getInt64() : insert_running(database, run);
+}
+
 // The row `run.id` as it is now: also of a run that still goes on.
 void complete(SQLite::Database& database, const RunRecord& run) {
   replace_results(database, run);
@@ -300,18 +382,34 @@ struct RunSource {
   std::string db;  ///< that it stands in
 };
 
-std::vector<RunSource> read_sources(const std::vector<std::string>& files) {
+std::vector<RunSource> read_source(const std::string& db) {
+  return with_registry(db, [&] {
+    std::vector<RunSource> sources;
+    SQLite::Database database = open_there(db);
+    if (is_empty(database)) return sources;  // a tool was killed before its first entry
+    check_version(database, db);
+    for (RunRecord& run : read_rows(database)) {
+      read_details(database, run);
+      sources.push_back({std::move(run), db});
+    }
+    return sources;
+  });
+}
+
+// Those that cannot be read are named in `left_out`; all of them: refused.
+std::vector<RunSource> read_sources(const std::vector<std::string>& files,
+                                    std::vector<std::string>& left_out) {
   std::vector<RunSource> sources;
   for (const std::string& db : files) {
-    with_registry(db, [&] {
-      SQLite::Database database = open_there(db);
-      if (is_empty(database)) return;  // a tool was killed before its first entry
-      check_version(database, db);
-      for (RunRecord& run : read_rows(database)) {
-        read_details(database, run);
-        sources.push_back({std::move(run), db});
-      }
-    });
+    try {
+      const std::vector<RunSource> read = read_source(db);
+      sources.insert(sources.end(), read.begin(), read.end());
+    } catch (const RegistryBusy&) {
+      throw;
+    } catch (const InputError& error) {
+      if (!std::filesystem::exists(db) || left_out.size() + 1 == files.size()) throw;
+      left_out.emplace_back(error.what());
+    }
   }
   // Ancestry goes by rows: a run stands below those that made its inputs.
   std::stable_sort(sources.begin(), sources.end(), [](const RunSource& a, const RunSource& b) {
@@ -428,7 +526,9 @@ void record_results(const std::string& db, const RunRecord& run) {
   with_registry(db, [&] {
     SQLite::Database database = open_to_write(db, registry_wait_ms());
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-    replace_results(database, run);
+    RunRecord own = run;
+    own.id = row_of(database, run);
+    replace_results(database, own);
     transaction.commit();
   });
 }
@@ -437,19 +537,23 @@ void finish_run(const std::string& db, const RunRecord& run, int wait_ms) {
   with_registry(db, [&] {
     SQLite::Database database = open_to_write(db, wait_ms);
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-    complete(database, run);
+    RunRecord own = run;
+    own.id = row_of(database, run);
+    complete(database, own);
     transaction.commit();
   });
 }
 
 RegistryMerge merge_runs(const std::string& db, const std::vector<std::string>& others) {
-  const std::vector<RunSource> sources = read_sources(others);
+  std::vector<std::string> left_out;
+  const std::vector<RunSource> sources = read_sources(others, left_out);
   return with_registry(db, [&] {
     SQLite::Database database = open_to_write(db, registry_wait_ms());
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
     RegistryMerger merger(database, db);
     for (const RunSource& source : sources) merger.take(source);
     transaction.commit();
+    merger.merge.left_out = left_out;
     return merger.merge;
   });
 }

@@ -1,8 +1,8 @@
 #include "store/xdmf_hdf5.hpp"
 
 #include "base/text.hpp"
+#include "base/write_bytes.hpp"
 #include "io/h5_hdf5.hpp"
-#include "io/write_bytes.hpp"
 
 namespace talus {
 namespace {

@@ -16,6 +16,8 @@ struct Tin {
   std::string crs_wkt;                        ///< or the EPSG:code of a PLY; empty when unknown
   std::vector<Vec3> points;                   ///< relative to `origin` [m]          (n_points)
   std::vector<std::array<int, 3>> triangles;  ///< indices into `points`           (n_triangles)
+  bool is_judged = false;       ///< talus-tin has judged these very points and triangles
+  std::string accepted_doubts;  ///< places whose heights the user accepted; empty: none
 };
 
 }  // namespace talus

@@ -164,7 +164,7 @@ def outputs_of(folder):
     """Relative names of the files that stand under a final name, without the registry."""
     return sorted(str(f.relative_to(folder)) for f in folder.rglob("*")
                   if f.is_file() and not f.name.startswith((".", "runs.sqlite"))
-                  and ".part" not in f.name)
+                  and ".part" not in str(f.relative_to(folder)))
 
 
 def fault_of_registry(path):

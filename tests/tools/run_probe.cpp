@@ -4,7 +4,7 @@
 //   run-probe DIR N_RUNS [site=NAME] [name=NAME] [version=V] [status=running|failed] [standing=1]
 //             [empty=1] [blocks=N] [step=H] [frames=DT] [seed=K] [height=H] [capacity=KJ|none]
 //             [hits=stopped|held|broken|pile] [moving=1] [still=N] [still_runs=N]
-//             [objects=watched|drawn] [weight=W] [passages=no]
+//             [objects=watched|drawn] [weight=W] [independent=1] [passages=no]
 // Box b of run r (edge 1 m, 2600 kg) starts at rest at x = 11, y = 10 + 6 b and slides with
 // a = 3 m/s2 along the slope for 4 s (24 m), then brakes evenly to rest within 2 s (12 m more); its
 // speed is that of run 0 times 1 + 0.01 r. Written: DIR/slope.tif, DIR/run_<r>.h5, DIR/site.toml.
@@ -12,9 +12,10 @@
 // of the crossing; then it does not cross (stopped), crosses 0.1 s later with half the energy in a
 // panel pushed 100 m (held) or in a broken one (broken), or nothing touches or crosses (pile).
 // objects: a house in the way of box 0, a hut in that of box 2, a shed that nothing reaches;
-// watched by the runs, or drawn in the site file alone. weight: of each box. moving: at the end,
-// all of them. still: the first N boxes, still_runs: all boxes of the first N runs stay where they
-// are. passages=no: the run did not record any. name: of the site file, site: of the runs.
+// watched by the runs, or drawn in the site file alone. weight: of each box, events a year.
+// independent: as with talus-dda --independent. moving: at the end, all of them. still: the first N
+// boxes, still_runs: all boxes of the first N runs stay where they are. passages=no: the run did
+// not record any. name: of the site file, site: of the runs.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -212,6 +213,8 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
   run.crossings = sorted(crossings);
   run.objects = objects.objects;
   run.object_hits = sorted(objects);
+  run.info.independent = number(words, "independent", 0) != 0;
+  run.info.weights_are_frequencies = words.contains("weight");
   if (words.contains("weight"))
     run.blocks.weight.assign(run.blocks.mass.size(), number(words, "weight", 1));
   if (words.contains("hits")) record_hits(run, words.at("hits"));

@@ -157,6 +157,7 @@ Json blocks_json(const BlocksWork& work, const std::string& run_id) {
                  {"shapes", shapes_json(set)},
                  {"n_pairs", set.pair_blocks.size()},
                  {"shared_area_m2", area}};
+  if (!work.accepted_doubts.empty()) report["accepted_places"] = work.accepted_doubts;
   if (work.is_cut()) {
     report["cut"] = cut_json(work);
     report["joints"] = joints_json(work);

@@ -302,6 +302,8 @@ void add_bodies(const PlacedContext& context, const PlacedSettings& section,
     body.spin = vector_of(section.spin_rad_s);
     body.weight = weight_of(section);
     add_body(set, body);
+    // once a year is a frequency too
+    if (has_frequency(section) && set.weight.empty()) set.weight.assign(set.volume.size(), 1);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
+#include "io/judged_heights_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/trn_digest.hpp"
 #include "terrain/terrain_error.hpp"
@@ -123,6 +124,7 @@ int main(int argc, char** argv) {
     work.site = site.load();
     check_site_crs(work.site);
     work.ground = read_trn(o.trn);
+    work.accepted_doubts = accepted_doubts(o.trn);
     check_ground(work, o.trn);
     const std::string terrain_digest = trn_digest(work.ground);
     add_terrain_error(tool, work);

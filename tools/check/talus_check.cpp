@@ -4,7 +4,8 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "io/write_bytes.hpp"
+#include "base/write_bytes.hpp"
+#include "post/hazard/frequency.hpp"
 #include "tools/check/look.hpp"
 #include "tools/check/page.hpp"
 #include "tools/check/words.hpp"
@@ -97,6 +98,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     const Site& site = site_options.load();
     check_site_crs(site);
+    static_cast<void>(hazard_classes(site));  // refused now, not after the runs
     Look look = look_at(tool, site, o.files);
     find_doubts(look);
     probe_look(tool, probe_duration(o, look), look);
@@ -107,7 +109,7 @@ int main(int argc, char** argv) {
       write(tool, o.page,
             check_page(look, tool.run_id(),
                        shipped_data("report/report.css") + shipped_data("check/check.css")));
-    if (!o.report.empty()) write(tool, o.report, report.dump(2) + "\n");
+    if (!o.report.empty()) write(tool, o.report, json_text(report, 2) + "\n");
     for (const Doubt& doubt : look.doubts) tool.record(doubt.key + ": " + doubt.finding);
     if (!o.accept_doubts) refuse_what_cannot_be_meant(site, look);
     tool.result(report, check_text(look, o.n_runs > 0 ? o.n_runs : site.solver.n_runs));

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
+#include <tuple>
 
 #include "base/text.hpp"
 #include "post/fragment_sizes.hpp"
 #include "record/deep_rows.hpp"
+#include "record/pieces.hpp"
 #include "tools/frame/moved_json.hpp"
 
 namespace talus {
@@ -39,7 +40,8 @@ Vec3 mean_displacement(const RunFile& file) {
   return sum / mass;
 }
 
-// Panels that stood, and those that broke, when and by which block.
+// Panels that stood, and those that broke, when and by which block; of rocks that fell one by one
+// as they were at the start, and as each rock left those that it pushed.
 Json fences_on(const Runner& runner) {
   Json list = Json::array();
   for (const PanelRow& row : runner.file.panels) {
@@ -52,6 +54,7 @@ Json fences_on(const Runner& runner) {
       panel["broken_at_s"] = row.broken_at;
       panel["broken_by_block"] = row.broken_by;
     }
+    if (row.rock >= 0) panel["rock"] = row.rock;
     list.push_back(std::move(panel));
   }
   return list;
@@ -72,24 +75,32 @@ std::string broken_panels(const Json& panels) {
   return n == 0 ? words : words + ")";
 }
 
-std::string fence_summary(const Json& report) {
+std::string fence_summary(const Json& report, const RunFile& file) {
   const Json& panels = report["fences"];
   if (panels.empty()) return "";
-  const auto n_broken = std::count_if(panels.begin(), panels.end(),
-                                      [](const Json& p) { return p["broken"].get<bool>(); });
-  return ", " + counted(report["n_fence_hits"].get<std::int64_t>(), "hit") + " on fences, " +
-         std::to_string(n_broken) + " of " +
+  const std::string hits =
+      ", " + counted(report["n_fence_hits"].get<std::int64_t>(), "hit") + " on fences, ";
+  std::set<int> rocks;  // that broke a panel
+  std::int64_t n_broken = 0;
+  for (const PanelRow& row : file.panels)
+    if (row.broken_by >= 0) ++n_broken, rocks.insert(row.rock);
+  if (file.info.independent)
+    return hits + "panels broken by " + std::to_string(rocks.size()) + " of " +
+           counted(count_worlds(worlds_of(file)), "rock") + broken_panels(panels);
+  return hits + std::to_string(n_broken) + " of " +
          counted(static_cast<std::int64_t>(panels.size()), "panel") + " broken" +
          broken_panels(panels);
 }
 
-// Stems that stood, that were hit, and that broke.
+// Stems that stood, that were hit, and that broke; of rocks that fell one by one rock by rock.
 Json trees_on(const RunFile& file) {
-  std::set<std::pair<int, int>> hit, broken;
+  std::set<std::tuple<int, int, int>> hit, broken;  // world, forest, stem
+  const std::vector<int> worlds = worlds_of(file);
   double work = 0;
   for (const TreeHitRow& row : file.tree_hits) {
-    hit.emplace(row.forest, row.stem);
-    if (row.broken_by >= 0) broken.emplace(row.forest, row.stem);
+    const std::tuple stem(worlds[static_cast<std::size_t>(row.hit.block)], row.forest, row.stem);
+    hit.insert(stem);
+    if (row.broken_by >= 0) broken.insert(stem);
     work += row.hit.work;
   }
   std::int64_t n = 0;
@@ -101,9 +112,13 @@ Json trees_on(const RunFile& file) {
           {"work_kj", work / 1e3}};
 }
 
-std::string tree_summary(const Json& report) {
+std::string tree_summary(const Json& report, const RunFile& file) {
   if (!report.contains("trees")) return "";
   const Json& trees = report["trees"];
+  if (file.info.independent)
+    return ", " + counted(trees["n_stems_hit"].get<std::int64_t>(), "hit") + " on the " +
+           counted(trees["n_stems"].get<std::int64_t>(), "stem") + " that each rock met, " +
+           trees["n_stems_broken"].dump() + " of them broken";
   return ", " + trees["n_stems_hit"].dump() + " of " +
          counted(trees["n_stems"].get<std::int64_t>(), "stem") + " hit, " +
          trees["n_stems_broken"].dump() + " broken";
@@ -281,7 +296,7 @@ std::string run_summary(const Json& report, const RunFile& file) {
          (fell < 0 ? "rose " : "fell ") + text(std::abs(fell), 4) + " m, " +
          text(moved_of(displacements(file))) + "; largest speed " + number("largest_speed_m_s") +
          " m/s, " + count("n_passages", "passage") + ", " + count("n_crossings", "crossing") +
-         fence_summary(report) + tree_summary(report) + trouble_summary(report) + "; " +
+         fence_summary(report, file) + tree_summary(report, file) + trouble_summary(report) + "; " +
          text(report["simulated_s_per_cpu_s"].get<double>(), 3) + " s simulated per CPU second";
 }
 

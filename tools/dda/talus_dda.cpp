@@ -105,11 +105,10 @@ RunOptions run_options(const Site& site, const ScenePlan& plan, const Options& o
   return options;
 }
 
-RunFile new_file(const std::string& run_id, const Site& site, const DdaInputs& inputs,
-                 const ScenePlan& plan) {
+RunFile new_file(Tool& tool, const Site& site, const DdaInputs& inputs, const ScenePlan& plan) {
   RunFile file;
   RunInfo& info = file.info;
-  info.run_id = run_id;
+  info.run_id = tool.run_id();
   info.version = build_version;
   info.site = site.info.name;
   info.crs_wkt = inputs.crs_wkt;
@@ -120,8 +119,10 @@ RunFile new_file(const std::string& run_id, const Site& site, const DdaInputs& i
   info.blocks_hash = inputs.parts.blocks.content_hash;
   info.law = site.solver.law;
   info.seed = site.solver.seed;
+  info.weights_are_frequencies = !inputs.parts.blocks.weight.empty();
   info.config = print_config(site);
-  info.plan = plan_json(plan).dump(1);
+  info.made_with = tool.made_with({"trn", "blocks"});  // which have digests of their own
+  info.plan = json_text(plan_json(plan), 1);
   file.forests = inputs.forests;
   file.objects = inputs.objects;
   for (const std::string& line : inputs.warnings)
@@ -322,7 +323,7 @@ int main(int argc, char** argv) {
     check_start(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
     cut_fragments(tool, site, inputs);
-    RunFile file = new_file(tool.run_id(), site, inputs, plan);
+    RunFile file = new_file(tool, site, inputs, plan);
     const BlockSet blocks = inputs.parts.blocks;
     const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
     file.blocks = run_blocks(scene, blocks);

@@ -123,18 +123,18 @@ void add_run(SearchCase& of, const RunFile& run, int index, const std::string& f
 }
 
 // What a run of each class counts so that all count by how often their events happen, 1 on average
-// over all runs; `n`: runs of each. All alike where there is one class, and where each block has a
-// frequency of its own.
+// over all runs; `n`: runs of each. A run of rocks is as many events as their weight.
 std::vector<double> class_factors(const std::vector<HazardRuns>& classes,
                                   const std::vector<int>& n) {
+  if (classes.size() == 1) return {1.0};
   std::vector<double> often;
   double all = 0, n_all = 0;
   for (std::size_t c = 0; c < classes.size(); ++c) {
     const HazardClass& kind = classes[c].kind;
-    if (classes.size() == 1 || kind.kind == FrequencyKind::of_weights)
-      return std::vector<double>(classes.size(), 1.0);
-    often.push_back(kind.kind == FrequencyKind::of_failure ? kind.probability
-                                                           : kind.frequency.value);
+    const double events = kind.of_rocks ? classes[c].basis.over.whole / classes[c].n : 1;
+    often.push_back(
+        (kind.kind == FrequencyKind::of_failure ? kind.probability : kind.frequency.value) /
+        events);
     all += often.back();
     n_all += n[c];
   }
@@ -142,14 +142,20 @@ std::vector<double> class_factors(const std::vector<HazardRuns>& classes,
   return often;
 }
 
-void weigh_classes(RunInputs& runs, const std::vector<HazardRuns>& classes,
-                   std::vector<double>& released, std::vector<SearchCase>& cases) {
+void weigh_classes(RunInputs& runs, std::vector<HazardRuns>& classes, std::vector<double>& released,
+                   std::vector<SearchCase>& cases) {
   std::vector<int> n;
   for (const HazardRuns& of : classes) n.push_back(of.n);
   const std::vector<double> factors = class_factors(classes, n);
   std::vector<double> factor;  // by run
   for (std::size_t c = 0; c < classes.size(); ++c)
     factor.insert(factor.end(), static_cast<std::size_t>(n[c]), factors[c]);
+  for (std::size_t c = 0; c < classes.size(); ++c) {  // shares of what is weighed below
+    ShareBasis& basis = classes[c].basis;
+    for (double& weight : basis.released) weight *= factors[c];
+    basis.over.whole *= factors[c];
+    basis.over.squares *= factors[c] * factors[c];
+  }
   for (std::size_t r = 0; r < factor.size(); ++r) {
     runs.members[r].run_weight *= factor[r];
     runs.members[r].weight *= factor[r];
@@ -267,9 +273,9 @@ void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
   std::set<std::string> standing;
   bool single = true;
   for (const ClassFiles& files : class_files(tool, runs, of_class, classes, site.file)) {
-    HazardRuns of;
-    if (!classes.empty()) of.kind = classes[rates.size()];
-    of.first = static_cast<int>(runs.members.size());
+    HazardClass kind;
+    if (!classes.empty()) kind = classes[rates.size()];
+    const int first = static_cast<int>(runs.members.size());
     runs.read(files.files, "class." + files.name, wanted, [&](RunFile& run, int index) {
       const RunMember& member = runs.members[static_cast<std::size_t>(index)];
       for (SearchCase& search : cases) add_run(search, run, index, where_of(member));
@@ -284,12 +290,7 @@ void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
       released.push_back(member.weight);
       single = single && member.n_blocks <= 1;
     });
-    of.n = static_cast<int>(runs.members.size()) - of.first;
-    const auto first = released.begin() + of.first;
-    of.basis =
-        share_basis(std::vector<double>(first, released.end()), single, runs.last_failed_share(),
-                    units_of({runs.members.begin() + of.first, runs.members.end()}));
-    rates.push_back(std::move(of));
+    rates.push_back(hazard_runs(kind, runs.members, first, runs.last_failed_share()));
   }
   warn_of_standing(tool, standing);
   if (!classes.empty()) weigh_classes(runs, rates, released, cases);
@@ -319,7 +320,7 @@ VerifiedFence read_verified(RunInputs& runs, const std::string& name,
   const std::size_t before = runs.members.size();
   std::vector<double> hits;  // on the object, by run
   bool single = true;
-  runs.read(files, "verified." + name, wanted, [&](RunFile& run, int index) {
+  const auto take = [&](RunFile& run, int index) {
     const RunMember& member = runs.members[static_cast<std::size_t>(index)];
     const std::string file = where_of(member);
     const char* const way_out =
@@ -342,7 +343,8 @@ VerifiedFence read_verified(RunInputs& runs, const std::string& name,
     for (int block = 0; block < n_blocks(run); ++block)
       if (std::isfinite(touched[block])) hits.back() += weight_of(run, block);
     single = single && member.n_blocks <= 1;
-  });
+  };
+  runs.read(files, "verified." + name, wanted, take, RunSettings::with_other_fences);
   const std::vector<RunMember> members(runs.members.begin() + static_cast<std::ptrdiff_t>(before),
                                        runs.members.end());
   const std::vector<double> factor = verified_factors(members, search.classes);

@@ -21,14 +21,12 @@ std::string bounded(double share, const Interval& interval) {
          text(100 * interval.high, 3) + ")";
 }
 
-// Events a year in which runs of `hit` happen; NaN where no frequencies are known.
+// Events a year with a block on the object, in these runs by the weight of such blocks; NaN where
+// no frequencies are known.
 Rate rate_of_runs(const SearchCase& search, const std::vector<RunWeight>& hit) {
-  const bool by_weights = std::any_of(
-      search.classes.begin(), search.classes.end(),
-      [](const HazardRuns& runs) { return runs.kind.kind == FrequencyKind::of_weights; });
-  if (search.classes.empty() || by_weights) return {none, none, none};
+  if (search.classes.empty()) return {none, none, none};
   std::vector<EventRow> rows;
-  for (const RunWeight& run : hit) rows.push_back({0, run.run, 1, 0, 1});
+  for (const RunWeight& run : hit) rows.push_back({0, run.run, 1, 0, run.weight});
   sort_events(rows);
   HazardRates rates(search.classes);
   return rates.above(rows, {})[0];
@@ -37,12 +35,12 @@ Rate rate_of_runs(const SearchCase& search, const std::vector<RunWeight>& hit) {
 std::vector<RunWeight> hit_now(const SearchRuns& runs) {
   std::vector<RunWeight> out;
   for (int r = 0; r < runs.n_runs; ++r)
-    if (runs.n_hits[r] > 0) out.push_back({r, runs.basis.run_weight[r]});
+    if (runs.n_hits[r] > 0) out.push_back({r, runs.weight[r]});
   return out;
 }
 double share_now(const SearchRuns& runs) {
   double weight = 0;
-  for (const RunWeight& run : hit_now(runs)) weight += run.weight;
+  for (const RunWeight& run : hit_now(runs)) weight += runs.basis.run_weight[run.run];
   return std::min(1.0, weight / runs.n_runs);
 }
 double hits_a_run(const SearchRuns& runs) { return weight_on_object(runs) / runs.n_runs; }
@@ -247,7 +245,7 @@ std::string proposal_toml(const Proposal& proposal, const Vec3& origin) {
       line += (i > 0 ? ", [" : "[") + coordinate(at.x()) + ", " + coordinate(at.y()) + "]";
       if (i > 0) longest = std::max(longest, fence.chainage[i] - fence.chainage[i - 1]);
     }
-    out += "[fence.\"" + fence.name + "\"]\nline = [" + line +
+    out += "[fence." + json_text(fence.name) + "]\nline = [" + line +
            "]\nheight_m = " + text(fence.height) + "\ncapacity_kj = " + text(fence.capacity / 1e3) +
            "\npost_spacing_m = " + text(std::ceil(longest * 100 + 1) / 100) + "\nactive = true\n";
   }

@@ -113,12 +113,14 @@ Json post_list(const Fence& fence, const FenceResult& result) {
 Json broken_list(const FenceRunGroup& group, std::size_t fence) {
   Json list = Json::array();
   for (int r = 0; r < n_runs(group); ++r)
-    for (const PanelRow& panel : group.runs[r].at_fence[fence].broken)
+    for (const PanelRow& panel : group.runs[r].at_fence[fence].broken) {
       list.push_back({{"run_id", group.members[r].info.run_id},
                       {"panel", panel.panel},
                       {"broken_at_s", panel.broken_at},
                       {"broken_by_block", panel.broken_by},
                       {"work_kj", panel.work / 1e3}});
+      if (panel.rock >= 0) list.back()["rock"] = panel.rock;
+    }
   return list;
 }
 

@@ -72,7 +72,7 @@ void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResul
               " of the blocks that it stopped were still moving when their run ended; give "
               "talus-dda a longer --duration-s");
   if (result.basis == DesignBasis::first_touches && result.at_basis.n > 0)
-    tool.warn(name + ": " + basis_note(result, fence.settings.name));
+    tool.warn(name + ": " + basis_note(result, fence.settings.name, fell_one_by_one(runs.with)));
   if (result.design.verdict == DesignVerdict::too_few)
     tool.warn(name + ": too few arrivals for the percentiles of the code, " +
               std::to_string(result.at_basis.n) + " of " + std::to_string(result.design.n_needed) +

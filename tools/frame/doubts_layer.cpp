@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/text.hpp"
 #include "io/geopackage_gdal.hpp"
 
 namespace talus {
@@ -11,6 +12,19 @@ double difference_of(const DoubtRow& row) {
   if (z > row.expected_high) return z - row.expected_high;
   return z < row.expected_low ? z - row.expected_low
                               : row.expected_high - row.expected_high;  // 0, or NaN
+}
+
+std::string accepted_places(const std::vector<DoubtRow>& rows) {
+  constexpr std::int64_t most = 20;
+  std::int64_t n = 0;
+  std::string words;
+  for (const DoubtRow& row : rows) {
+    if (row.outcome != "accepted" || ++n > most) continue;
+    words += (words.empty() ? "" : "; ") + row.what + " at " + text(row.place.z(), 8) + " m, x " +
+             text(row.place.x(), 10) + ", y " + text(row.place.y(), 10);
+  }
+  if (n > most) words += "; " + std::to_string(n - most) + " more";
+  return words;
 }
 
 void write_doubts(Tool& tool, const std::string& path, const std::string& crs_wkt,

@@ -27,6 +27,10 @@ struct DoubtRow {
 /// How far the height is off the expected ones; 0 between them, NaN without them [m].
 [[nodiscard]] double difference_of(const DoubtRow& row);
 
+/// Rows that were accepted, in words: "level area at 0 m, x 650000, y 5200100; ...", up to 20 of
+/// them and how many more there are. Empty: none.
+[[nodiscard]] std::string accepted_places(const std::vector<DoubtRow>& rows);
+
 /// Writes the layer `doubts` where a path is given; it stays when the run is refused afterwards.
 void write_doubts(Tool& tool, const std::string& path, const std::string& crs_wkt,
                   const std::vector<DoubtRow>& rows);

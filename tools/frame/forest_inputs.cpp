@@ -171,6 +171,7 @@ std::vector<Stem> drawn_stems(const ForestSection& s, std::optional<Area>& area)
   const std::vector<StockedCell> cells =
       f.nrtrees_raster.empty() ? cells_of_polygon(s, box) : cells_of_rasters(s, box);
   check_number(s, area, cells);
+  say_stocking(s, cells);
   const StandSeed seed{f.seed, f.name, f.new_stand_per_run ? 1 + s.site.solver.seed : 0};
   const PreparedArea prepared(area ? *area : Area{});
   std::vector<DrawnStem> drawn;
@@ -434,6 +435,7 @@ StandingForests read_forests(Tool& tool, const Site& site, const Trn& trn, const
     if (stems.empty() && !(forest.stems_per_ha == 0))
       s.refuse("has no stem on the terrain",
                "check where it lies, and how many stems on a hectare there are");
+    say_stems(s, stems);
     if (!forest.stems_file.empty()) check_apart(s, stems, out);
     if (!start) start.emplace(blocks);
     leave_out_in_blocks(s, *start, stems);
@@ -443,7 +445,6 @@ StandingForests read_forests(Tool& tool, const Site& site, const Trn& trn, const
     face.friction = std::tan(forest.friction_deg * degree);
     out.faces.push_back(face);
     out.stems.insert(out.stems.end(), stems.begin(), stems.end());
-    tool.info(s.name() + ": " + counted(static_cast<std::int64_t>(stems.size()), "stem"));
   }
   return out;
 }

@@ -47,6 +47,7 @@ StandRaster read_raster(const ForestSection& s, const char* key, const std::stri
   read_data(s.tool, s.name() + "." + key, path);
   DemOptions options;
   options.crs_may_be_missing = true;
+  options.has_heights = false;
   const DemFile raster(path, options);
   check_crs(s, raster);
   const GridFrame& whole = raster.frame();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/forest.hpp"
 #include "scene/stand.hpp"
 #include "site/site.hpp"
 #include "terrain/trn.hpp"
@@ -62,5 +63,14 @@ struct StockedCell {
 /// beside the box, and for values that no trees have.
 [[nodiscard]] std::vector<StockedCell> cells_of_rasters(const ForestSection& section,
                                                         const MapBox& box);
+
+/// Says how many stems there are, how thick and how high. Warns where half of them are thinner than
+/// 4 cm or thicker than 120 cm; throws InputError where half are thinner than 1 cm or thicker than
+/// 300 cm, and for trees higher than 130 m.
+void say_stems(const ForestSection& section, const std::vector<Stem>& stems);
+
+/// Says how many stems a hectare the cells have and how many conifers. Warns of so few that they
+/// may be stems a cell; throws InputError for a raster of per cent with shares.
+void say_stocking(const ForestSection& section, const std::vector<StockedCell>& cells);
 
 }  // namespace talus

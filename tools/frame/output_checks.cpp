@@ -1,11 +1,14 @@
 #include "tools/frame/output_checks.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <set>
 
+#include "base/text.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/file_paths.hpp"
 #include "tools/frame/options.hpp"
@@ -23,8 +26,24 @@ void check_folder(const fs::path& folder) {
                      "name another output, or mend the folder's permissions");
 }
 
-void check_output(const OutputOption& output, bool overwrite,
-                  const std::vector<RunArtifact>& inputs) {
+// What a path would belong to if it were kept beside another file, as formats do: under its whole
+// name (map.tif of map.tif.aux.xml), or with another extension, which is left out then.
+struct Owner {
+  std::string file, without_extension;
+};
+
+Owner owner_of(const std::string& path) {
+  for (const char* ending : {".aux.xml", ".ovr", ".msk", "-wal", "-shm", "-journal"})
+    if (path.ends_with(ending)) return {path.substr(0, path.size() - std::strlen(ending)), ""};
+  static const std::set<std::string> extensions = {".prj", ".shx", ".dbf", ".cpg", ".qpj",
+                                                   ".qix", ".sbn", ".sbx", ".aux", ".wld",
+                                                   ".tfw", ".jgw", ".pgw", ".hdr"};
+  const fs::path whole = path;
+  if (!extensions.contains(lower(whole.extension().string()))) return {};
+  return {"", (whole.parent_path() / whole.stem()).string()};
+}
+
+void check_output(const OutputOption& output, bool overwrite, const KeptFiles& kept) {
   const fs::path path = *output.path;
   if (output.is_folder) {
     std::error_code error;
@@ -33,11 +52,41 @@ void check_output(const OutputOption& output, bool overwrite,
     check_folder(path);
     return;
   }
-  check_output_file(path, inputs);
+  check_output_file(path, kept);
   refuse_existing(path, overwrite);
 }
 
 }  // namespace
+
+void KeptFiles::add(const std::string& source, const std::string& finding) {
+  const std::string file = file_behind(file_of(source));
+  if (is_virtual(file)) return;
+  by_path_.emplace(absolute_path(file), finding);
+  struct stat there {};
+  if (stat(file.c_str(), &there) == 0)
+    by_file_.emplace(std::pair(there.st_dev, there.st_ino), finding);
+}
+
+const std::string* KeptFiles::finding_on(const fs::path& output) const {
+  const std::string path = absolute_path(output.string());
+  if (const auto at = by_path_.find(path); at != by_path_.end()) return &at->second;
+  struct stat there {};
+  if (stat(output.c_str(), &there) == 0 && S_ISREG(there.st_mode))
+    if (const auto at = by_file_.find({there.st_dev, there.st_ino}); at != by_file_.end())
+      return &at->second;
+  const Owner owner = owner_of(path);
+  if (const auto at = by_path_.find(owner.file); at != by_path_.end()) return &at->second;
+  if (owner.without_extension.empty()) return nullptr;
+  const auto at = by_path_.lower_bound(owner.without_extension + ".");
+  const bool is_same =
+      at != by_path_.end() && fs::path(at->first).replace_extension() == owner.without_extension;
+  return is_same ? &at->second : nullptr;
+}
+
+void KeptFiles::refuse(const fs::path& output) const {
+  if (const std::string* finding = finding_on(output))
+    throw UsageError({output.string()}, *finding, "name another output");
+}
 
 void check_output_names(const ToolOptions& options) {
   for (const OutputOption& output : options.outputs)
@@ -45,16 +94,14 @@ void check_output_names(const ToolOptions& options) {
       throw CLI::ValidationError(output.option->get_name(), "the name is empty");
 }
 
-void check_output_file(const fs::path& path, const std::vector<RunArtifact>& inputs) {
-  for (const RunArtifact& file : inputs)
-    if (file.path == absolute_path(path.string()))
-      throw UsageError({path.string()}, "is both an input and an output", "name another output");
+void check_output_file(const fs::path& path, const KeptFiles& kept) {
+  kept.refuse(path);
   if (fs::is_directory(path))
     throw InputError({path.string()}, "is a folder, expected a file name to write");
   if (fs::exists(path) && !fs::is_regular_file(path))
     throw InputError({path.string()}, "is no regular file, expected a file name to write",
                      "outputs are written beside it and renamed when they are whole");
-  // Work in progress has a longer name: .NAME.part-HOST-PROCESS.EXT
+  // Work in progress stands in a folder of a longer name: .NAME.part-HOST-PROCESS-XXXXXX
   constexpr std::size_t longest = 160;
   if (path.filename().string().size() > longest)
     throw InputError({path.string()},
@@ -69,13 +116,15 @@ void refuse_existing(const fs::path& path, bool overwrite) {
     throw InputError({path.string()}, "exists already", "give --overwrite to replace it");
 }
 
-void check_outputs(const ToolOptions& options, const std::vector<RunArtifact>& inputs) {
+void check_outputs(const ToolOptions& options, const KeptFiles& kept) {
   std::vector<std::string> seen;
   const std::string registry = options.db.empty() ? "" : absolute_path(options.db);
   if (!registry.empty()) seen.push_back(registry);
+  if (const std::string path = registry_path(options); !path.empty() && !options.no_db)
+    kept.refuse(path);
   for (const OutputOption& output : options.outputs) {
     if (output.path->empty()) continue;
-    check_output(output, options.overwrite, inputs);
+    check_output(output, options.overwrite, kept);
     const std::string path = absolute_path(*output.path);
     if (std::find(seen.begin(), seen.end(), path) != seen.end())
       throw UsageError({*output.path},

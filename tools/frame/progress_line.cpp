@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "base/text.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace talus {
 namespace {
@@ -79,12 +79,11 @@ void ProgressLine::print_line(double share, double left_s) const {
 }
 
 void ProgressLine::print_object(double share, double left_s) const {
-  nlohmann::ordered_json object;
+  Json object;
   if (!label_.empty()) object["label"] = label_;
   object["progress"] = std::floor(1e4 * share) / 1e4;
   if (left_s >= 0) object["eta_s"] = static_cast<long long>(left_s);
-  std::cerr << object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
-            << std::endl;
+  std::cerr << json_text(object) << std::endl;
 }
 
 void ProgressLine::end() {

@@ -113,16 +113,22 @@ struct RunInputs::Found {
 };
 
 RunInputs::Found RunInputs::look_at(const std::vector<std::string>& paths, const RunParts& parts,
-                                    bool at_once) {
+                                    bool at_once, SettingsCheck& settings) {
   Found found;
+  RunParts with_words = parts;
+  with_words.words = true;
   const ProgressFunction progress = tool_.progress();
   const auto add = [&](const std::string& name, RunFile&& run, const Place& place) {
     found.members.push_back(member_of(name, run));
     if (place.part >= 0) found.members.back().part = part_files_[place.part];
     check_member(found.members.back(), members.empty() ? found.members.front() : members.front(),
                  set_options_);
+    settings.add(name, where_of(found.members.back()), run.info);
     found.places.push_back(place);
     if (!at_once || place.part >= 0) run = {};
+    if (!parts.words)
+      for (std::string* words : {&run.info.config, &run.info.made_with, &run.info.plan})
+        std::string().swap(*words);
     std::vector<HealthRow>().swap(run.health);
     found.runs.push_back(std::move(run));
   };
@@ -136,7 +142,7 @@ RunInputs::Found RunInputs::look_at(const std::vector<std::string>& paths, const
       parts_.back().member.assign(static_cast<std::size_t>(n_runs(part)), -1);
       for (int r = 0; r < n_runs(part); ++r) add(part.name[r], run_of(part, r), {p, r});
     } else {
-      add(path, at_once ? read_run_file(path, parts) : read_run_head(path), {});
+      add(path, at_once ? read_run_file(path, with_words) : read_run_head(path), {});
     }
     progress(static_cast<double>(++n_read) / static_cast<double>(paths.size()));
   }
@@ -205,12 +211,16 @@ void RunInputs::check_reach(const RunFile& run, const RunMember& member) const {
 }
 
 void RunInputs::read(const std::vector<std::string>& paths, const std::string& role,
-                     const RunParts& parts, const std::function<void(RunFile&, int)>& take) {
+                     const RunParts& parts, const std::function<void(RunFile&, int)>& take,
+                     RunSettings settings) {
   const bool is_first = set_options_.trn_sha256.empty();
   if (is_first)
     set_options_ = {allow_unfinished, trn_file, sha256_of_file(trn_file), trn_digest(trn())};
   const bool at_once = parts.only_last_frame && bytes_of(paths) <= most_at_once;
-  Found found = look_at(paths, parts, at_once);
+  SettingsCheck check =
+      settings == RunSettings::with_other_fences ? settings_.for_other_fences() : SettingsCheck();
+  Found found = look_at(paths, parts, at_once, check);
+  settings_.merge(check);
   take_one_case(found);
   static_cast<void>(order_by_id(found.members));  // the same run twice
   tool_.content_read(role, content_of(found.members));

@@ -8,6 +8,7 @@
 
 #include "io/geopackage_gdal.hpp"
 #include "io/raster_gdal.hpp"
+#include "post/made_with.hpp"
 #include "post/maps/map_places.hpp"
 #include "post/run_set.hpp"
 #include "record/part_file.hpp"
@@ -23,6 +24,12 @@ struct PartInput {
 
 /// What runs are read for: to say something of them, or to keep them, with all that failed.
 enum class RunUse { evaluated, reduced };
+
+/// How the settings of a set of runs compare with those of the sets before it (SettingsCheck).
+enum class RunSettings {
+  of_their_own,       ///< other cases, or runs to compare with
+  with_other_fences,  ///< as before, but for the fences
+};
 
 class RunInputs {
  public:
@@ -44,7 +51,8 @@ class RunInputs {
   /// up to 200 MB of files. Failed runs within --max-failed-share are left out. `role` names the
   /// set for run_id(). Throws InputError; Interrupted between two files.
   void read(const std::vector<std::string>& paths, const std::string& role, const RunParts& parts,
-            const std::function<void(RunFile&, int)>& take);
+            const std::function<void(RunFile&, int)>& take,
+            RunSettings settings = RunSettings::of_their_own);
   void read(const RunParts& parts, const std::function<void(RunFile&, int)>& take) {
     read(files(), "runs", parts, take);
   }
@@ -98,7 +106,7 @@ class RunInputs {
   };
   struct Found;
   [[nodiscard]] Found look_at(const std::vector<std::string>& paths, const RunParts& parts,
-                              bool at_once);
+                              bool at_once, SettingsCheck& settings);
   void leave_out_failed(Found& found, bool is_first);
   void take_one_case(Found& found) const;
   void weigh(std::vector<RunMember>& found, bool is_first);
@@ -109,6 +117,7 @@ class RunInputs {
 
   Tool& tool_;
   RunSetOptions set_options_;
+  SettingsCheck settings_;  // of the sets read so far
   Trn trn_;
   bool has_trn_ = false;
   std::vector<std::string> files_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
+#include <map>
 #include <utility>
 
 #include "base/sha256.hpp"
@@ -19,6 +20,17 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* late_mark = ".late-";
+
+// Role and digest of all that was read. Results do not depend on the order in which several inputs
+// of one option are named.
+std::vector<std::pair<std::string, std::string>> contents_of(const RunRecord& record,
+                                                             const RunIdParts& parts) {
+  std::vector<std::pair<std::string, std::string>> contents = parts.contents;
+  for (const RunArtifact& file : record.inputs)
+    if (!parts.left_out.contains(file.role)) contents.emplace_back(file.role, file.sha256);
+  std::sort(contents.begin(), contents.end());
+  return contents;
+}
 
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
@@ -55,13 +67,21 @@ std::string content_id(const RunRecord& record, const RunIdParts& parts) {
   add(record.version);
   for (const RunParam& param : record.params)
     if (!parts.left_out.contains(param.key)) add(param.key), add(param.value);
-  // Results do not depend on the order in which several inputs of one option are named.
-  std::vector<std::pair<std::string, std::string>> contents = parts.contents;
-  for (const RunArtifact& file : record.inputs)
-    if (!parts.left_out.contains(file.role)) contents.emplace_back(file.role, file.sha256);
-  std::sort(contents.begin(), contents.end());
-  for (const auto& [role, sha256] : contents) add(role), add(sha256);
+  for (const auto& [role, sha256] : contents_of(record, parts)) add(role), add(sha256);
   return hash.hex().substr(0, 16);
+}
+
+std::string made_with_text(const RunRecord& record, const RunIdParts& parts,
+                           const std::set<std::string>& left_out) {
+  std::string out;
+  for (const RunParam& param : record.params)
+    if (!parts.left_out.contains(param.key) && param.key.find('.') == std::string::npos)
+      out += "--" + param.key + " = " + param.value + "\n";
+  std::map<std::string, std::string> files;  // several of one role stand in one line
+  for (const auto& [role, sha256] : contents_of(record, parts))
+    if (!left_out.contains(role)) files[role] += (files[role].empty() ? "" : " ") + sha256;
+  for (const auto& [role, digests] : files) out += "file " + role + " = " + digests + "\n";
+  return out;
 }
 
 std::string late_registry(const std::string& db) {

@@ -27,6 +27,11 @@ struct RunIdParts {
 /// Digest of tool, version, settings and contents of the inputs (16 digits).
 [[nodiscard]] std::string content_id(const RunRecord& record, const RunIdParts& parts);
 
+/// What content_id() counts beside keys of the site file ("section.key"), a line each: options as
+/// "--name = value", contents as "file role = digest"; without the roles of `left_out`.
+[[nodiscard]] std::string made_with_text(const RunRecord& record, const RunIdParts& parts,
+                                         const std::set<std::string>& left_out);
+
 /// Where the entry of this process stands when its registry cannot be written.
 [[nodiscard]] std::string late_registry(const std::string& db);
 

@@ -9,6 +9,7 @@
 #include "io/blocks_hdf5.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
+#include "io/judged_heights_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/trn_digest.hpp"
 #include "scene/site_fence.hpp"
@@ -228,6 +229,10 @@ DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
   DdaInputs inputs;
   SceneParts& parts = inputs.parts;
   parts.trn = read_trn(files.trn);
+  if (const std::string accepted = accepted_doubts(files.trn); !accepted.empty()) {
+    inputs.warnings.push_back("heights of the terrain that were accepted: " + accepted);
+    tool.warn(inputs.warnings.back());
+  }
   const Vec2 place = parts.trn.origin.head<2>() + parts.trn.node0;
   const CrsProblem problem = find_crs_problem(parts.trn.crs_wkt, place);
   if (!parts.trn.crs_wkt.empty() && !problem.finding.empty())

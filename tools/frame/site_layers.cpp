@@ -30,6 +30,21 @@ void check_field(const std::string& field, const std::vector<std::string>& keys,
                      "did you mean " + nearest + "? Rename the field, or empty it");
 }
 
+// A file may hold layers of its own, which are named; one that is nearly that of a section is a
+// mistake. Case does not count, as in the file itself.
+void check_layers(Tool& tool, const std::string& path, const std::vector<std::string>& known) {
+  std::string others;
+  for (const std::string& layer : layers_of(path)) {
+    const std::string name = lower(layer);
+    if (std::count(known.begin(), known.end(), name) > 0) continue;
+    if (const std::string nearest = nearest_name(name, known); !nearest.empty())
+      throw InputError({path}, "has a layer " + layer + " that stands for no section",
+                       "did you mean " + nearest + "? Rename the layer, or take it out");
+    others += (others.empty() ? "" : ", ") + layer;
+  }
+  if (!others.empty()) tool.info(path + ": layers that stand for no section: " + others);
+}
+
 std::string name_of(const FeatureTable& table, const FeatureTable::Row& row,
                     const std::string& place) {
   const auto at = std::find(table.fields.begin(), table.fields.end(), name_field);
@@ -111,6 +126,7 @@ void read_site_layers(Tool& tool, Site& site) {
   tool.read_by_content(path);
   std::vector<std::string> names;
   for (const SiteLayer& layer : site_layers()) names.push_back(layer.name);
+  check_layers(tool, path, names);
   const std::vector<FeatureTable> tables = read_feature_tables(path, names);
   if (tables.empty())
     throw InputError(where, path + " has none of the layers that stand for sections",

@@ -15,6 +15,7 @@
 #include "site/uncertainty.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/options.hpp"
+#include "tools/frame/site_files.hpp"
 #include "tools/frame/site_layers.hpp"
 
 namespace talus {
@@ -69,14 +70,16 @@ class SiteOptions {
     if (site_) return *site_;
     Site site = additions_.empty() ? read_site(file_) : parse_site(with_additions(), file_);
     read_site_layers(tool_, site);
+    keep_files(site);
     for (const std::string& word : overrides_) {
-      const std::size_t equals = word.find('=');
+      const std::size_t equals = end_of_key(site, word);
       if (equals == std::string::npos)
         throw UsageError({"", 0, "--set"}, "\"" + word + "\" is not section.key=value",
                          "e.g. --set source.depth_m=12");
       from_command_line(
           [&] { override_value(site, word.substr(0, equals), word.substr(equals + 1)); });
     }
+    keep_files(site);
     if (!site.info.layers.empty())
       throw UsageError({"", 0, "--set"}, "cannot name site.layers", "name it in the site file");
     check_uncertainty(site);
@@ -91,6 +94,11 @@ class SiteOptions {
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
  private:
+  // Also what --set puts others in the place of.
+  void keep_files(const Site& site) const {
+    for (const std::string& file : files_named(site)) tool_.keep(file);
+  }
+
   [[nodiscard]] std::string with_additions() const {
     std::string text = read_file(file_, "give the path of a site.toml");
     for (const std::string& file : additions_) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "io/areas_gdal.hpp"
 #include "io/buffer_gdal.hpp"
@@ -25,15 +26,18 @@ void bring_to_ground(Tool& tool, const Site& site, const Trn& ground, const std:
       site.info.crs.empty() ? std::string() : crs_from_user(site.info.crs, "site.crs");
   const std::string crs = said.empty() ? ground.crs_wkt : said;
   const Where where = where_of(site, key);
-  CrsExtent place{crs, window_of(points), ground.crs_wkt};
+  CrsExtent place{crs, window_of(points, crs), ground.crs_wkt};
   place.crs_said_in = said.empty() ? "the terrain" : "crs of [site]";
   for (const std::string& warning : check_place(place, where)) tool.warn(warning);
   if (same_crs(crs, ground.crs_wkt)) return;
-  const CrsOperation operation = find_operation(crs, ground.crs_wkt, window_of(points), where);
+  const CrsOperation operation = find_operation(crs, ground.crs_wkt, place.extent, where);
   if (!carry_out(operation, points))
     throw InputError(
         where, "cannot be reprojected from " + crs_name(crs) + " to " + crs_name(ground.crs_wkt),
         "check crs of [site]: it is that of the coordinates in the site file");
+  Sha256 hash;
+  for (const Vec3& point : points) hash.add(point.data(), sizeof point);
+  tool.content_read(key, hash.hex());
   tool.info(key + ": " + sentence_on(operation));
   tool.record(key + ": " + sentence_on(operation));
   if (const std::string doubt = doubt_on(operation); !doubt.empty()) tool.warn(key + ": " + doubt);

@@ -20,6 +20,7 @@ namespace talus {
 struct BlocksWork {
   Site site;
   Trn ground;                    ///< before the slide
+  std::string accepted_doubts;   ///< places of the ground that the user accepted, in words
   Area area;                     ///< polygon of [source]; empty without one
   std::vector<PlannedSet> sets;  ///< of [joints.*]; from here to `expected`: only where is_cut()
   FailurePlanes planes;          ///< of the sets: of a daylighting surface only

@@ -50,38 +50,32 @@ void remove_leftovers(const fs::path& folder, const std::string& begin) {
   }
 }
 
-// A path without its last extension, be it the final or the temporary one.
-std::string without_extension(const StagedFile& file, const std::string& path) {
-  return path.substr(0, path.size() - fs::path(file.path).extension().string().size());
-}
-
-// What GDAL puts beside a temporary file (NAME.tif.aux.xml, NAME.tfw, NAME.gpkg-journal): the
-// endings that follow the name that they share.
-std::vector<std::string> endings_beside(const StagedFile& file,
-                                        const std::vector<StagedFile>& all) {
-  const std::string begin = without_extension(file, file.temporary);
-  std::vector<std::string> endings;
+// What stands in the hidden folder of a file: the file itself, and what GDAL has put beside it
+// (NAME.tif.aux.xml, NAME.tfw, NAME.gpkg-journal). All have their final names already.
+std::vector<std::string> names_in_folder(const StagedFile& file) {
+  std::vector<std::string> names;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder_of(begin), error)) {
-    const std::string path = (folder_of(begin) / entry.path().filename()).string();
-    if (!path.starts_with(begin) || path.size() == begin.size()) continue;
-    const bool is_output = std::any_of(all.begin(), all.end(),
-                                       [&](const StagedFile& s) { return s.temporary == path; });
-    if (is_output) continue;
-    if (path[begin.size()] == '.' || path[begin.size()] == '-')
-      endings.push_back(path.substr(begin.size()));
-  }
-  return endings;
+  for (const auto& entry : fs::directory_iterator(folder_of(file.temporary), error))
+    names.push_back(entry.path().filename().string());
+  return names;
 }
 
 }  // namespace
 
 std::string temporary_name(const fs::path& path) {
-  std::string begin = ".";
-  begin.append(path.stem().string()).append(".part-").append(host_name()).append("-");
+  const std::string begin = "." + path.stem().string() + ".part-" + host_name() + "-";
   remove_leftovers(folder_of(path), begin);
-  return (folder_of(path) / (begin + std::to_string(getpid()) + path.extension().string()))
-      .string();
+  std::string folder = (folder_of(path) / (begin + std::to_string(getpid()) + "-XXXXXX")).string();
+  if (mkdtemp(folder.data()) == nullptr)
+    throw InputError({path.string()},
+                     std::string("no folder can be made beside it: ") + std::strerror(errno));
+  return (fs::path(folder) / path.filename()).string();
+}
+
+std::vector<std::string> final_names(const StagedFile& file) {
+  std::vector<std::string> names = names_in_folder(file);
+  for (std::string& name : names) name = (folder_of(file.path) / name).string();
+  return names;
 }
 
 std::vector<StagedFile> in_order_of_commit(const std::vector<StagedFile>& staged,
@@ -95,24 +89,25 @@ std::vector<StagedFile> in_order_of_commit(const std::vector<StagedFile>& staged
 void put_in_place(const std::vector<StagedFile>& files, const timespec& time) {
   const timespec times[2] = {time, time};
   for (const StagedFile& file : files) {
-    if (!fs::exists(file.temporary)) continue;
+    const fs::path hidden = folder_of(file.temporary);
+    if (!fs::exists(file.temporary)) {
+      remove_staged({file});
+      continue;
+    }
     utimensat(AT_FDCWD, file.temporary.c_str(), times, 0);
     sync_path(file.temporary, O_RDONLY);
-    for (const std::string& ending : endings_beside(file, files))
-      rename_over(without_extension(file, file.temporary) + ending,
-                  without_extension(file, file.path) + ending);
+    for (const std::string& name : names_in_folder(file))
+      if (name != fs::path(file.temporary).filename())
+        rename_over((hidden / name).string(), (folder_of(file.path) / name).string());
     rename_over(file.temporary, file.path);
+    rmdir(hidden.c_str());
     sync_path(folder_of(file.path).string(), O_RDONLY | O_DIRECTORY);
   }
 }
 
 void remove_staged(const std::vector<StagedFile>& files) {
   std::error_code error;
-  for (const StagedFile& file : files) {
-    fs::remove_all(file.temporary, error);
-    for (const std::string& ending : endings_beside(file, files))
-      fs::remove_all(without_extension(file, file.temporary) + ending, error);
-  }
+  for (const StagedFile& file : files) fs::remove_all(folder_of(file.temporary), error);
 }
 
 std::string with_final_names(std::string words, const std::vector<StagedFile>& files) {

@@ -1,6 +1,6 @@
 // tools/frame/staged_files.hpp
-// Outputs on their way: written to a hidden name in the folder of the output, and put in place when
-// all of a run are whole.
+// Outputs on their way: written in a hidden folder of their own beside the output, and put in place
+// when all of a run are whole.
 // in:    paths of outputs
 // out:   files in their places with equal times, or none of them
 #pragma once
@@ -17,8 +17,9 @@ struct StagedFile {
   std::string path;       ///< where it will be
 };
 
-/// A hidden name beside `path`, with its extension, host and process in it. Removes what a killed
-/// run of this host left under the same name.
+/// The name of `path` in a new hidden folder beside it, .NAME.part-HOST-PROCESS-..., that nobody
+/// else can write into: whatever opens a file there by its name meets no link of another user.
+/// Removes the folders that killed runs of this host left for the same name. Throws InputError.
 [[nodiscard]] std::string temporary_name(const std::filesystem::path& path);
 
 /// The order in which outputs come in place: the one staged first is last, or `main` where it is
@@ -26,12 +27,15 @@ struct StagedFile {
 [[nodiscard]] std::vector<StagedFile> in_order_of_commit(const std::vector<StagedFile>& staged,
                                                          const std::string& main);
 
+/// Where `file` and what GDAL has put beside it will be.
+[[nodiscard]] std::vector<std::string> final_names(const StagedFile& file);
+
 /// Syncs and renames `files` in their order, with what GDAL has put beside them; `time` becomes the
 /// last change of each, so that make sees none as older than another. What was not written is
 /// passed over. Throws InputError when one cannot be put in place.
 void put_in_place(const std::vector<StagedFile>& files, const timespec& time);
 
-/// Removes the temporary files, with what GDAL has put beside them.
+/// Removes the temporary files with their folders.
 void remove_staged(const std::vector<StagedFile>& files);
 
 /// Names outputs as the user did, not by where they were written for now.

@@ -13,7 +13,9 @@
 
 #include "base/memory.hpp"
 #include "base/network.hpp"
+#include "base/printable.hpp"
 #include "base/text.hpp"
+#include "base/write_bytes.hpp"
 #include "store/runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/exit_code.hpp"
@@ -78,6 +80,10 @@ constexpr const char* by_content_role = "by content";
 
 }  // namespace
 
+std::string json_text(const Json& json, int indent) {
+  return printable_json(json.dump(indent, ' ', false, Json::error_handler_t::replace));
+}
+
 struct Tool::Impl {
   std::string name;
   CLI::App app;
@@ -90,6 +96,8 @@ struct Tool::Impl {
   std::vector<std::string> check_hints;  // of record.checks
   RunIdParts id_parts;
   std::set<std::string> by_content;  // files of read_by_content()
+  KeptFiles kept;
+  bool are_outputs_checked = false;
   Json result;
   Json layers_read = Json::array();
   std::string summary;
@@ -109,7 +117,8 @@ struct Tool::Impl {
 
   void say(const char* level, const std::string& text) {
     progress_line.end();
-    std::cerr << (options.messages == "json" ? as_object(level, text) : as_words(level, text))
+    std::cerr << (options.messages == "json" ? as_object(level, text)
+                                             : as_words(level, printable(text)))
               << std::endl;
   }
 
@@ -120,10 +129,10 @@ struct Tool::Impl {
   }
 
   std::string as_object(const std::string& level, const std::string& text) const {
-    nlohmann::ordered_json object = {{"level", level}, {"tool", name}};
+    Json object = {{"level", level}, {"tool", name}};
     if (!options.label.empty()) object["label"] = options.label;
     object["text"] = text;
-    return object.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_text(object);
   }
 
   std::string labelled(const std::string& text) const {
@@ -131,7 +140,7 @@ struct Tool::Impl {
   }
 
   void event(const std::string& level, const std::string& text) {
-    record.events.push_back({seconds_since_start(), level, text});
+    record.events.push_back({seconds_since_start(), level, printable(text)});
   }
 
   void add_input(const std::string& role, const std::string& path) {
@@ -142,6 +151,15 @@ struct Tool::Impl {
     record.inputs.push_back(artifact_of(role, file));
     for (const std::string& member : sidecars_of(file))
       if (fs::exists(member)) record.inputs.push_back(artifact_of(role, member));
+    keep(file, "is both an input and an output");
+  }
+
+  // The body may name further files when outputs have been looked at.
+  void keep(const std::string& path, const std::string& finding) {
+    kept.add(path, finding);
+    if (!are_outputs_checked) return;
+    for (const OutputOption& output : options.outputs)
+      if (!output.is_folder && !output.path->empty()) kept.refuse(*output.path);
   }
 
   void add_inputs() {
@@ -170,7 +188,8 @@ struct Tool::Impl {
       record.params.push_back({value.key, value.value, value.source});
     add_parts_of_inputs();
     add_inputs();
-    check_outputs(options, record.inputs);
+    check_outputs(options, kept);
+    are_outputs_checked = true;
     register_run();
   }
 
@@ -247,6 +266,8 @@ struct Tool::Impl {
     const std::vector<OutputOption>& outputs = options.outputs;
     const std::vector<StagedFile> files =
         in_order_of_commit(staged, outputs.empty() ? "" : *outputs.front().path);
+    for (const StagedFile& file : files)
+      for (const std::string& path : final_names(file)) kept.refuse(path);
     record_outputs(files);
     put_in_place(files, now);
     in_place = true;
@@ -259,9 +280,9 @@ struct Tool::Impl {
       for (const RunEvent& e : record.events)
         if (e.level == "warning") warnings.push_back(e.text);
       if (!warnings.empty()) result["warnings"] = warnings;
-      std::cout << result.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+      std::cout << json_text(result, 2) << '\n';
     } else if (!options.json && !options.quiet && !summary.empty()) {
-      std::cout << labelled(summary) << '\n';
+      std::cout << labelled(printable(summary)) << '\n';
     }
     if (!std::cout.flush()) throw InputError({"standard output"}, "cannot be written");
   }
@@ -287,7 +308,7 @@ struct Tool::Impl {
   }
 
   int fail(int code, std::string what, const std::string& hint) {
-    what = with_final_names(std::move(what), staged);
+    what = printable(with_final_names(std::move(what), staged));
     if (code == input_unusable) keep_places();
     remove_staged(staged);
     staged.clear();
@@ -301,7 +322,7 @@ struct Tool::Impl {
   void say_hint(const std::string& hint) {
     if (hint.empty()) return;
     say(hint_level, hint);
-    hints.insert(hint);
+    hints.insert(printable(hint));
   }
 
   // For who started many runs and lists what became of them.
@@ -310,11 +331,16 @@ struct Tool::Impl {
     std::error_code error;
     fs::remove(options.failures, error);
     if (code == done) return;
-    std::ofstream file(options.failures);
-    const char* outputs = in_place ? "kept\t" : "none\t";
-    for (const std::string& what : failures) file << outputs << one_line(what) << '\n';
-    for (const std::string& hint : hints) file << "hint\t" << one_line(hint) << '\n';
-    if (!file.flush()) say(error_level, options.failures + ": cannot be written");
+    std::string lines;
+    for (const std::string& what : failures)
+      lines += (in_place ? "kept\t" : "none\t") + one_line(what) + "\n";
+    for (const std::string& hint : hints) lines += "hint\t" + one_line(hint) + "\n";
+    try {
+      write_bytes(options.failures,
+                  {reinterpret_cast<const unsigned char*>(lines.data()), lines.size()});
+    } catch (const InputError& unwritten) {
+      say(error_level, unwritten.what());
+    }
   }
 
   int guarded(const std::function<int()>& work) {
@@ -418,7 +444,7 @@ void Tool::more_config(std::function<std::vector<ConfigValue>()> settings) {
 }
 
 void Tool::write_also(const std::string& path, bool may_exist) {
-  check_output_file(path, impl_->record.inputs);
+  check_output_file(path, impl_->kept);
   for (const OutputOption& output : impl_->options.outputs)
     if (!output.path->empty() && absolute_path(*output.path) == absolute_path(path))
       throw InputError({path}, "is named for two outputs", "give each its own name");
@@ -426,6 +452,7 @@ void Tool::write_also(const std::string& path, bool may_exist) {
 }
 
 std::string Tool::stage(const std::string& path) {
+  impl_->kept.refuse(path);
   refuse_existing(path, impl_->options.overwrite);
   impl_->staged.push_back({temporary_name(path), path});
   return impl_->staged.back().temporary;
@@ -445,6 +472,10 @@ void Tool::write_text(const std::string& path, const std::string& content) {
 
 void Tool::read_also(const std::string& role, const std::string& path) {
   impl_->add_input(role, path);
+}
+
+void Tool::keep(const std::string& path) {
+  impl_->keep(path, "is both an output and a file that the site file names");
 }
 
 ProgressFunction Tool::progress() {
@@ -479,7 +510,7 @@ void Tool::warn(const std::string& text) {
 }
 
 void Tool::layer_read(Json entry) {
-  impl_->event("info", "read " + entry.dump(-1, ' ', false, Json::error_handler_t::replace));
+  impl_->event("info", "read " + json_text(entry));
   impl_->layers_read.push_back(std::move(entry));
 }
 
@@ -502,8 +533,7 @@ void Tool::result(Json result, const std::string& summary) {
   ToolOptions& options = impl_->options;
   if (options.json_option == nullptr) return;
   if (!options.json_path->empty())
-    write_text(*options.json_path,
-               impl_->result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_text(*options.json_path, json_text(impl_->result, 2) + "\n");
   else if (options.json_option->count() > 0)
     options.json = true;
 }
@@ -515,6 +545,10 @@ std::string Tool::registry() const { return registry_path(impl_->options); }
 std::string Tool::run_id() {
   impl_->complete_content_id();
   return impl_->record.content_id;
+}
+
+std::string Tool::made_with(const std::set<std::string>& left_out) const {
+  return made_with_text(impl_->record, impl_->id_parts, left_out);
 }
 
 void Tool::content_read(const std::string& role, const std::string& digest) {
@@ -544,10 +578,11 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     impl.options.label.clear();
     impl.say(error_level, error.what());
     impl.say(hint_level, impl.name + " --help");
-    impl.failures.push_back(error.what());
+    impl.failures.push_back(printable(error.what()));
     impl.write_failures(usage_wrong);
     return usage_wrong;
   }
+  impl.options.label = printable(impl.options.label);
   if (impl.options.network) allow_network();
   constexpr double megabyte = 1e6;
   limit_memory(impl.options.memory_mb * megabyte);

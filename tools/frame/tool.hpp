@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ class Option;
 namespace talus {
 
 using Json = nlohmann::ordered_json;
+
+/// JSON as text that may reach a file or a terminal, whatever bytes its texts came with.
+[[nodiscard]] std::string json_text(const Json& json, int indent = -1);
 
 /// null for NaN and infinity, which JSON does not have.
 [[nodiscard]] inline Json number_or_null(double value) {
@@ -86,6 +90,8 @@ class Tool {
   void write_text(const std::string& path, const std::string& content);
   /// A file that was read but is not an option's value (named in a site file, member of a set).
   void read_also(const std::string& role, const std::string& path);
+  /// A file that the site file names, whether or not it is read: no output may be it.
+  void keep(const std::string& path);
   /// A file whose bytes do not count for run_id(), since content_read() says what was read of it;
   /// call it before read_also() names the file.
   void read_by_content(const std::string& path);
@@ -118,6 +124,9 @@ class Tool {
   void leave_out_of_run_id(const std::vector<std::string>& names);
   /// Digest of tool, version, options and input contents (16 digits); it stands in outputs' tags.
   [[nodiscard]] std::string run_id();
+  /// What run_id() counts beside the site file's values, a line each (made_with_text), without
+  /// inputs of these roles.
+  [[nodiscard]] std::string made_with(const std::set<std::string>& left_out) const;
 
   /// Parse, check, run `body`, put the outputs in place, record; returns the exit code.
   int run(int argc, char** argv, const std::function<void()>& body);

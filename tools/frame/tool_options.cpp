@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/printable.hpp"
 #include "base/text.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
@@ -87,8 +88,9 @@ void print_settings(const std::vector<ConfigValue>& settings, std::ostream& out)
     double number = 0;
     const bool is_bare = parse_double(value.value, number) || value.value == "true" ||
                          value.value == "false" || (!value.value.empty() && value.value[0] == '[');
-    out << value.key << " = " << (is_bare ? value.value : Json(value.value).dump()) << "  # "
-        << value.source << '\n';
+    out << printable(value.key) << " = "
+        << (is_bare ? printable_json(value.value) : json_text(value.value)) << "  # "
+        << printable(value.source) << '\n';
   }
 }
 

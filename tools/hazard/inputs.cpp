@@ -40,13 +40,6 @@ void take_rows_of_parts(const RunInputs& runs, std::size_t first_part, const Map
   }
 }
 
-void check_weights(const HazardClass& kind, const RunFile& run, const std::string& file) {
-  if (kind.kind != FrequencyKind::of_weights || !run.blocks.weight.empty()) return;
-  throw InputError({file}, "has blocks without weights, and class " + kind.name + " is by_weights",
-                   "give frequency_per_a or frequency_per_m2_a to [blocks.*] and run talus-blocks "
-                   "and talus-dda again, or give the class a frequency");
-}
-
 }  // namespace
 
 Recipe read_recipe(Tool& tool, const Site& site) {
@@ -89,39 +82,31 @@ HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<ClassFiles>& 
       out.rows.insert(out.rows.end(), rows.begin(), rows.end());
   };
   for (std::size_t c = 0; c < files.size(); ++c) {
-    HazardRuns of_class;
-    if (!classes.empty()) of_class.kind = classes[c];
-    of_class.kind.name = files[c].name;
-    of_class.first = static_cast<int>(runs.members.size());
+    HazardClass kind;
+    if (!classes.empty()) kind = classes[c];
+    kind.name = files[c].name;
+    const int first = static_cast<int>(runs.members.size());
     const std::size_t first_part = runs.parts().size();
-    std::vector<double> released;
-    bool single = true;
     runs.read(files[c].files, "class." + files[c].name, only_passages,
               [&](RunFile& run, int index) {
                 const RunMember& member = runs.members[static_cast<std::size_t>(index)];
                 if (run.grid.n_rows == 0)
                   throw InputError({where_of(member)}, "holds no passages",
                                    "set [output] passages = true and run talus-dda again");
-                check_weights(of_class.kind, run, where_of(member));
                 if (out.rows_of_cell.empty()) {
                   out.map = map_grid(run.grid, cell_size_m, "--cell-size-m");
                   out.rows_of_cell.assign(
                       static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols, 0);
                 }
                 count(event_rows(map_rows(run.passages, run.grid, out.map, run.blocks.weight),
-                                 run.blocks, recipe, index));
-                released.push_back(member.weight);
-                single = single && member.n_blocks <= 1;
+                                 run.blocks, recipe, member, index));
               });
-    take_rows_of_parts(runs, first_part, out.map, {}, most_rows,
-                       [&](const std::vector<MapRow>& rows, const RunBlocks& blocks, int run) {
-                         count(event_rows(rows, blocks, recipe, run));
-                       });
-    of_class.n = static_cast<int>(released.size());
-    const auto first = runs.members.begin() + static_cast<std::ptrdiff_t>(of_class.first);
-    of_class.basis = share_basis(released, single, runs.last_failed_share(),
-                                 units_of({first, runs.members.end()}));
-    out.sources.classes.push_back(std::move(of_class));
+    take_rows_of_parts(
+        runs, first_part, out.map, {}, most_rows,
+        [&](const std::vector<MapRow>& rows, const RunBlocks& blocks, int run) {
+          count(event_rows(rows, blocks, recipe, runs.members[static_cast<std::size_t>(run)], run));
+        });
+    out.sources.classes.push_back(hazard_runs(kind, runs.members, first, runs.last_failed_share()));
   }
   return out;
 }
@@ -136,7 +121,8 @@ std::vector<MapLayer> read_hazard_layers(RunInputs& runs, HazardInputs& inputs,
   for (const MapTile& tile : tiles_of(inputs.rows_of_cell, most_rows)) {
     std::vector<EventRow> rows;
     const auto add = [&](const std::vector<MapRow>& from, const RunBlocks& blocks, int run) {
-      const std::vector<EventRow> made = event_rows(from, blocks, inputs.sources.recipe, run);
+      const std::vector<EventRow> made = event_rows(
+          from, blocks, inputs.sources.recipe, runs.members[static_cast<std::size_t>(run)], run);
       rows.insert(rows.end(), made.begin(), made.end());
     };
     runs.read_again(only_passages, [&](RunFile& run, int index) {

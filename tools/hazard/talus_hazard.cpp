@@ -62,9 +62,10 @@ std::string recipe_words(const Recipe& recipe) {
          short_hash(recipe.sha256);
 }
 
-std::string frequency_words(const std::vector<HazardClass>& classes) {
+std::string frequency_words(const HazardSources& sources) {
   std::string out;
-  for (const HazardClass& c : classes) out += (out.empty() ? "" : "; ") + words_of(c);
+  for (const HazardRuns& runs : sources.classes)
+    out += (out.empty() ? "" : "; ") + words_of(runs.kind);
   return out;
 }
 
@@ -83,26 +84,25 @@ std::string run_words(const HazardSources& sources) {
 }
 
 // What every map says below its picture, and in its tags.
-std::vector<std::string> notes_of(const Site& site, const HazardSources& sources,
-                                  const std::vector<HazardClass>& classes) {
+std::vector<std::string> notes_of(const Site& site, const HazardSources& sources) {
   std::vector<std::string> notes{site.info.name + ": " + run_words(sources) + "; talus " +
                                  build_version};
-  if (classes.empty()) return notes;
-  notes.push_back("frequencies: " + frequency_words(classes));
+  if (!sources.has_frequencies) return notes;
+  notes.push_back("frequencies: " + frequency_words(sources));
   notes.push_back(elsewhere_words(largest_rate_elsewhere(sources.classes)));
   notes.push_back(recipe_words(sources.recipe));
   return notes;
 }
 
 MapTags tags_of(Tool& tool, const Site& site, RunInputs& runs, const HazardSources& sources,
-                const std::vector<HazardClass>& classes, const std::string& remark) {
+                const std::string& remark) {
   MapTags tags = talus::tags_of(runs.members, runs.left_out);
   std::vector<std::string> ids;
   for (const RunMember& member : runs.members) ids.push_back(member.info.run_id);
   tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", run_set_id(std::move(ids))}});
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   if (runs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(runs.n_missing));
-  if (classes.empty()) {
+  if (!sources.has_frequencies) {
     tags.emplace_back("FREQUENCIES", "none are given");
     return tags;
   }
@@ -114,7 +114,7 @@ MapTags tags_of(Tool& tool, const Site& site, RunInputs& runs, const HazardSourc
   tags.emplace_back("RECIPE_SHA256", recipe.sha256);
   tags.emplace_back("SPLIT", recipe.side == 0 ? "a" : "b");
   tags.emplace_back("MODE", site.hazard.mode);
-  tags.emplace_back("FREQUENCIES", frequency_words(classes));
+  tags.emplace_back("FREQUENCIES", frequency_words(sources));
   const double elsewhere = largest_rate_elsewhere(sources.classes);
   if (!std::isnan(elsewhere))
     tags.emplace_back("FREQUENCY_UPPER_BOUND_ELSEWHERE", text(elsewhere, 6) + " 1/a");
@@ -149,14 +149,17 @@ Json class_areas(const MapLayer& layer, const MapLayer& certainty, const Recipe&
 }
 
 Json rate_json(const HazardClass& kind) {
-  if (kind.kind == FrequencyKind::of_failure)
-    return {
-        {"class", kind.name}, {"failure_probability", kind.probability}, {"in_years", kind.years}};
-  if (kind.kind == FrequencyKind::of_weights) return {{"class", kind.name}, {"by_weights", true}};
-  return {{"class", kind.name},
-          {"frequency_per_a", kind.frequency.value},
-          {"low_per_a", kind.frequency.low},
-          {"high_per_a", kind.frequency.high}};
+  Json out = {{"class", kind.name}, {"event", kind.of_rocks ? "rock" : "run"}};
+  if (kind.kind == FrequencyKind::of_failure) {
+    out["failure_probability"] = kind.probability;
+    out["in_years"] = kind.years;
+    return out;
+  }
+  if (kind.kind == FrequencyKind::of_weights) out["by_weights"] = true;
+  out["frequency_per_a"] = kind.frequency.value;
+  out["low_per_a"] = kind.frequency.low;
+  out["high_per_a"] = kind.frequency.high;
+  return out;
 }
 
 // The longest return period of the recipe that places which no run reached may still have.
@@ -165,7 +168,7 @@ void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
   const std::vector<double>& periods = sources.recipe.return_periods;
   if (std::isnan(rate)) {
     tool.warn(
-        "fewer than 10 runs of a class by weights: its rates have no bounds, and no class is "
+        "fewer than 10 runs of a class of rocks: its rates have no bounds, and no class is "
         "certain");
     return;
   }
@@ -225,8 +228,8 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   else
     warn_of_elsewhere(tool, sources);
   const std::string remark = runs.remark();
-  const MapTags tags = tags_of(tool, site, runs, sources, classes, remark);
-  const std::vector<std::string> notes = notes_of(site, sources, classes);
+  const MapTags tags = tags_of(tool, site, runs, sources, remark);
+  const std::vector<std::string> notes = notes_of(site, sources);
   const PassageGrid& grid = inputs.map.grid;
   const MapFrame frame = map_frame(runs, grid, o.pages, layers[0].cell);
   const MapLayer* const certainty = layer_named(layers, certainty_layer);
@@ -249,7 +252,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
     result["classes"] = class_areas(*of_class, *certainty, recipe, grid.cell_size);
     result["notes"] = notes;
     Json rates = Json::array();
-    for (const HazardClass& c : classes) rates.push_back(rate_json(c));
+    for (const HazardRuns& of : sources.classes) rates.push_back(rate_json(of.kind));
     result["frequencies"] = rates;
     result["rate_elsewhere_per_a"] = number_or_null(largest_rate_elsewhere(sources.classes));
     summary += area_lines(result["classes"]);

@@ -33,7 +33,8 @@ std::string verdict_table(const Texts& texts, const Json& verdicts) {
       std::string label = name;
       std::replace(label.begin(), label.end(), '_', ' ');
       const bool bounded = value_at(v, {"low"}).is_number();
-      rows.push_back({label, number_text(value_at(v, {"n"})), percent_text(value_at(v, {"share"})),
+      rows.push_back({xml_escaped(label), number_text(value_at(v, {"n"})),
+                      percent_text(value_at(v, {"share"})),
                       bounded ? range_text(texts, percent_text(value_at(v, {"low"})),
                                            percent_text(value_at(v, {"high"})))
                               : texts.of("fences.too_few_runs")});

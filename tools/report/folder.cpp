@@ -7,10 +7,11 @@
 #include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "io/tags_gdal.hpp"
+#include "post/made_with.hpp"
 #include "post/run_set.hpp"
+#include "site/stages.hpp"
 #include "site/uncertainty.hpp"
 #include "tools/frame/section_state.hpp"
-#include "tools/frame/site_stages.hpp"
 
 namespace talus {
 namespace fs = std::filesystem;
@@ -238,38 +239,6 @@ void leave_out_others(ResultFolder& folder, const Site& site, const Json& runout
 
 namespace {
 
-// "section.key" -> the value, of the text of print_config().
-std::map<std::string, EffectiveValue> values_of(const std::string& config) {
-  std::map<std::string, EffectiveValue> values;
-  std::istringstream lines(config);
-  std::string section;
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t equals = line.find(" = "), source = line.rfind("  # ");
-    if (line.starts_with("[")) section = line.substr(1, line.size() - 2);
-    if (line.empty() || line[0] == '[' || line[0] == '#') continue;
-    if (equals == std::string::npos || source == std::string::npos) continue;
-    const std::string key = line.substr(0, equals);
-    values[section + "." + key] = {section, key, line.substr(equals + 3, source - equals - 3),
-                                   line.substr(source + 4)};
-  }
-  return values;
-}
-
-// The sections of grounds of the text of print_config(), those that `other` has too.
-std::vector<std::string> shared_grounds(const std::string& config, const std::string& other) {
-  std::istringstream lines(config);
-  std::vector<std::string> sections;
-  for (std::string line; std::getline(lines, line);)
-    if (line.starts_with("[ground.") && other.find("\n" + line + "\n") != std::string::npos)
-      sections.push_back(line);
-  return sections;
-}
-
-// By [uncertainty]: differs from run to run.
-bool is_drawn(const EffectiveValue& value) {
-  return value.source.starts_with("sample ") || value.source.starts_with("rock mass ");
-}
-
 // Whether what the report shows of the site depends on the value.
 bool is_shown(const EffectiveValue& value, const ResultFolder& folder) {
   return stage_reads("run", value) || stage_reads("blocks", value) || stage_reads("trn", value) ||
@@ -280,33 +249,19 @@ bool is_shown(const EffectiveValue& value, const ResultFolder& folder) {
 
 void check_site_of(const RunFile& run, const std::string& path, const Site& site,
                    const ResultFolder& folder) {
-  std::map<std::string, EffectiveValue> was = values_of(run.info.config), is;
-  for (EffectiveValue& value : effective_values(site))
-    if (!value.value.empty()) is[value.section + "." + value.key] = std::move(value);
-  const auto given = [](const EffectiveValue& value) {
-    return value.value.empty() ? "not given" : value.value;
-  };
-  std::set<std::string> keys;
-  for (const auto* values : {&was, &is})
-    for (const auto& [key, value] : *values)
-      if (is_shown(value, folder)) keys.insert(key);
-  for (const std::string& key : keys) {
-    const EffectiveValue &old = was[key], &now = is[key];
-    if (old.value == now.value || old.source == "cli" || now.source == "cli") continue;
-    if (is_drawn(old) || key == "uncertainty.sample") continue;
+  const auto counts = [&](const std::string&, const EffectiveValue& old,
+                          const EffectiveValue& now) {
+    if (!is_shown(old.key.empty() ? now : old, folder) || old.key == "sample") return false;
+    if (is_of_command_line(old) || is_of_command_line(now) || is_drawn(old)) return false;
     // a section that is gone, or a key that the program did not know yet
-    if (old.source.empty() && now.source == "default") continue;
-    if (now.source.empty() && old.source == "default") continue;
-    throw InputError(
-        {path},
-        "was computed with " + key + " = " + given(old) + "; in the site file it is " + given(now),
-        "give the site file that the runs were made with, or make them again");
-  }
-  const std::string config = print_config(site);
-  if (shared_grounds(run.info.config, config) != shared_grounds(config, run.info.config))
+    return !(old.key.empty() && now.source == "default") &&
+           !(now.key.empty() && old.source == "default");
+  };
+  const std::vector<SettingDifference> list =
+      differences(made_with(run.info.config, ""), made_with(print_config(site), ""), counts);
+  if (!list.empty())
     throw InputError({path},
-                     "was computed with the sections [ground.*] in another order than in the site "
-                     "file: where two overlap the later one applies",
+                     "was computed with other settings than the site file has: " + text(list),
                      "give the site file that the runs were made with, or make them again");
 }
 

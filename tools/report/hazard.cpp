@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/text.hpp"
 #include "report/html.hpp"
 #include "tools/report/json.hpp"
 
@@ -31,7 +32,8 @@ std::string caption_of(const Texts& texts, const std::string& name) {
   if (name == "class") return texts.of("hazard.class_map");
   if (name == "intensity") return texts.of("hazard.intensity_map");
   if (name.starts_with("return_period")) return texts.of("hazard.return_period_map");
-  if (name.starts_with("ke_T")) return texts.of("hazard.energy_map", {{"years", name.substr(4)}});
+  if (name.starts_with("ke_T"))
+    return texts.of("hazard.energy_map", {{"years", xml_escaped(name.substr(4))}});
   if (name == "probability") return texts.of("hazard.probability_map");
   if (name == "event_exceed") return texts.of("hazard.exceedance_map");
   return texts.of("hazard.frequency_map");
@@ -43,8 +45,9 @@ std::string unit_of(const Texts& texts, const std::string& name) {
 }
 
 std::string figure_of(const Texts& texts, const MapSheet& sheet, const MapPicture& map) {
-  return map_figure(texts, sheet, map, map.name, unit_of(texts, map.name),
-                    caption_of(texts, map.name) + " <code>hazard/" + map.name + ".tif</code>");
+  return map_figure(
+      texts, sheet, map, map.name, unit_of(texts, map.name),
+      caption_of(texts, map.name) + " <code>hazard/" + xml_escaped(map.name) + ".tif</code>");
 }
 
 }  // namespace

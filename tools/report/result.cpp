@@ -191,7 +191,7 @@ std::string left_out_verdict(const Texts& texts, const Json& runout) {
 
 // Runs that were wanted and gave no result: what is shown is of the rest.
 std::string missing_verdict(const Texts& texts, const Json& runout) {
-  const std::string n = text_at(runout, "/tags/N_MISSING");
+  const std::string n = word_text(value_at(runout, {"tags", "N_MISSING"}));
   if (n.empty()) return "";
   return html_verdict(
       "fail", texts.of("result.missing",

@@ -13,6 +13,7 @@
 #include "io/raster_gdal.hpp"
 #include "io/tags_gdal.hpp"
 #include "io/vectors_gdal.hpp"
+#include "post/made_with.hpp"
 #include "post/maps/map_layers.hpp"
 #include "record/part_file.hpp"
 #include "report/check_view.hpp"
@@ -143,6 +144,7 @@ void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<RunPlac
                const ProgressFunction& progress, ReportData& data) {
   const std::string shown = farthest_run(data.runout, places, data.site.output);
   std::vector<RunMember> members;
+  SettingsCheck settings;
   for (const RunPlace& place : places) {
     progress(0.5 * static_cast<double>(data.runs.size()) / static_cast<double>(places.size()));
     if (place.part == nullptr)
@@ -151,6 +153,7 @@ void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<RunPlac
       ++data.n_in_parts;
     RunFile run = read_place(place, false);
     check_site_of(run, place.file.string(), data.site, folder);
+    settings.add(place.file.string(), place.file.string(), run.info);
     data.run_names.push_back(place.file.stem().string().substr(4));  // without "run_"
     if (run.info.run_id == shown) {
       data.shown = read_place(place, true);

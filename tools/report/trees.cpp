@@ -1,5 +1,6 @@
 #include "tools/report/trees.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "report/html.hpp"
@@ -44,6 +45,8 @@ std::string tree_section(const ReportData& data) {
   if (!forests.is_array() || forests.empty()) return "";
   const Texts& texts = data.texts;
   std::string out = forest_table(texts, forests);
+  const bool one_by_one = std::any_of(forests.begin(), forests.end(),
+                                      [](const Json& f) { return f.contains("n_rocks"); });
   if (!stems.is_array() || stems.empty()) {
     out += html_paragraph(texts.of("trees.none_hit"));
   } else {
@@ -51,7 +54,7 @@ std::string tree_section(const ReportData& data) {
     out +=
         html_fold(texts.of("trees.most_hit", {{"shown", std::to_string(stems.size())}, {"all", n}}),
                   stem_table(texts, stems));
-    out += html_note(texts.of("trees.note"));
+    out += html_note(texts.of(one_by_one ? "trees.note_one_by_one" : "trees.note"));
   }
   return html_section("trees", texts.of("trees.title"), out);
 }

@@ -38,7 +38,7 @@ std::string masses_note(const Texts& texts, const Site& site) {
 std::string drawn_table(const Texts& texts, const Json& runout) {
   constexpr std::size_t most = 200;
   const Json runs = value_at(runout, {"runs"});
-  std::vector<std::string> headings;
+  std::vector<std::string> headings, quantities;
   std::vector<std::vector<std::string>> rows;
   if (!runs.is_array()) return "";
   for (const Json& run : runs) {
@@ -46,13 +46,16 @@ std::string drawn_table(const Texts& texts, const Json& runout) {
     if (!drawn.is_object() || !drawn.contains("sample")) continue;
     if (headings.empty()) {
       headings = texts.list("uncertainty.drawn_heads");
-      for (const auto& [name, value] : drawn.items()) headings.push_back(name);
+      for (const auto& [name, value] : drawn.items()) {
+        quantities.push_back(name);
+        headings.push_back(xml_escaped(name));
+      }
     }
     if (rows.size() == most) break;
     std::vector<std::string> row = {number_text(value_at(run, {"seed"})),
                                     number_text(value_at(run, {"event", "L_path_m"}))};
-    for (std::size_t c = 2; c < headings.size(); ++c)
-      row.push_back(number_text(value_at(drawn, {headings[c].c_str()})));
+    for (const std::string& name : quantities)
+      row.push_back(number_text(value_at(drawn, {name.c_str()})));
     rows.push_back(std::move(row));
   }
   if (rows.empty()) return "";

@@ -109,13 +109,15 @@ std::vector<VectorLayer> tree_layers(const std::vector<RunTrees>& runs,
 
 Json trees_json(const TreeSummary& trees, const Vec3& origin) {
   Json forests = Json::array(), stems = Json::array();
-  for (const ForestSummary& f : trees.forests)
+  for (const ForestSummary& f : trees.forests) {
     forests.push_back({{"forest", f.name},
                        {"n_runs", f.n_runs},
                        {"stems", f.stems},
                        {"hit", f.hit},
                        {"broken", f.broken},
                        {"work_kj", f.work / 1e3}});
+    if (f.n_worlds > f.n_runs) forests.back()["n_rocks"] = f.n_worlds;
+  }
   std::vector<const HitStem*> order;
   for (const HitStem& stem : trees.stems) order.push_back(&stem);
   std::stable_sort(order.begin(), order.end(), [](const HitStem* a, const HitStem* b) {

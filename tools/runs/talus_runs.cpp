@@ -212,7 +212,7 @@ void show_ancestry(talus::Tool& tool, const std::string& db, const std::string& 
     return;
   }
   Json document = prov_of(db, ancestry.shown);
-  const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace);
+  const std::string text = talus::json_text(document, 2);
   tool.result(std::move(document), text);
 }
 
@@ -282,11 +282,15 @@ void merge(talus::Tool& tool, const std::vector<std::string>& files, const std::
       throw talus::InputError({file}, "is the registry that is written to itself",
                               "name the others; what is in it already stays");
   const talus::RegistryMerge done = talus::merge_runs(out, files);
-  tool.result(
-      {{"n_added", done.n_added}, {"n_completed", done.n_completed}, {"n_known", done.n_known}},
-      out + ": " + talus::counted(done.n_added, "run") + " added, " +
-          std::to_string(done.n_completed) + " completed, " + std::to_string(done.n_known) +
-          " were there");
+  for (const std::string& why : done.left_out)
+    tool.warn(why + "; its runs are left out, whatever they wrote is in place");
+  tool.result({{"n_added", done.n_added},
+               {"n_completed", done.n_completed},
+               {"n_known", done.n_known},
+               {"left_out", done.left_out}},
+              out + ": " + talus::counted(done.n_added, "run") + " added, " +
+                  std::to_string(done.n_completed) + " completed, " + std::to_string(done.n_known) +
+                  " were there");
 }
 
 // What was taken over is removed.

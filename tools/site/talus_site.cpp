@@ -12,12 +12,13 @@
 #include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "io/feature_tables_gdal.hpp"
+#include "site/stages.hpp"
 #include "tools/frame/data_files.hpp"
 #include "tools/frame/file_paths.hpp"
 #include "tools/frame/object_files.hpp"
 #include "tools/frame/options.hpp"
+#include "tools/frame/site_files.hpp"
 #include "tools/frame/site_options.hpp"
-#include "tools/frame/site_stages.hpp"
 #include "tools/site/file_digests.hpp"
 #include "tools/site/new_layers.hpp"
 
@@ -25,34 +26,6 @@ namespace {
 
 using namespace talus;  // NOLINT: a program of its own
 namespace fs = std::filesystem;
-
-// Text of a TOML string without its quotes.
-std::string unquoted(const std::string& toml) {
-  return toml.size() >= 2 && (toml[0] == '\'' || toml[0] == '"') ? toml.substr(1, toml.size() - 2)
-                                                                 : toml;
-}
-
-// Keys whose value is the name of a file.
-bool names_a_file(const std::string& section, const std::string& key) {
-  static const std::set<std::string> keys = {"contours", "breaklines", "spots",         "boundary",
-                                             "dem",      "raster",     "ground_raster", "file"};
-  if (section == "site" || section == "solver" || section == "output") return false;
-  if (section == "hazard") return false;  // a recipe may be a name: file_named()
-  return keys.count(key) > 0 || (key.size() > 5 && key.ends_with("_file")) ||
-         (section.starts_with("forest.") && key.ends_with("_raster"));
-}
-
-std::string file_named(const Site& site, const EffectiveValue& value) {
-  const bool is_recipe = value.section == "hazard" && value.key == "recipe" &&
-                         unquoted(value.value).ends_with(".toml");
-  const std::string word = unquoted(value.value);
-  const bool is_code = value.section.starts_with("fence_search.") && value.key == "code" &&
-                       word != "uni" && word != "onr";
-  if (value.value.empty() || !(is_recipe || is_code || names_a_file(value.section, value.key)))
-    return "";
-  const std::string file = file_of(resolved(site, word));
-  return is_virtual(file) ? "" : file;
-}
 
 // A file that is missing stops make here, once, and not in the middle of the pipeline.
 void check_files(const Site& site) {
@@ -63,6 +36,33 @@ void check_files(const Site& site) {
                        value.key + " of [" + value.section + "]: there is no file " + file,
                        "names are relative to the folder of the site file");
   }
+}
+
+// NAME=FILE or NAME=: the name of a list, and a file of it.
+struct GivenFile {
+  std::string name, file;
+};
+
+GivenFile given_file(const std::string& words) {
+  const std::size_t sign = words.find('=');
+  const std::string name = words.substr(0, sign);
+  if (sign == std::string::npos || name.empty() || name.find('/') != std::string::npos)
+    throw UsageError({"", 0, "--given"}, "is " + words + ", expected NAME=FILE or NAME=",
+                     "NAME becomes the name of a file, NAME.files");
+  return {name, words.substr(sign + 1)};
+}
+
+// The pipeline gives its files names of its own, and `make clean` removes them.
+void check_results_folder(const Site& site, const std::string& folder,
+                          const std::vector<std::string>& given) {
+  std::vector<std::string> files = files_named(site);
+  files.push_back(site.file);
+  for (const std::string& words : given) files.push_back(file_of(given_file(words).file));
+  const std::string results = absolute_path(folder) + "/";
+  for (const std::string& file : files)
+    if (!file.empty() && fs::exists(file) && absolute_path(file).starts_with(results))
+      throw InputError({file}, "is an input and lies in " + folder + ", the folder of the results",
+                       "move it, or name another folder: make OUT=out2");
 }
 
 // A daylighting failure surface depends on the friction of the ground, so on [ground.*] too.
@@ -119,20 +119,6 @@ std::string settings_of(const Site& site, const std::string& stage, FileDigests&
 
 // --- files that make was given -----------------------------------------------------------------
 
-// NAME=FILE or NAME=: the name of a list, and a file of it.
-struct GivenFile {
-  std::string name, file;
-};
-
-GivenFile given_file(const std::string& words) {
-  const std::size_t sign = words.find('=');
-  const std::string name = words.substr(0, sign);
-  if (sign == std::string::npos || name.empty() || name.find('/') != std::string::npos)
-    throw UsageError({"", 0, "--given"}, "is " + words + ", expected NAME=FILE or NAME=",
-                     "NAME becomes the name of a file, NAME.files");
-  return {name, words.substr(sign + 1)};
-}
-
 // A list a name: its files and their digests.
 std::map<std::string, std::string> lists_of(const std::vector<std::string>& given,
                                             FileDigests& digests) {
@@ -150,14 +136,14 @@ std::map<std::string, std::string> lists_of(const std::vector<std::string>& give
 
 // --- variables for make ------------------------------------------------------------------------
 
-// A word in a recipe: quoted for the shell, with make's own sign doubled.
+// A word in a recipe: quoted for the shell, with make's own signs as it takes them for text.
 std::string shell_word(const std::string& word, const Site& site) {
   std::string out = "'";
   for (const char c : word) {
     if (std::iscntrl(static_cast<unsigned char>(c)) != 0)
       throw InputError({site.file}, "\"" + word + "\" holds a line break or control character",
                        "take it out: the value stands in a makefile");
-    out += c == '\'' ? "'\\''" : c == '$' ? "$$" : std::string(1, c);
+    out += c == '\'' ? "'\\''" : c == '$' ? "$$" : c == '#' ? "$(number_sign)" : std::string(1, c);
   }
   return out + "'";
 }
@@ -248,14 +234,9 @@ std::string contours_file(const Site& site) {
 }
 
 std::string make_variables(const Site& site) {
-  std::string fences;
-  for (const FenceSettings& fence : site.fences) {
-    if (fence.name.find_first_of(" #%") != std::string::npos)
-      throw InputError(where_of(site, "fence." + fence.name),
-                       "the fence's name " + fence.name + " cannot stand in a makefile",
-                       "use letters, digits and _-+=,./@:");
-    fences += " " + plain_name(fence.name, where_of(site, "fence." + fence.name));
-  }
+  std::string no_fences;  // options of talus-dda
+  for (const FenceSettings& fence : site.fences)
+    no_fences += " --set " + shell_word("fence." + fence.name + ".active=false", site);
   // Names of sections as words of a rule.
   const auto words_of = [&site](const std::string& group, const auto& sections) {
     std::string words;
@@ -271,7 +252,7 @@ std::string make_variables(const Site& site) {
   };
   const bool any_active = std::any_of(site.fences.begin(), site.fences.end(),
                                       [](const FenceSettings& fence) { return fence.active; });
-  std::string out = "# written by talus-site from the site file\n";
+  std::string out = "# written by talus-site from the site file\nnumber_sign := \\#\n";
   const auto line = [&out](const char* name, const std::string& value) {
     out += std::string(name) + " :=" + (value.empty() || value[0] == ' ' ? "" : " ") + value + "\n";
   };
@@ -281,7 +262,8 @@ std::string make_variables(const Site& site) {
   line("SITE_TRN_FLAGS", trn_flags(site));
   line("SITE_RUNS", std::to_string(site.solver.n_runs));
   line("SITE_SEED", std::to_string(site.solver.seed));
-  line("SITE_FENCES", fences);
+  line("SITE_FENCES", site.fences.empty() ? "" : "yes");
+  line("SITE_WITHOUT_FENCES", no_fences);
   line("SITE_SAMPLES", site.quantities.empty() && site.uncertainty.rock_masses == 0 ? "" : "yes");
   line("SITE_ROCK_MASSES",
        site.uncertainty.rock_masses == 0 ? "" : std::to_string(site.uncertainty.rock_masses));
@@ -291,7 +273,7 @@ std::string make_variables(const Site& site) {
   line("SITE_PLACES", site.places.empty() ? "" : "yes");
   line("SITE_FENCES_STAND", any_active ? "yes" : "");
   line("SITE_HAZARD_CLASSES", words_of("hazard.class", site.hazard_classes));
-  line("SITE_OBJECTS", words_of("object", site.objects));
+  line("SITE_OBJECTS", site.objects.empty() ? "" : "yes");
   line("SITE_FENCE_SEARCHES", words_of("fence_search", site.fence_searches));
   return out;
 }
@@ -332,7 +314,7 @@ void write_if_changed(Tool& tool, const fs::path& path, const std::string& conte
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string folder;
+  std::string folder, results;
   std::vector<std::string> given;
   Tool tool("talus-site", "Parts the site file into what each stage of the pipeline reads.");
   SiteOptions site_options(tool, {}, false);
@@ -345,6 +327,8 @@ int main(int argc, char** argv) {
           "NAME=FILE: a file that make was given; DIR/NAME.files lists those of a NAME with "
           "their digests")
       ->allow_extra_args(false);
+  tool.app().add_option("--results", results,
+                        "folder of the results: refused where it holds a file that is read");
   declare_new_layers(tool, new_layers);
   tool.footer(
       "Example:\n  talus-site site.toml -o out/stages --overwrite --no-db\n"
@@ -357,6 +341,7 @@ int main(int argc, char** argv) {
     const Site& site = site_options.load();
     const std::string variables = make_variables(site);
     check_files(site);
+    if (!results.empty()) check_results_folder(site, results, given);
     check_object_files(site);
     const fs::path stages = folder, memory = stages / ".digests";
     FileDigests digests(fs::is_regular_file(memory) ? read_file(memory.string()) : "");

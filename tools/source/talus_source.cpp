@@ -178,7 +178,7 @@ int main(int argc, char** argv) {
                   ? "joint sets are assumed from the slope"
                   : "no plane daylights at the foot of the source: " + what_would_go(work.planes);
     }
-    if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
+    if (!o.report.empty()) tool.write_text(o.report, json_text(report, 2) + "\n");
     tool.result(report, words);
   });
 }

@@ -221,7 +221,8 @@ Json say_doubts(Tool& tool, const DoubtOptions& options, const std::string& sour
   write_doubts(tool, options.layer, crs_wkt, rows);
   if (n_refused == 0 || options.accept) return json;
   throw InputError({source}, counted(n_refused, "height") + " cannot be; the first: " + first,
-                   std::string("mend it in the map, or go on with --accept-doubts; ") +
+                   std::string("mend it in the map, or go on with --accept-doubts (make "
+                               "TIN_FLAGS=--accept-doubts); ") +
                        (options.layer.empty() ? "--doubts places.gpkg writes all places"
                                               : "all places are in " + options.layer));
 }

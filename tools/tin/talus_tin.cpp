@@ -5,6 +5,7 @@
 #endif
 
 #include "base/memory.hpp"
+#include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
@@ -73,7 +74,7 @@ void declare(Tool& tool, Options& o) {
               "a drawing says another unit")
       ->check(check_positive);
   tool.option("--elevation-unit-m", s.elevation_unit_m,
-              "metres in one unit of all elevations; 0: that of the plan")
+              "metres in one unit of all elevations; 0: as their height system says, else metres")
       ->check(check_positive);
   tool.input("--breaklines", s.breaklines.path, "lines with heights where the slope breaks");
   add_layer_options(tool, "--breaklines-", "the breaklines", s.breaklines);
@@ -143,8 +144,20 @@ void read_crs_options(Options& o) {
   });
 }
 
+std::string digest_of(const ContourMap& map) {
+  talus::Sha256 hash;
+  hash.add(map.origin.data(), sizeof map.origin);
+  for (const auto* points : {&map.contours.points, &map.breaklines.points, &map.spots})
+    for (const talus::Vec3& point : *points) hash.add(point.data(), sizeof point);
+  for (const talus::BoundaryRing& ring : map.boundary)
+    for (const talus::Vec2& point : ring.points) hash.add(point.data(), sizeof point);
+  return hash.hex();
+}
+
 // What was read, from where, and what was done on the way in.
-void say_reading(Tool& tool, const Options& o, const talus::ContourReading& reading) {
+void say_reading(Tool& tool, const Options& o, const ContourMap& map,
+                 const talus::ContourReading& reading) {
+  tool.content_read("map", digest_of(map));
   tool.info("elevation from " + reading.elevation_from + " of layer " + reading.layer +
             (reading.contours.unit_m == 1
                  ? ""
@@ -178,7 +191,7 @@ ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
   read_crs_options(o);
   ContourMap map = talus::read_contours(o.sources, reading);
   talus::check_heights(map);
-  say_reading(tool, o, reading);
+  say_reading(tool, o, map, reading);
   return map;
 }
 
@@ -280,6 +293,7 @@ talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Jso
   rows.insert(rows.end(), off.begin(), off.end());
   report["in_doubt"] = talus::say_doubts(tool, o.doubts, map.source, map.crs_wkt, rows);
   if (o.doubts.accept) report["doubts_accepted"] = true;
+  if (o.doubts.accept) report["accepted_places"] = talus::accepted_places(rows);
   const std::vector<std::uint8_t> flat = find_flat_triangles(mesh, measured);
   const talus::AreaShare before = area_of(mesh, flat);
   report["flat"] = {{"mode", o.flat}, {"share_before", before.share()}};
@@ -325,6 +339,7 @@ Json build(Tool& tool, Options& o, talus::Tin& tin) {
     report["held_back"] = {{"every", o.hold_out_every}, {"n_points", held_back.size()}};
   }
   tin = talus::to_tin(make_mesh(tool, o, map, report), map);
+  tin.accepted_doubts = report.value("accepted_places", "");
   report["tin"] = {{"n_points", tin.points.size()}, {"n_triangles", tin.triangles.size()}};
   report["notes"] = reading.notes;
   report["operations"] = reading.operations;
@@ -350,7 +365,7 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
   talus::ContourReading reading;
   read_crs_options(o);
   ContourMap map = talus::read_ground_points(o.sources, reading);
-  say_reading(tool, o, reading);
+  say_reading(tool, o, map, reading);
   ask_for_memory(map, map.spots.size());
   std::vector<talus::DoubtRow> rows = talus::rows_below_land(map);
   for (talus::DoubtRow& row : rows) row.what = "point";
@@ -373,6 +388,7 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
                  {"layers_read", tool.layers_read()}};
   report["in_doubt"] = talus::say_doubts(tool, o.doubts, map.source, map.crs_wkt, rows);
   if (o.doubts.accept) report["doubts_accepted"] = true;
+  if (o.doubts.accept) report["accepted_places"] = talus::accepted_places(rows);
   talus::cut_to_rings(map.boundary, found.mesh);
   if (found.mesh.triangles.empty())
     throw InputError({o.sources.boundary.path}, "the boundary and the points share no ground");
@@ -384,6 +400,7 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
               text(edges.median, 3) +
               " m apart: nothing is known of the ground there; --boundary cuts them off");
   tin = talus::to_tin(std::move(found.mesh), map);
+  tin.accepted_doubts = report.value("accepted_places", "");
   report["tin"] = {{"n_points", tin.points.size()}, {"n_triangles", tin.triangles.size()}};
   report["notes"] = reading.notes;
   report["operations"] = reading.operations;
@@ -412,7 +429,7 @@ int main(int argc, char** argv) {
     talus::Tin tin;
     const Json report = o.of_points ? build_of_points(tool, o, tin) : build(tool, o, tin);
     talus::write_tin(tool.stage(o.out), tin);
-    if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
+    if (!o.report.empty()) tool.write_text(o.report, talus::json_text(report, 2) + "\n");
     tool.result(report, o.of_points ? summary_of_points(report) : summary_of(report));
   });
 }

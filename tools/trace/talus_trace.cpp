@@ -111,12 +111,11 @@ Traced trace(Tool& tool, const Site& site, RunInputs& runs, const Options& o,
   ObjectCells cells;
   bool by_centroid = false;
   for (const ClassFiles& files : class_files(tool, runs, o.of_class, classes, site.file)) {
-    HazardRuns of_class;
-    if (!classes.empty()) of_class.kind = classes[out.classes.size()];
-    of_class.first = static_cast<int>(runs.members.size());
+    HazardClass kind;
+    if (!classes.empty()) kind = classes[out.classes.size()];
+    const int first = static_cast<int>(runs.members.size());
     const std::size_t first_part = runs.parts().size();
-    std::vector<double> released;
-    bool single = true, any_cells = false;
+    bool any_cells = false;
     runs.read(files.files, "class." + files.name, wanted, [&](RunFile& run, int index) {
       const RunMember& member = runs.members[static_cast<std::size_t>(index)];
       const bool needs = needs_cells(run, out.sums, o, member);
@@ -129,15 +128,9 @@ Traced trace(Tool& tool, const Site& site, RunInputs& runs, const Options& o,
         add_cell_hits(hits, cells, run.passages, run.grid);
         add_hits(out.sums, run, index, hits, o.by_cells);
       }
-      released.push_back(member.weight);
-      single = single && member.n_blocks <= 1;
     });
     if (any_cells) add_hits_of_parts(runs, first_part, cells, o, out.sums);
-    of_class.n = static_cast<int>(released.size());
-    const auto first = runs.members.begin() + static_cast<std::ptrdiff_t>(of_class.first);
-    of_class.basis = share_basis(released, single, runs.last_failed_share(),
-                                 units_of({first, runs.members.end()}));
-    out.classes.push_back(std::move(of_class));
+    out.classes.push_back(hazard_runs(kind, runs.members, first, runs.last_failed_share()));
   }
   finish(out.sums);
   if (by_centroid)
@@ -152,8 +145,7 @@ void put_rate(const Traced& traced, int object, TracedObject& to) {
   std::vector<EventRow> rows;
   for (const TraceHit& hit : traced.sums.hits)
     if (hit.object == object)
-      rows.push_back(
-          {0, hit.run, static_cast<float>(hit.energy / 1e3), 0, static_cast<float>(hit.weight)});
+      rows.push_back({0, hit.run, static_cast<float>(hit.energy / 1e3), 0, hit.weight});
   sort_events(rows);
   HazardRates rates(traced.classes);
   const Rate rate = rates.above(rows, {})[0];

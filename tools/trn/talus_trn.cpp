@@ -1,6 +1,7 @@
 // tools/trn/talus_trn.cpp
 // A TIN or a DEM to the terrain that blocks move on, and how good it is. Page:
 // docs/tools/talus-trn.md
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -10,8 +11,10 @@
 #include "io/crs_operation_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
 #include "io/hillshade_gdal.hpp"
+#include "io/judged_heights_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/tin_files_gdal.hpp"
+#include "io/trn_digest.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/grid_tin.hpp"
 #include "terrain/ground_doubts.hpp"
@@ -116,6 +119,14 @@ void declare(Tool& tool, Options& o) {
 
 // --- the terrain ---------------------------------------------------------------------------------
 
+/// The terrain and what is known of its heights.
+struct Ground {
+  Trn trn;
+  bool was_judged = false;              // by the tool that wrote the source
+  std::string accepted;                 // places, in words
+  std::vector<std::string> operations;  // that took it to another system
+};
+
 std::string window_as_text(const MapWindow& w) {
   return text(w.x_min, 10) + "," + text(w.y_min, 10) + " to " + text(w.x_max, 10) + "," +
          text(w.y_max, 10);
@@ -171,8 +182,8 @@ std::string stated_vertical(const Options& o) {
 }
 
 // A surface that folds over has two heights in one place; a terrain has one.
-void check_one_layer(Tool& tool, const Options& o, const talus::TinFile& file) {
-  if (file.is_ours) return;
+void check_one_layer(Tool& tool, const Options& o, const talus::TinFile& file, Ground& ground) {
+  if (file.tin.is_judged) return;
   const talus::FoldedEdges folded = talus::find_folded_edges(file.tin);
   if (folded.n == 0) return;
   const talus::Vec3 place = folded.first + file.tin.origin;
@@ -184,6 +195,7 @@ void check_one_layer(Tool& tool, const Options& o, const talus::TinFile& file) {
         {o.source}, finding + "; expected one height in each place",
         "write the ground alone to the file; --accept-doubts takes one of the heights");
   tool.warn(finding + ": one of the heights is taken");
+  ground.accepted = finding;
 }
 
 // The CRS of the TIN, or the one that the user gives for a TIN without; empty: local metres.
@@ -220,7 +232,7 @@ talus::LayerChoice faces_of(const Options& o) {
   return choice;
 }
 
-Trn trn_of_tin(Tool& tool, const Options& o) {
+Ground ground_of_tin(Tool& tool, const Options& o) {
   if (!o.t_srs.empty())
     throw InputError(
         {o.source}, "a TIN is not reprojected",
@@ -234,7 +246,10 @@ Trn trn_of_tin(Tool& tool, const Options& o) {
   if (!file.taken.file.empty()) tool.layer_read(talus::entry_on(file.taken, "source"));
   const talus::Tin& tin = file.tin;
   check_tin(tin, o.source);
-  check_one_layer(tool, o, file);
+  Ground ground;
+  ground.was_judged = tin.is_judged;
+  ground.accepted = tin.accepted_doubts;
+  check_one_layer(tool, o, file, ground);
   const MapWindow data = talus::extent(tin);
   const std::string crs = crs_of_tin(tool, tin, data, o);
   const double natural_size = talus::natural_cell_size(tin);
@@ -249,7 +264,8 @@ Trn trn_of_tin(Tool& tool, const Options& o) {
     frame = o.window.x_min > -far ? talus::frame_covering(o.window, size)
                                   : talus::frame_inside(data, size);
   check_frame(frame, data, o);
-  return talus::make_trn(frame, crs, talus::grid_tin(tin, frame, tool.progress()));
+  ground.trn = talus::make_trn(frame, crs, talus::grid_tin(tin, frame, tool.progress()));
+  return ground;
 }
 
 void say(Tool& tool, const talus::DemReading& reading) {
@@ -260,8 +276,12 @@ void say(Tool& tool, const talus::DemReading& reading) {
   for (const std::string& warning : reading.warnings) tool.warn(warning);
 }
 
-// What was done to take it to another system goes to `operations`.
-Trn trn_of_dem(Tool& tool, const Options& o, std::vector<std::string>& operations) {
+bool has_node_below_land(const Trn& trn) {
+  return std::any_of(trn.elevation.begin(), trn.elevation.end(),
+                     [&trn](double z) { return z + trn.origin.z() < talus::lowest_land; });
+}
+
+Ground ground_of_dem(Tool& tool, const Options& o) {
   talus::DemOptions options;
   options.accepts_doubts = o.accept_doubts;
   options.crs_given = !o.crs.empty();
@@ -273,18 +293,24 @@ Trn trn_of_dem(Tool& tool, const Options& o, std::vector<std::string>& operation
       options.t_vertical = talus::target_heights_from_user(o.t_vertical, "--t-vertical");
   });
   options.accept_ballpark = o.accept_ballpark;
+  options.window = o.window;
   if (!o.faces.layer.empty() || !o.faces.where.empty() || o.faces.unit_m != 0)
     throw talus::UsageError({"", 0, o.source}, "--layer, --where and --unit-m are for drawings",
                             "leave them away");
   const DemFile dem(o.source, options);
   say(tool, dem.reading());
-  operations = dem.reading().notes;
+  Ground ground;
+  ground.operations = dem.reading().notes;
   const GridFrame frame = o.like.empty() ? talus::frame_on_dem(dem.frame(), o.cell_size_m, o.window)
                                          : frame_like(o, dem.crs_wkt());
   check_frame(frame, talus::extent(dem.frame()), o);
   if (o.cell_size_m != 0 && frame.cell_size != o.cell_size_m)
     tool.info("the nodes are the DEM's own, " + text(frame.cell_size, 12) + " m apart");
-  return talus::make_trn(frame, dem.crs_wkt(), talus::read_dem(dem, frame, tool.progress()));
+  ground.trn = talus::make_trn(frame, dem.crs_wkt(), talus::read_dem(dem, frame, tool.progress()));
+  ground.accepted = talus::accepted_doubts(o.source);
+  // asked where it matters alone: it may take a look at all heights
+  ground.was_judged = has_node_below_land(ground.trn) && dem.accepts_doubts();
+  return ground;
 }
 
 // --- how good it is ------------------------------------------------------------------------------
@@ -448,7 +474,6 @@ talus::DoubtRow row_of(const talus::GroundDoubt& doubt, const Trn& trn) {
   row.what = name_of(doubt.kind);
   row.place = talus::node_point(trn, doubt.row, doubt.col) + trn.origin;
   row.expected_low = row.expected_high = doubt.expected + trn.origin.z();
-  row.outcome = doubt.kind == talus::GroundDoubtKind::below_land ? "refused" : "in doubt";
   return row;
 }
 
@@ -480,15 +505,21 @@ std::string sentence_on(talus::GroundDoubtKind kind, std::int64_t n, const talus
   }
 }
 
-// Says what the ground's own neighbours do not bear out; refuses what no land is.
-Json doubts_of(Tool& tool, const Options& o, const Trn& trn) {
+// Says what the ground's own neighbours do not bear out; refuses what no land is, unless the tool
+// that wrote the source has judged it.
+Json doubts_of(Tool& tool, const Options& o, Ground& ground) {
   using talus::GroundDoubtKind;
+  const Trn& trn = ground.trn;
   const std::vector<talus::GroundDoubt> doubts = talus::find_ground_doubts(trn);
+  const bool takes_all = o.accept_doubts || ground.was_judged;
   std::vector<talus::DoubtRow> rows;
   for (const talus::GroundDoubt& doubt : doubts) {
+    const bool is_refused = doubt.kind == GroundDoubtKind::below_land && !takes_all;
     rows.push_back(row_of(doubt, trn));
-    if (o.accept_doubts && rows.back().outcome == "refused") rows.back().outcome = "accepted";
+    rows.back().outcome = o.accept_doubts ? "accepted" : is_refused ? "refused" : "in doubt";
   }
+  if (const std::string places = accepted_places(rows); !places.empty())
+    ground.accepted += (ground.accepted.empty() ? "" : "; ") + places;
   talus::write_doubts(tool, o.doubts, trn.crs_wkt, rows);
   Json json = Json::object();
   for (const GroundDoubtKind kind : {GroundDoubtKind::below_land, GroundDoubtKind::level,
@@ -500,21 +531,25 @@ Json doubts_of(Tool& tool, const Options& o, const Trn& trn) {
     if (n == 0) continue;
     const std::string sentence = sentence_on(kind, n, *first, trn);
     json[name_of(kind)] = n;
-    if (kind == GroundDoubtKind::below_land && !o.accept_doubts)
+    if (kind == GroundDoubtKind::below_land && !takes_all)
       throw InputError({o.source}, sentence,
                        "declare nodata with gdal_translate -a_nodata, or mend the units; "
-                       "--accept-doubts takes ground below the sea");
+                       "--accept-doubts takes ground below the sea (make "
+                       "TRN_FLAGS=--accept-doubts)");
     tool.warn(sentence + (o.doubts.empty() ? " (--doubts places.gpkg writes all)" : ""));
   }
   return json;
 }
 
-Json report_on(Tool& tool, const Options& o, const Trn& trn) {
+Json report_on(Tool& tool, const Options& o, Ground& ground) {
+  const Trn& trn = ground.trn;
   const talus::SlopeStatistics slopes = talus::slope_statistics(trn);
   Json report = {{"tool", "talus-trn"},      {"source", o.source},
                  {"run_id", tool.run_id()},  {"grid", as_json(trn, slopes)},
-                 {"slope", as_json(slopes)}, {"in_doubt", doubts_of(tool, o, trn)}};
-  if (o.accept_doubts) report["doubts_accepted"] = true;
+                 {"slope", as_json(slopes)}, {"in_doubt", doubts_of(tool, o, ground)}};
+  if (o.accept_doubts || !ground.accepted.empty()) report["doubts_accepted"] = true;
+  if (!ground.accepted.empty()) report["accepted_places"] = ground.accepted;
+  if (!ground.operations.empty()) report["operations"] = ground.operations;
   if (!o.reference.empty())
     add_errors(tool, errors_against_dem(tool, trn, o.reference), "reference", o.reference, trn,
                report);
@@ -537,21 +572,18 @@ int main(int argc, char** argv) {
   Tool tool("talus-trn", "Makes the terrain of nodes (TRN) from a TIN or an elevation raster.");
   declare(tool, o);
   return tool.run(argc, argv, [&] {
-    std::vector<std::string> operations;
     if (!talus::is_tin_file(o.source)) talus::read_members(tool, "source", o.source);
     talus::read_members(tool, "like", o.like);
     talus::read_members(tool, "reference", o.reference);
     talus::read_members(tool, "reference-points", o.reference_points.path);
-    const Trn trn =
-        talus::is_tin_file(o.source) ? trn_of_tin(tool, o) : trn_of_dem(tool, o, operations);
-    talus::check_trn(trn, o.source);
-    Json report = report_on(tool, o, trn);
-    if (!operations.empty()) report["operations"] = operations;
-    talus::TrnFileOptions file{{{"RUN_ID", tool.run_id()}}, o.creation_options};
-    if (o.accept_doubts) file.tags["DOUBTS_ACCEPTED"] = "YES";
-    talus::write_trn(tool.stage(o.out), trn, file);
-    if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), trn);
-    if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
+    Ground ground = talus::is_tin_file(o.source) ? ground_of_tin(tool, o) : ground_of_dem(tool, o);
+    talus::check_trn(ground.trn, o.source);
+    tool.content_read("terrain", talus::trn_digest(ground.trn));
+    const Json report = report_on(tool, o, ground);
+    talus::write_trn(tool.stage(o.out), ground.trn,
+                     {{{"RUN_ID", tool.run_id()}}, o.creation_options, ground.accepted});
+    if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), ground.trn);
+    if (!o.report.empty()) tool.write_text(o.report, talus::json_text(report, 2) + "\n");
     tool.result(report, summary_of(report));
   });
 }

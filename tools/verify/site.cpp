@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "run/runner.hpp"
 #include "terrain/trn_flags.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
@@ -62,8 +63,7 @@ std::vector<Candidate> candidates(bool strains, bool with_paper) {
 bool breaks_health(const cases::Run& run, const SolverSettings& limits) {
   const StepFlag flags = run.result.flags;
   if (has(flags, StepFlag::not_finite) || has(flags, StepFlag::fell_through)) return true;
-  const auto n_left = static_cast<double>(run.state.counters.left_domain);
-  if (n_left > limits.max_lost_share * n_blocks(run.scene)) return true;
+  if (lost_share(run.scene, run.state) > limits.max_lost_share) return true;
   return std::isnan(limits.max_penetration_m)
              ? has(flags, StepFlag::deep)
              : run.result.largest_penetration > limits.max_penetration_m;

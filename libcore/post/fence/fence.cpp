@@ -4,6 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
+#include <utility>
+
+#include "record/pieces.hpp"
 
 namespace talus {
 namespace {
@@ -66,6 +70,31 @@ double distance_to(const Fence& fence, const Vec2& p) {
   return distance_to(fence, nearest_field(fence, p), p);
 }
 
+// The panels of a line as the blocks of a run met them.
+class PanelsOfLine {
+ public:
+  PanelsOfLine(const RunFile& file, int line) : world_(worlds_of(file)) {
+    for (const PanelRow& row : file.panels)
+      if (row.line == line) rows_[{row.rock, row.panel}] = &row;
+    for (const FenceHit& hit : file.fence_hits)
+      if (hit.line == line) touched_.emplace(hit.block, hit.panel);
+  }
+  // As the block's rock left it or, where that pushed it not or blocks share it, as it is for all.
+  [[nodiscard]] const PanelRow* met_by(int block, int panel) const {
+    for (const int rock : {world_[static_cast<std::size_t>(block)], -1})
+      if (const auto found = rows_.find({rock, panel}); found != rows_.end()) return found->second;
+    return nullptr;
+  }
+  [[nodiscard]] bool is_touched(int block, int panel) const {
+    return touched_.contains({block, panel});
+  }
+
+ private:
+  std::vector<int> world_;
+  std::map<std::pair<int, int>, const PanelRow*> rows_;  // by rock and panel
+  std::set<std::pair<int, int>> touched_;                // block and panel
+};
+
 // The block as it was before it touched the panel, as far as the run recorded it.
 FenceArrival arrival_of(const FenceHit& hit, const RunFile& file, const Fence& fence, int run) {
   FenceArrival a;
@@ -91,20 +120,19 @@ FenceArrival arrival_of(const FenceHit& hit, const RunFile& file, const Fence& f
 
 // Panels that a block may hang in: that nearest to where it lies at the end, and those that it
 // touched. Does one of them stand that was pushed as far as the block lies beyond the line?
-bool is_held(const RunFile& file, int line, const Fence& fence, int block, int direction) {
+bool is_held(const RunFile& file, const PanelsOfLine& panels, const Fence& fence, int block,
+             int direction) {
   const Vec2 at = last_pose(file, block).position.head<2>();
   const int field = nearest_field(fence, at);
   const double beyond = direction * (at - fence.post[field].head<2>()).dot(normal_of(fence, field));
-  const auto touched = [&](int panel) {
-    return std::any_of(file.fence_hits.begin(), file.fence_hits.end(), [&](const FenceHit& hit) {
-      return hit.block == block && hit.line == line && hit.panel == panel;
-    });
-  };
-  return std::any_of(file.panels.begin(), file.panels.end(), [&](const PanelRow& panel) {
-    return panel.line == line && std::isinf(panel.broken_at) &&
-           beyond <= std::max(0.0, direction * panel.deflection) &&
-           (panel.panel == field || touched(panel.panel));
-  });
+  for (int i = 0; i < n_fields(fence); ++i) {
+    const PanelRow* panel = panels.met_by(block, i);
+    if (panel != nullptr && std::isinf(panel->broken_at) &&
+        beyond <= std::max(0.0, direction * panel->deflection) &&
+        (i == field || panels.is_touched(block, i)))
+      return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -139,11 +167,13 @@ Vec3 place_of(const FenceArrival& arrival, const Fence& fence) {
 std::vector<FenceArrival> line_crossings(const RunFile& file, int line, const Fence& fence,
                                          int run) {
   std::vector<FenceArrival> out;
+  const std::vector<int> world = worlds_of(file);
   for (const Crossing& c : file.crossings) {
     if (c.line != line) continue;
     FenceArrival a;
     a.run = run;
     a.block = c.block;
+    a.world = world[static_cast<std::size_t>(c.block)];
     a.weight = weight_of(file, c.block);
     a.time = c.time;
     a.chainage = c.chainage;
@@ -178,7 +208,11 @@ std::vector<FenceArrival> arrivals(const RunFile& file, int line, const Fence& f
     const FenceHit*& known = first[hit.block];
     if (known == nullptr || hit.time < known->time) known = &hit;
   }
-  for (const auto& [block, hit] : first) of_block[block] = arrival_of(*hit, file, fence, run);
+  const std::vector<int> world = worlds_of(file);
+  for (const auto& [block, hit] : first) {
+    of_block[block] = arrival_of(*hit, file, fence, run);
+    of_block[block].world = world[static_cast<std::size_t>(block)];
+  }
   std::vector<FenceArrival> out;
   for (const auto& [block, arrival] : of_block) out.push_back(arrival);
   return out;
@@ -220,12 +254,13 @@ std::vector<FenceTouch> touches(const RunFile& file, int line, const Fence& fenc
     FenceTouch& touch = out[hit.block];
     if (hit.line == line) touch.time = std::min(touch.time, hit.time);
   }
+  const PanelsOfLine panels(file, line);
   for (const FenceArrival& crossing : crossings) {
     if (crossing.beside) continue;
     FenceTouch& touch = out[crossing.block];
-    for (const PanelRow& panel : file.panels)
-      if (panel.line == line && panel.panel == crossing.field) touch.gap_since = panel.broken_at;
-    touch.held = is_held(file, line, fence, crossing.block, crossing.direction);
+    if (const PanelRow* panel = panels.met_by(crossing.block, crossing.field))
+      touch.gap_since = panel->broken_at;
+    touch.held = is_held(file, panels, fence, crossing.block, crossing.direction);
   }
   return out;
 }

@@ -68,6 +68,7 @@ struct FenceArrival {
   double translation = 0, rotation = 0;      ///< [J]
   double centroid = 0, top = 0, bottom = 0;  ///< heights above the base; centroid NaN by touch [m]
   double volume = 0;                         ///< [m3]
+  int world = 0;  ///< of its block in its run (worlds_of): what of one world comes meets one fence
   bool passed_for_good = false;  ///< a crossing that ended on the far side: an odd number of times
   [[nodiscard]] double energy() const { return translation + rotation; }
 };

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "base/text.hpp"
 #include "post/statistics.hpp"
+#include "record/pieces.hpp"
 
 namespace talus {
 namespace {
@@ -22,23 +24,24 @@ std::vector<FenceArrival> only(const std::vector<FenceArrival>& list, int FenceA
   return out;
 }
 
-// Rock behind the line of a fence, a run [m3].
+// Rock behind the line of a fence, a run; of rocks that fell one by one, a rock [m3].
 double volume_behind(const FenceRunGroup& group, std::size_t fence) {
   double volume = 0;
   for (const FenceRun& run : group.runs)
     for (const FenceArrival& crossing : passed_for_good(run.at_fence[fence]))
-      volume += run.run_weight * crossing.volume;
+      volume += run.run_weight * crossing.volume / count_worlds(run.world);
   return volume / weight_of_runs(group);
 }
 
-// Rock volume that the fence would hold, a run, in the run where it is largest [m3].
+// Rock volume that the fence would hold at once, in the run, or of the rock, where it is largest
+// [m3].
 double retained_volume(const FenceRunGroup& group, std::size_t fence) {
   double largest = 0;
   for (const FenceRun& run : group.runs) {
-    double volume = 0;
+    std::map<int, double> volume;  // by world
     for (const BlockVerdict& v : run.at_fence[fence].verdicts)
-      if (v.verdict == Verdict::stopped) volume += run.volume[v.block];
-    largest = std::max(largest, volume);
+      if (v.verdict == Verdict::stopped)
+        largest = std::max(largest, volume[run.world[v.block]] += run.volume[v.block]);
   }
   return largest;
 }

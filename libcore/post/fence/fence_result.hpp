@@ -43,8 +43,10 @@ struct FenceResult {
   int n_basis_runs = 0;
   DesignResult design;
   double storage = 0;   ///< of all fields [m3]
-  double retained = 0;  ///< by the verdicts, as it lies, in the run where it is most [m3]
-  double kept = 0;      ///< from passing, a run, by the comparison, as it lies [m3]; NaN: none
+  double retained = 0;  ///< by the verdicts, as it lies, in the run where it is most; of rocks that
+                        ///< fell one by one, of one of them [m3]
+  double kept = 0;      ///< from passing, a run or such a rock, by the comparison, as it lies [m3];
+                        ///< NaN: none
   int side = 0;         ///< where blocks come from: +1 left of the line, -1 right
 };
 /// The design block: the 95th percentile of the blocks that arrive, the largest of too few.

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "record/pieces.hpp"
 
 namespace talus {
 namespace {
@@ -103,6 +104,8 @@ FenceRun run_at_fences(const RunFile& run, int index, const std::vector<FenceCas
   out.centre = event.centre_of_mass;
   out.volume = run.blocks.volume;
   out.run_weight = run.run_weight;
+  out.independent = run.info.independent;
+  out.world = worlds_of(run);
   double mass = 0, volume = 0;
   for (int b = 0; b < n_blocks(run); ++b) {
     out.weight.push_back(weight_of(run, b));
@@ -140,6 +143,11 @@ int n_unsettled(const FenceRunGroup& group, std::size_t fence) {
   int sum = 0;
   for (const FenceRun& run : group.runs) sum += run.at_fence[fence].n_unsettled;
   return sum;
+}
+
+bool fell_one_by_one(const FenceRunGroup& group) {
+  return std::all_of(group.runs.begin(), group.runs.end(),
+                     [](const FenceRun& run) { return run.independent; });
 }
 
 void check_one_kind(const FenceRunGroup& group, const std::vector<FenceCase>& fences) {

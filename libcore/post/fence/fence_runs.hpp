@@ -39,7 +39,7 @@ struct RunAtFence {
   std::vector<BlockVerdict> verdicts;   ///<                                         (n_blocks)
   bool standing = false;
   int n_unsettled = 0;  ///< blocks that the standing fence stopped and that move at the end
-  std::vector<PanelRow> broken;  ///< panels of the fence that broke, by time
+  std::vector<PanelRow> broken;  ///< panels of the fence that broke, by time; rock by rock
 };
 /// Crossings of blocks that passed a fence for good; one that hangs in a panel has not.
 [[nodiscard]] std::vector<FenceArrival> passed_for_good(const RunAtFence& at);
@@ -49,6 +49,8 @@ struct FenceRun {
   std::vector<double> volume;        ///< of each block [m3]                         (n_blocks)
   std::vector<double> weight;        ///<                                            (n_blocks)
   double run_weight = 1;             ///< how much it counts among the others [-]
+  bool independent = false;          ///< its rocks fell one by one, each on a fence of its own
+  std::vector<int> world;            ///< whose fence each block met (worlds_of)     (n_blocks)
   double density = 0;                ///< of all its rock [kg/m3]
   double block_size = 0;             ///< mean of the cube roots of the volumes [m]
   ReachLine event, centre;           ///< of the whole run, and of its centre of mass
@@ -81,6 +83,8 @@ struct FenceRunGroup {
 }
 [[nodiscard]] std::vector<FenceArrival> arrivals_at(const FenceRunGroup& group, std::size_t fence);
 [[nodiscard]] int n_unsettled(const FenceRunGroup& group, std::size_t fence);
+/// Whether rocks fell one by one in all runs: none dams another, or finds what it broke.
+[[nodiscard]] bool fell_one_by_one(const FenceRunGroup& group);
 
 /// Throws InputError when a fence stood in some runs and not in others: what it lets through and
 /// what comes to its line when it does not stand are two samples.

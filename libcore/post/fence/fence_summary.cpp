@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "post/percentile_bounds.hpp"
 
@@ -39,7 +40,7 @@ QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_e
   return summary;
 }
 
-// Largest sum of energies of one run within a second.
+// Largest sum of energies within a second, of one run or of a rock that fell alone.
 void find_busiest_second(const std::vector<FenceArrival>& of_run, FencePartSummary& summary) {
   double sum = 0;
   std::size_t first = 0;
@@ -60,6 +61,7 @@ FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, s
   std::vector<FenceArrival> sorted = given;
   std::sort(sorted.begin(), sorted.end(), [](const FenceArrival& a, const FenceArrival& b) {
     if (a.run != b.run) return a.run < b.run;
+    if (a.world != b.world) return a.world < b.world;
     return a.time != b.time ? a.time < b.time : a.block < b.block;
   });
   double w = 0, w_sq = 0, angle = 0;
@@ -72,16 +74,17 @@ FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, s
   summary.per_run = static_cast<double>(summary.n) / n_runs;
   summary.n_eff = effective_size(w, w_sq);
   summary.mean_angle = angle / w;
-  int n_twice = 0;
+  std::set<int> twice;  // runs
   for (std::size_t i = 0; i < sorted.size();) {
-    std::vector<FenceArrival> of_run;
-    for (const int run = sorted[i].run; i < sorted.size() && sorted[i].run == run; ++i)
-      of_run.push_back(sorted[i]);
-    n_twice += of_run.size() > 1;
-    summary.most_in_a_run = std::max(summary.most_in_a_run, static_cast<int>(of_run.size()));
-    find_busiest_second(of_run, summary);
+    std::vector<FenceArrival> of_world;
+    for (const FenceArrival& first = sorted[i];
+         i < sorted.size() && sorted[i].run == first.run && sorted[i].world == first.world; ++i)
+      of_world.push_back(sorted[i]);
+    if (of_world.size() > 1) twice.insert(of_world[0].run);
+    summary.most_in_a_run = std::max(summary.most_in_a_run, static_cast<int>(of_world.size()));
+    find_busiest_second(of_world, summary);
   }
-  summary.runs_hit_twice = static_cast<double>(n_twice) / n_runs;
+  summary.runs_hit_twice = static_cast<double>(twice.size()) / n_runs;
   const int n_units = unit.empty() ? n_runs : *std::max_element(unit.begin(), unit.end()) + 1;
   PercentileBounds bounds(n_units, fence_resamples, seed, unit);
   const auto of = [&](double (*quantity)(const FenceArrival&)) {

@@ -34,7 +34,7 @@ struct FencePartSummary {
   QuantitySummary energy, translation;  ///< kinetic with spin, without [J]
   QuantitySummary top, speed;           ///< height of the top above the base [m], [m/s]
   double mean_angle = 0;                ///< to the normal [rad]
-  int most_in_a_run = 0;                ///< hits of one run: the multi-hit check
+  int most_in_a_run = 0;                ///< hits of one fence in a run: the multi-hit check
   double runs_hit_twice = 0;            ///< share of runs with two hits or more
   double window_energy = 0;             ///< largest sum of energies within one second, any run [J]
   int window_hits = 0;                  ///< of that second

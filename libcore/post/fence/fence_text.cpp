@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "base/csv.hpp"
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "record/pieces.hpp"
 
 namespace talus {
 namespace {
@@ -54,21 +56,28 @@ std::string design_text(const FenceResult& r) {
          text(r.design);
 }
 
-// "Panels broke in 2 of 5 runs: panel 3 at 4.21 s by block 17, ..."; empty where none did.
+// "Panels broke in 2 of 5 runs: panel 3 at 4.21 s by block 17, ..."; empty where none did. Of rocks
+// that fell one by one: "Panels broke for 3 of 80 rocks, each of which met all of them: ...".
 std::string broken_text(std::size_t index, const FenceRunGroup& group) {
   constexpr int most = 5;
-  int n_with = 0, n = 0;
+  int n_with = 0, n_worlds = 0, n = 0;
   std::string list;
   for (const FenceRun& run : group.runs) {
-    n_with += !run.at_fence[index].broken.empty();
+    std::set<int> with;  // rocks, or all blocks
+    n_worlds += count_worlds(run.world);
     for (const PanelRow& panel : run.at_fence[index].broken) {
+      with.insert(panel.rock);
       if (++n > most) continue;
       list += (n == 1 ? ": panel " : ", panel ") + std::to_string(panel.panel) + " at " +
               text(panel.broken_at, 4) + " s by block " + std::to_string(panel.broken_by);
     }
+    n_with += static_cast<int>(with.size());
   }
   if (n == 0) return "";
   if (n > most) list += " and " + std::to_string(n - most) + " more (JSON: broken_panels)";
+  if (fell_one_by_one(group))
+    return "Panels broke for " + std::to_string(n_with) + " of " + counted(n_worlds, "rock") +
+           ", each of which met the whole fence" + list + ".";
   return "Panels broke in " + std::to_string(n_with) + " of " + std::to_string(n_runs(group)) +
          (n_runs(group) == 1 ? " run" : " runs") + list + ".";
 }
@@ -94,7 +103,7 @@ std::string basis_text(const FenceResult& r) {
          " of the standing fence" + runs;
 }
 
-std::string basis_note(const FenceResult& r, const std::string& fence) {
+std::string basis_note(const FenceResult& r, const std::string& fence, bool one_by_one) {
   const std::string rests = "The design check rests on " + basis_text(r);
   switch (r.basis) {
     case DesignBasis::open_line:
@@ -102,15 +111,17 @@ std::string basis_note(const FenceResult& r, const std::string& fence) {
     case DesignBasis::without_fence:
       return rests +
              ": these energies and heights are for design. First touches of the standing "
-             "fence are not: rocks that it stopped dam those behind them.";
+             "fence are not" +
+             (one_by_one ? "." : ": rocks that it stopped dam those behind them.");
     case DesignBasis::first_touches:
       break;
   }
   return rests +
-         ", which are no design values: rocks that it stopped dam those behind them, and a "
-         "line that stops nothing may see several times the energy. Compute runs without "
-         "the fence (make WITHOUT=yes; or talus-dda --set fence." +
-         fence + ".active=false) and give them by --without.";
+         (one_by_one ? ", which are no design values: what comes to a line that stops nothing is."
+                     : ", which are no design values: rocks that it stopped dam those behind them, "
+                       "and a line that stops nothing may see several times the energy.") +
+         " Compute runs without the fence (make WITHOUT=yes; or talus-dda --set fence." + fence +
+         ".active=false) and give them by --without.";
 }
 
 std::string fence_summary(const FenceCase& fence, std::size_t index, const FenceResult& result,
@@ -132,7 +143,11 @@ std::vector<std::string> fence_notes(const FenceCase& fence, std::size_t index,
                          : "The runs were computed without the fence: verdicts say what each block "
                            "would meet at the line; how blocks pile up, deflect or break the fence "
                            "one after the other was not modelled.");
-  if (result.at_basis.n > 0) notes.push_back(basis_note(result, fence.line.name));
+  const bool one_by_one = fell_one_by_one(group);
+  if (one_by_one)
+    notes.emplace_back(
+        "The rocks fell one by one: hits do not add up, and no rock is dammed by another.");
+  if (result.at_basis.n > 0) notes.push_back(basis_note(result, fence.line.name, one_by_one));
   notes.emplace_back(
       "Barrier classes are tested with single blocks at mid-field; hits at posts, by "
       "several blocks at once or in a damaged field are not covered by them.");

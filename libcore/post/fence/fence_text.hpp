@@ -18,7 +18,8 @@ namespace talus {
 [[nodiscard]] std::string basis_text(const FenceResult& result);
 
 /// Which energies are for design and which are not, and what to run when there are none.
-[[nodiscard]] std::string basis_note(const FenceResult& result, const std::string& fence);
+[[nodiscard]] std::string basis_note(const FenceResult& result, const std::string& fence,
+                                     bool one_by_one);
 
 /// What became of the blocks at fence number `index`, what came to it, and what the design check
 /// says of it: one line.

@@ -13,7 +13,7 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 auto order_of(const SearchHit& hit) {
-  return std::tuple(hit.arrival.run, hit.arrival.time, hit.block);
+  return std::tuple(hit.arrival.run, hit.arrival.world, hit.arrival.time, hit.block);
 }
 
 Vec3 point_at(const Fence& fence, double chainage) {
@@ -60,7 +60,7 @@ std::vector<Event> events_of(const std::vector<SearchLine>& lines,
   return events;
 }
 
-// A fence that stands in one run.
+// A fence that stands in one run, or for one rock that falls alone.
 struct Standing {
   std::vector<double> taken;  // by field [J]
   std::vector<bool> broken;
@@ -150,15 +150,17 @@ ScreenOutcome follow(const SearchRuns& runs, const std::vector<SearchLine>& line
   ScreenOutcome out;
   out.is_stopped.assign(static_cast<std::size_t>(runs.n_blocks), false);
   std::vector<int> n_stopped(static_cast<std::size_t>(runs.n_runs), 0);
+  std::vector<double> left = runs.weight;
   std::vector<Standing> standing(fences.size());
   std::vector<std::vector<double>> volumes(
       fences.size(), std::vector<double>(static_cast<std::size_t>(runs.n_runs)));
   double weight = 0;
-  int run = -1;
+  int run = -1, world = -1;
   for (const Event& event : events_of(lines, fences)) {
     const FenceArrival& arrival = event.hit->arrival;
-    if (arrival.run != run) {
+    if (arrival.run != run || arrival.world != world) {
       run = arrival.run;
+      world = arrival.world;
       for (std::size_t f = 0; f < fences.size(); ++f) {
         standing[f].taken.assign(static_cast<std::size_t>(fences[f].n_fields), 0);
         standing[f].broken.assign(static_cast<std::size_t>(fences[f].n_fields), false);
@@ -170,13 +172,13 @@ ScreenOutcome follow(const SearchRuns& runs, const std::vector<SearchLine>& line
     volumes[event.fence][run] += arrival.volume;
     if (!event.hit->matters) continue;
     weight += arrival.weight;
+    left[run] -= arrival.weight;
     ++n_stopped[run];
   }
   const double all = weight_on_object(runs);
   out.stopped = all > 0 ? std::min(1.0, weight / all) : none;
   for (int r = 0; r < runs.n_runs; ++r)
-    if (runs.n_hits[r] > n_stopped[r])
-      out.hit.push_back({r, runs.basis.run_weight.empty() ? 1.0 : runs.basis.run_weight[r]});
+    if (runs.n_hits[r] > n_stopped[r]) out.hit.push_back({r, std::max(0.0, left[r])});
   for (std::vector<double>& of_fence : volumes) out.retained.push_back(median(std::move(of_fence)));
   return out;
 }
@@ -208,10 +210,11 @@ FieldLoads field_loads(const SearchLine& line, const PlacedFence& fence, double 
     second.push_back(in_second);
     whole.push_back(in_run);
   };
-  int run = -1;
+  int run = -1, world = -1;
   for (const SearchHit& hit : line.hits) {
-    if (hit.arrival.run != run) close_run();
+    if (hit.arrival.run != run || hit.arrival.world != world) close_run();
     run = hit.arrival.run;
+    world = hit.arrival.world;
     if (!is_on(fence, hit.arrival.chainage) || (!gone.empty() && gone[hit.block])) continue;
     of_field[field_of(fence, hit.arrival.chainage)].push_back(&hit.arrival);
   }

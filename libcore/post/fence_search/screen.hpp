@@ -43,7 +43,7 @@ struct SearchLine {
   std::string name;
   Fence fence;
   int side = 1;                 ///< where blocks come from: +1 left of the line, -1 right
-  std::vector<SearchHit> hits;  ///< by run, time, block; not those beside the line
+  std::vector<SearchHit> hits;  ///< by run, world, time, block; not those beside the line
 };
 /// Puts the hits in their order.
 void sort_hits(SearchLine& line);
@@ -96,9 +96,9 @@ struct ScreenOutcome {
 [[nodiscard]] ScreenOutcome follow(const SearchRuns& runs, const std::vector<SearchLine>& lines,
                                    const std::vector<PlacedFence>& fences, bool adds_up = true);
 
-/// Energies that one field meets in a run: the largest single one, the largest sum within one
-/// second, the sum of all; the largest of any field and, over the runs with a hit, the quantile
-/// `share` [J].
+/// Energies that one field meets in a run, or of a rock that falls alone: the largest single one,
+/// the largest sum within one second, the sum of all; the largest of any field and, over the runs
+/// with a hit, the quantile `share` [J].
 struct FieldLoads {
   double single = 0, second = 0, run = 0;
 };

@@ -59,7 +59,8 @@ void fill(FenceOption& option, const SearchRuns& runs, const ScreenOutcome& outc
   option.stopped = outcome.stopped;
   option.hit = outcome.hit;
   double weight = 0;
-  for (const RunWeight& run : outcome.hit) weight += run.weight;
+  for (const RunWeight& run : outcome.hit)
+    weight += runs.basis.run_weight.empty() ? 1.0 : runs.basis.run_weight[run.run];
   option.residual = std::min(1.0, weight / runs.n_runs);
   option.residual_interval = run_share_interval(runs.basis, outcome.hit);
 }

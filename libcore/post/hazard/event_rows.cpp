@@ -41,9 +41,10 @@ float intensity_of(const MapRow& row, const RunBlocks& blocks, IntensityBy by) {
 }  // namespace
 
 std::vector<EventRow> event_rows(const std::vector<MapRow>& rows, const RunBlocks& blocks,
-                                 const Recipe& recipe, int run) {
+                                 const Recipe& recipe, const RunMember& run, int index) {
   const double released = std::accumulate(blocks.volume.begin(), blocks.volume.end(), 0.0);
-  const bool is_mass = recipe.mass_volume > 0 && released > recipe.mass_volume;
+  const bool is_mass =
+      !run.info.independent && recipe.mass_volume > 0 && released > recipe.mass_volume;
   const std::vector<bool> company =
       is_mass ? is_in_company(rows, recipe.alone_s) : std::vector<bool>(rows.size(), false);
   // the least value of that intensity: the breaks are exceeded, not met
@@ -58,8 +59,10 @@ std::vector<EventRow> event_rows(const std::vector<MapRow>& rows, const RunBlock
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const MapRow& row = rows[i];
     const float own = intensity_of(row, blocks, recipe.by);
-    out.push_back({row.cell, run, row.largest.total_energy / 1e3F,
-                   company[i] ? std::max(own, least) : own, row.weight});
+    const double weight =
+        blocks.weight.empty() ? 1 : blocks.weight[static_cast<std::size_t>(row.block)];
+    out.push_back({row.cell, index, row.largest.total_energy / 1e3F,
+                   company[i] ? std::max(own, least) : own, weight * run.run_weight});
   }
   return out;
 }

@@ -1,7 +1,7 @@
 // libcore/post/hazard/event_rows.hpp
 // Passages as hazard classes count them.
 // in:    passages of a run by cell (post/maps/map_rows.hpp), its blocks, a recipe
-// out:   rows of 20 bytes, by cell, then run
+// out:   rows of 24 bytes, by cell, then run
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 #include "post/hazard/recipe.hpp"
 #include "post/maps/map_rows.hpp"
-#include "record/run_file.hpp"
+#include "post/run_set.hpp"
 
 namespace talus {
 
@@ -18,14 +18,15 @@ struct EventRow {
   std::int32_t run = 0;
   float energy = 0;     ///< largest kinetic energy with spin of a block over the cell [kJ]
   float intensity = 0;  ///< what the recipe's breaks divide, raised by its rule for masses
-  float weight = 1;     ///< of the block
+  double weight = 1;    ///< of the block, times that of its run
 };
 
-/// Of the passages of one run. Where it released more than the recipe's volume of a mass, a block
-/// that is not alone in a cell has at least the intensity of a mass.
+/// Of the passages of `run`, which has the place `index` among all. Where it released more than the
+/// recipe's volume of a mass, a block that is not alone in a cell has at least the intensity of a
+/// mass; rocks that moved as if they were alone are none.
 [[nodiscard]] std::vector<EventRow> event_rows(const std::vector<MapRow>& rows,
                                                const RunBlocks& blocks, const Recipe& recipe,
-                                               int run);
+                                               const RunMember& run, int index);
 
 /// By cell, run, then all else, so that the rows alone say their order.
 void sort_events(std::vector<EventRow>& rows);

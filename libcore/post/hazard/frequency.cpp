@@ -86,6 +86,26 @@ HazardClass class_of(const Site& site, const HazardClassSettings& s) {
   return out;
 }
 
+// The key of [blocks.*] that says how often; null where none does.
+const char* frequency_key(const PlacedSettings& section) {
+  if (is_given(section.frequency_per_a)) return "frequency_per_a";
+  return is_given(section.frequency_per_m2_a) ? "frequency_per_m2_a" : nullptr;
+}
+
+// One class by weights among others may be that of the release points; the runs tell.
+void check_sources(const Site& site, const std::vector<HazardClass>& classes) {
+  for (const HazardClass& kind : classes)
+    if (kind.kind == FrequencyKind::of_weights) return;
+  for (const PlacedSettings& section : site.blocks) {
+    const char* const key = frequency_key(section);
+    if (!key || classes.empty()) continue;
+    throw InputError(where_of_class(site, site.hazard_classes[0]),
+                     "has a frequency, and [blocks." + section.name + "] has " + key +
+                         ": both say how often rocks come",
+                     two_frequencies_hint);
+  }
+}
+
 }  // namespace
 
 double gamma_quantile(double shape, double p) {
@@ -114,17 +134,18 @@ std::vector<HazardClass> hazard_classes(const Site& site) {
                            classes.front().name + " within " + text(classes.front().years),
                        "probabilities of one map need one number of years");
   }
+  check_sources(site, classes);
   return classes;
 }
 
 std::string words_of(const HazardClass& kind) {
-  if (kind.kind == FrequencyKind::of_weights)
-    return kind.name + ": each block by its own frequency, its weight";
   if (kind.kind == FrequencyKind::of_failure)
     return kind.name + ": fails with probability " + text(kind.probability, 4) + " in " +
            text(kind.years, 4) + " years";
   const Rate& f = kind.frequency;
-  std::string out = kind.name + ": " + text(f.value, 3) + " a year";
+  std::string out =
+      kind.name + ": " + text(f.value, 3) + (kind.of_rocks ? " rocks a year" : " a year");
+  if (kind.kind == FrequencyKind::of_weights) out += ", each by its weight";
   if (f.low != f.high) out += " (90 % within " + text(f.low, 3) + " - " + text(f.high, 3) + ")";
   return out;
 }

@@ -27,8 +27,8 @@ struct Rate {
 [[nodiscard]] Rate rate_of_events(double events, double years);
 
 enum class FrequencyKind {
-  of_events,   ///< a run is an event
-  of_failure,  ///< a run is the one failure that may come
+  of_events,   ///< of the whole class
+  of_failure,  ///< of the one failure that may come
   of_weights,  ///< each block is a source of its own, with its weight as its frequency
 };
 
@@ -36,15 +36,24 @@ enum class FrequencyKind {
 struct HazardClass {
   std::string name;
   FrequencyKind kind = FrequencyKind::of_events;
-  Rate frequency;                     ///< of_events
+  /// An event is a rock, not a run; known from the runs (hazard_runs).
+  bool of_rocks = false;
+  Rate frequency;                     ///< of_events; of_weights: of all blocks of a run together
   double probability = 0, years = 0;  ///< of_failure: within so many years [a]
 };
 
 /// The classes of a site, none where it has none. Throws InputError for one with no frequency, with
-/// several, or of another mode than [hazard]; and for failures within different numbers of years.
+/// several, or of another mode than [hazard]; for failures within different numbers of years; and
+/// where release points and all classes have frequencies.
 [[nodiscard]] std::vector<HazardClass> hazard_classes(const Site& site);
 
-/// "V1: 0.0233 a year (0.0072 - 0.0471; 3 events in 150 years)"
+/// What to do where a class and its release points both have a frequency.
+inline constexpr const char* two_frequencies_hint =
+    "by_weights = true in the class counts each release point by its own frequency; or take the "
+    "frequency out of [blocks.*]: that of the class is then of all its points together (28 points "
+    "of 0.01 a year are 0.28)";
+
+/// "V1: 0.0233 a year (90 % within 0.0072 - 0.0471)", "V1: 0.28 rocks a year"
 [[nodiscard]] std::string words_of(const HazardClass& kind);
 
 /// A year of a constant danger that adds up to `probability` within `years` [1/a].

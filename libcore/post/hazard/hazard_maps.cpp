@@ -47,7 +47,7 @@ void put(MapLayer& layer, std::size_t first_band, std::size_t cell, const Rate& 
 }
 
 constexpr const char* rate_bounds =
-    "95 % interval of the share of runs times the bounds of the frequency";
+    "95 % interval of the share of events times the bounds of the frequency";
 
 std::vector<MapLayer> empty_layers(const HazardSources& sources,
                                    const std::vector<std::uint32_t>& cells) {
@@ -63,8 +63,10 @@ std::vector<MapLayer> empty_layers(const HazardSources& sources,
       add_bounded(exceed,
                   (sources.classes.size() > 1 ? runs.kind.name + "_" : std::string()) +
                       "event_exceed_" + limits[i],
-                  "1", "share of the runs with " + above_words(recipe, i),
-                  "Wilson's 95 % interval");
+                  "1",
+                  std::string("share of the ") + (runs.kind.of_rocks ? "rocks: " : "runs with ") +
+                      above_words(recipe, i),
+                  runs.kind.of_rocks ? "95 % interval" : "Wilson's 95 % interval");
   if (!sources.has_frequencies) return layers;
   if (is_localized(sources)) {
     MapLayer& probability = start("probability");
@@ -73,7 +75,7 @@ std::vector<MapLayer> empty_layers(const HazardSources& sources,
       add_bounded(
           probability, "probability_" + limits[i], "1",
           "that within " + years + " years the mass fails and there is " + above_words(recipe, i),
-          "95 % interval of the share of runs");
+          "95 % interval of the share of events");
   } else {
     MapLayer& events = start("event_frequency");
     for (std::size_t i = 0; i < limits.size(); ++i)

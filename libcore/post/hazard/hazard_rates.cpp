@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <tuple>
+
+#include "base/error.hpp"
 
 namespace talus {
 namespace {
@@ -17,17 +20,19 @@ void add(Rate& sum, const Rate& more) {
   sum.high += more.high;
 }
 
-// Of a class in which each block is a source.
-Rate rate_of_weights(const HazardRuns& runs, std::span<const RunWeight> parts) {
+Rate share_of_rocks(const HazardRuns& runs, std::span<const RunWeight> parts) {
   double sum = 0;
   for (const RunWeight& part : parts) sum += part.weight;
   const double share = std::min(1.0, sum / runs.basis.over.whole);
   const Interval interval = share_interval(runs.basis, parts, share);
-  const double all = runs.basis.over.whole / runs.n;
-  return {all * share, all * interval.low, all * interval.high};
+  return {share, interval.low, interval.high};
 }
 
-bool is_of_weights(const HazardRuns& runs) { return runs.kind.kind == FrequencyKind::of_weights; }
+// Whether a count of runs is all that a share of them needs: each weighs 1, and is its own unit.
+bool counts_runs(const HazardRuns& runs) {
+  return runs.basis.unit.empty() && runs.basis.runs.whole == runs.n &&
+         runs.basis.runs.squares == runs.n;
+}
 
 // Of a share of the runs of a class.
 Rate rate_of_share(const HazardClass& kind, const Rate& share) {
@@ -43,7 +48,57 @@ Rate rate_of_share(const HazardClass& kind, const Rate& share) {
 
 bool comes_within(double rate, double period) { return rate * period >= 1 - rate_rounding; }
 
+bool has_frequency(const HazardClass& kind) {
+  return kind.frequency.value > 0 || kind.kind == FrequencyKind::of_failure;
+}
+
+void check_run(const HazardClass& kind, const RunMember& run, const RunMember& first) {
+  const auto words = [](const RunMember& of) {
+    return of.info.independent ? "each block as if it were alone" : "its blocks together";
+  };
+  const std::string item = "hazard.class." + kind.name;
+  if (run.info.independent != first.info.independent)
+    throw InputError({where_of(run), 0, item},
+                     std::string("the run moved ") + words(run) + ", " + where_of(first) +
+                         " moved " + words(first),
+                     "run all of a class with talus-dda --independent, or none");
+  if (has_frequency(kind) && run.info.weights_are_frequencies)
+    throw InputError({where_of(run), 0, item},
+                     "the blocks of the run have frequencies, and the class has one too: both say "
+                     "how often rocks come",
+                     two_frequencies_hint);
+  if (kind.kind == FrequencyKind::of_weights && !run.info.weights_are_frequencies)
+    throw InputError({where_of(run), 0, item},
+                     "the class is by_weights, and the weights of the run's blocks are no "
+                     "frequencies",
+                     "give frequency_per_a or frequency_per_m2_a to [blocks.*] and run "
+                     "talus-blocks and talus-dda again, or give the class a frequency");
+}
+
 }  // namespace
+
+HazardRuns hazard_runs(const HazardClass& kind, const std::vector<RunMember>& members, int first,
+                       double failed_share) {
+  const std::vector<RunMember> own(members.begin() + first, members.end());
+  HazardRuns runs{kind, {}, first, static_cast<int>(own.size())};
+  std::vector<double> released, run_weight;
+  bool single = true;
+  for (const RunMember& run : own) {
+    check_run(kind, run, own[0]);
+    released.push_back(run.weight);
+    run_weight.push_back(run.run_weight);
+    single = single && run.n_blocks <= 1;
+  }
+  runs.kind.of_rocks =
+      kind.kind == FrequencyKind::of_weights || (!own.empty() && own[0].info.independent);
+  runs.basis = share_basis(released, single, failed_share, units_of(own));
+  weigh_runs_of(runs.basis, run_weight);
+  if (kind.kind == FrequencyKind::of_weights) {
+    const double all = runs.basis.over.whole / runs.n;
+    runs.kind.frequency = {all, all, all};
+  }
+  return runs;
+}
 
 Rate share_of(const HazardRuns& runs, int n_hit) {
   const double share = static_cast<double>(n_hit) / runs.n;
@@ -52,9 +107,12 @@ Rate share_of(const HazardRuns& runs, int n_hit) {
 }
 
 Rate share_of(const HazardRuns& runs, std::span<const RunWeight> hit) {
-  if (runs.basis.unit.empty()) return share_of(runs, static_cast<int>(hit.size()));
+  if (runs.kind.of_rocks) return share_of_rocks(runs, hit);
+  if (counts_runs(runs)) return share_of(runs, static_cast<int>(hit.size()));
+  double weight = 0;
+  for (const RunWeight& run : hit) weight += runs.basis.run_weight[run.run];
   const Interval interval = run_share_interval(runs.basis, hit);
-  return {static_cast<double>(hit.size()) / runs.n, interval.low, interval.high};
+  return {std::min(1.0, weight / runs.basis.runs.whole), interval.low, interval.high};
 }
 
 Rate rate_of(const HazardRuns& runs, int n_hit) {
@@ -68,15 +126,15 @@ Rate rate_of(const HazardRuns& runs, std::span<const RunWeight> hit) {
 double largest_rate_elsewhere(std::span<const HazardRuns> classes) {
   double sum = 0;
   for (const HazardRuns& runs : classes)
-    sum += runs.kind.kind == FrequencyKind::of_weights ? rate_of_weights(runs, {}).high
-                                                       : rate_of(runs, 0).high;
+    sum += runs.kind.of_rocks ? rate_of(runs, std::span<const RunWeight>{}).high
+                              : rate_of(runs, 0).high;
   return sum;
 }
 
 HazardRates::HazardRates(std::span<const HazardRuns> classes)
     : classes_(classes), n_hit_(classes.size()), parts_(classes.size()) {
   for (std::size_t c = 0; c < classes.size(); ++c) {
-    costs_all_ = costs_all_ || is_of_weights(classes[c]) || !classes[c].basis.unit.empty();
+    costs_all_ = costs_all_ || classes[c].kind.of_rocks || !counts_runs(classes[c]);
     kind_of_run_.resize(static_cast<std::size_t>(classes[c].first + classes[c].n), c);
   }
 }
@@ -97,9 +155,7 @@ Rate HazardRates::rate_of_rows(std::span<const EventRow> rows, Counts&& counts) 
     last = row.run;
   }
   Rate sum;
-  for (std::size_t c = 0; c < classes_.size(); ++c)
-    add(sum, is_of_weights(classes_[c]) ? rate_of_weights(classes_[c], parts_[c])
-                                        : rate_of(classes_[c], parts_[c]));
+  for (std::size_t c = 0; c < classes_.size(); ++c) add(sum, rate_of(classes_[c], parts_[c]));
   return sum;
 }
 
@@ -120,7 +176,8 @@ std::vector<Rate> HazardRates::shares_above(std::span<const EventRow> rows,
     for (const EventRow& row : rows) {
       if (kind_of(row.run) != kind || (i > 0 && !(row.intensity > breaks[i - 1]))) continue;
       const int run = row.run - classes_[kind].first;
-      if (hit.empty() || hit.back().run != run) hit.push_back({run, 1});
+      if (hit.empty() || hit.back().run != run) hit.push_back({run, 0});
+      hit.back().weight += row.weight;
     }
     shares.push_back(share_of(classes_[kind], hit));
   }
@@ -132,9 +189,10 @@ std::vector<double> HazardRates::passages_above(std::span<const EventRow> rows,
   std::vector<double> sums(breaks.size() + 1, 0);
   for (const EventRow& row : rows) {
     const HazardRuns& runs = classes_[kind_of(row.run)];
-    const double each = runs.kind.kind == FrequencyKind::of_weights ? 1 : runs.kind.frequency.value;
+    const double all = runs.kind.of_rocks ? runs.basis.over.whole : runs.n;
     for (std::size_t i = 0; i < sums.size(); ++i)
-      if (i == 0 || row.intensity > breaks[i - 1]) sums[i] += each * row.weight / runs.n;
+      if (i == 0 || row.intensity > breaks[i - 1])
+        sums[i] += runs.kind.frequency.value * row.weight / all;
   }
   return sums;
 }
@@ -144,9 +202,7 @@ void HazardRates::find_events(std::span<const EventRow> rows) {
   std::int32_t last = -1;
   for (const EventRow& row : rows) {  // of one run one behind the other
     const auto c = static_cast<std::int32_t>(kind_of(row.run));
-    const bool is_each =
-        classes_[static_cast<std::size_t>(c)].kind.kind == FrequencyKind::of_weights;
-    if (!is_each && row.run == last)
+    if (!classes_[static_cast<std::size_t>(c)].kind.of_rocks && row.run == last)
       events_.back().energy = std::max(events_.back().energy, row.energy);
     else
       events_.push_back({row.energy, row.weight, c, row.run});
@@ -166,7 +222,7 @@ Rate HazardRates::rate_of_first(std::size_t n_events) {
   }
   Rate sum;
   for (std::size_t c = 0; c < classes_.size(); ++c) {
-    if (!is_of_weights(classes_[c])) {
+    if (!classes_[c].kind.of_rocks) {
       add(sum, rate_of(classes_[c], parts_[c]));  // an event is a run
       continue;
     }
@@ -181,7 +237,7 @@ Rate HazardRates::rate_of_first(std::size_t n_events) {
         parts[n++] = parts[i];
     }
     parts.resize(n);
-    add(sum, rate_of_weights(classes_[c], parts));
+    add(sum, rate_of(classes_[c], parts));
   }
   return sum;
 }

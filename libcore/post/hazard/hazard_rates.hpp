@@ -3,11 +3,12 @@
 // in:    rows of one cell; the classes with their runs
 // out:   rates of events with bounds, the energy that is exceeded once in a time
 //
-// An event is a run of its class: however many blocks of it cross a cell, it is one. The share of
-// runs has Wilson's interval (post/share_interval.hpp), the frequency its own; the bounds of a rate
-// are the products of both ends, so they hold together what each leaves open. Where blocks are
-// sources of their own, with weights as frequencies, each block is an event. Where there are
-// several rock masses, the masses are what intervals count.
+// An event of a mass is a run: however many blocks of it cross a cell, it is one. Where each block
+// moved as if it were alone, or weights are frequencies, an event is a rock: a run is a sample of
+// them, and each counts by its share of the weight. So a rate does not depend on how many rocks a
+// run has. The share of events has its interval (post/share_interval.hpp), the frequency its own;
+// the bounds of a rate are the products of both ends, so they hold together what each leaves open.
+// Where there are several rock masses, the masses are what intervals count.
 #pragma once
 
 #include <span>
@@ -15,6 +16,7 @@
 
 #include "post/hazard/event_rows.hpp"
 #include "post/hazard/frequency.hpp"
+#include "post/run_set.hpp"
 #include "post/share_interval.hpp"
 
 namespace talus {
@@ -26,12 +28,19 @@ struct HazardRuns {
   int first = 0, n = 0;
 };
 
-/// Of events of which `n_hit` of the runs of the class were any; each run its own unit, or none
-/// hit.
+/// The runs of a class, members `first` to the last: what an event is of them, and how often it
+/// comes. The one place that decides it, for every tool. Throws InputError where some runs moved
+/// their blocks alone and some together, where both the class and the blocks have a frequency, and
+/// where the class asks for weights that are none.
+[[nodiscard]] HazardRuns hazard_runs(const HazardClass& kind, const std::vector<RunMember>& members,
+                                     int first, double failed_share);
+
+/// Of events that are runs, `n_hit` of those of the class; each run its own unit, or none hit.
 [[nodiscard]] Rate rate_of(const HazardRuns& runs, int n_hit);
-/// Of events without a frequency: the share of runs, as a rate of 1 a year.
+/// Of events without a frequency: the share of events, as a rate of 1 a year.
 [[nodiscard]] Rate share_of(const HazardRuns& runs, int n_hit);
-/// The same of these runs, named once each by their places in the class, as units ask for.
+/// The same of these runs, named once each by their places in the class; of rocks by the weight of
+/// those that hit.
 [[nodiscard]] Rate rate_of(const HazardRuns& runs, std::span<const RunWeight> hit);
 [[nodiscard]] Rate share_of(const HazardRuns& runs, std::span<const RunWeight> hit);
 
@@ -47,7 +56,7 @@ class HazardRates {
   /// `rows` of one cell, sorted.                                            (n_breaks + 1)
   [[nodiscard]] std::vector<Rate> above(std::span<const EventRow> rows,
                                         std::span<const double> breaks);
-  /// Shares of the runs of one class, in the same way.
+  /// Shares of the events of one class, in the same way.
   [[nodiscard]] std::vector<Rate> shares_above(std::span<const EventRow> rows,
                                                std::span<const double> breaks, std::size_t kind);
   /// Blocks a year, in the same way, without bounds [1/a].
@@ -61,7 +70,8 @@ class HazardRates {
 
  private:
   struct Event {
-    float energy = 0, weight = 0;
+    float energy = 0;
+    double weight = 0;
     std::int32_t kind = 0, run = 0;
   };
   [[nodiscard]] std::size_t kind_of(int run) const;
@@ -71,8 +81,8 @@ class HazardRates {
   void find_events(std::span<const EventRow> rows);
 
   std::span<const HazardRuns> classes_;
-  bool costs_all_ = false;                     // a rate costs all of its events: weights or units
-  std::vector<int> n_hit_;                     // scratch: of each class
+  bool costs_all_ = false;  // a rate costs all of its events: rocks, weights, units
+  std::vector<int> n_hit_;  // scratch: of each class
   std::vector<std::vector<RunWeight>> parts_;  // scratch: of each class, its runs
   std::vector<Event> events_;                  // scratch: of a cell, the largest energy first
   std::vector<std::size_t> kind_of_run_;

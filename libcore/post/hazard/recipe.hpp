@@ -46,7 +46,8 @@ struct Recipe {
 };
 
 /// Reads a recipe. Throws InputError with the line for what is missing, does not fit together, or
-/// is unknown: holes of the matrix, classes that are not described, breaks that do not ascend.
+/// is unknown: holes of the matrix, one whose classes fall with the intensity or rise with the
+/// return period, classes that are not described, breaks that do not ascend, values out of range.
 [[nodiscard]] Recipe parse_recipe(const std::string& text, const std::string& path);
 
 /// "300kJ", "0.25m3": what stands in the names of bands.

@@ -34,8 +34,7 @@ class RecipeReader {
     if (side != "a" && side != "b")
       refuse(root_.get("split"), "split", "is \"" + side + "\", expected a or b");
     recipe_.side = side == "b";
-    if (root_.contains("beyond"))
-      recipe_.beyond = class_named(root_.get("beyond"), word(root_, "beyond", "beyond"), "beyond");
+    if (root_.contains("beyond")) read_beyond();
     if (root_.contains("mass")) read_mass();
     return recipe_;
   }
@@ -118,8 +117,13 @@ class RecipeReader {
     recipe_.breaks = numbers(table, "breaks", "intensity.breaks");
     const toml::node& names = needed(table, "names", "intensity.names");
     for (const toml::node& entry : list(names, "intensity.names", recipe_.breaks.size() + 1)) {
-      if (!entry.is_string()) refuse(&entry, "intensity.names", "is not a list of texts");
-      recipe_.intensities.push_back(entry.as_string()->get());
+      if (!entry.is_string() || entry.as_string()->get().empty())
+        refuse(&entry, "intensity.names", "is not a list of texts");
+      const std::string& name = entry.as_string()->get();
+      if (std::find(recipe_.intensities.begin(), recipe_.intensities.end(), name) !=
+          recipe_.intensities.end())
+        refuse(&entry, "intensity.names", "has \"" + name + "\" twice");
+      recipe_.intensities.push_back(name);
     }
   }
 
@@ -143,6 +147,8 @@ class RecipeReader {
         if (!(part >= 0 && part <= 255)) refuse(&rgb, item + ".rgb", "is not within 0 to 255");
         out.rgb[k] = static_cast<std::uint8_t>(part);
       }
+      if (of.contains("hatched") && !of["hatched"].is_boolean())
+        refuse(of.get("hatched"), item + ".hatched", "is neither true nor false");
       out.is_hatched = of["hatched"].value_or(false);
       for (const RecipeClass& other : recipe_.classes)
         if (other.code == out.code)
@@ -161,6 +167,47 @@ class RecipeReader {
            "describe it, or write \"none\"");
   }
 
+  [[nodiscard]] int code_of(int chosen) const {
+    return chosen < 0 ? 0 : recipe_.classes[static_cast<std::size_t>(chosen)].code;
+  }
+  [[nodiscard]] std::string name_of(int chosen) const {
+    return chosen < 0 ? "none" : recipe_.classes[static_cast<std::size_t>(chosen)].name;
+  }
+
+  // Of the last cell of a row that is being read: what is stronger, or comes more often, has no
+  // lower class, on either side of the split.
+  void check_order(const toml::node& entry, const std::string& item,
+                   const std::vector<MatrixCell>& cells) const {
+    const std::size_t row = recipe_.matrix.size(), t = cells.size() - 1;
+    for (const std::size_t side : {0U, 1U}) {
+      const int own = cells[t].of_side[side];
+      if (row > 0 && code_of(own) < code_of(recipe_.matrix[row - 1][t].of_side[side]))
+        refuse(&entry, item,
+               "gives \"" + name_of(own) + "\" to " + recipe_.intensities[row] + " in " +
+                   text(recipe_.return_periods[t]) + " years, and the row before gives \"" +
+                   name_of(recipe_.matrix[row - 1][t].of_side[side]) + "\" to " +
+                   recipe_.intensities[row - 1],
+               "rows go from the weakest intensity to the strongest, which has no lower class");
+      if (t > 0 && code_of(own) > code_of(cells[t - 1].of_side[side]))
+        refuse(&entry, item,
+               "gives \"" + name_of(own) + "\" in " + text(recipe_.return_periods[t]) +
+                   " years, and \"" + name_of(cells[t - 1].of_side[side]) + "\" in " +
+                   text(recipe_.return_periods[t - 1]),
+               "columns go from the shortest return period to the longest, which has no higher "
+               "class");
+    }
+  }
+
+  void read_beyond() {
+    recipe_.beyond = class_named(root_.get("beyond"), word(root_, "beyond", "beyond"), "beyond");
+    for (const int least : recipe_.matrix[0].back().of_side)
+      if (code_of(recipe_.beyond) > code_of(least))
+        refuse(root_.get("beyond"), "beyond",
+               "is \"" + name_of(recipe_.beyond) + "\", and the matrix gives \"" + name_of(least) +
+                   "\" to what comes more often",
+               "give a class that is no higher than any of the matrix, or \"none\"");
+  }
+
   void read_matrix() {
     const toml::node& matrix = needed(root_, "matrix", "matrix");
     for (const toml::node& row : list(matrix, "matrix", recipe_.intensities.size())) {
@@ -174,6 +221,7 @@ class RecipeReader {
         const std::string a = words.substr(0, bar),
                           b = bar == std::string::npos ? a : words.substr(bar + 1);
         cells.push_back({{class_named(&entry, a, item), class_named(&entry, b, item)}, 0});
+        check_order(entry, item, cells);
       }
       recipe_.matrix.push_back(std::move(cells));
     }
@@ -183,8 +231,12 @@ class RecipeReader {
     const toml::array& rows = list(*root_.get("numbers"), "numbers", recipe_.matrix.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const toml::array& row = list(rows[i], "numbers", recipe_.return_periods.size());
-      for (std::size_t t = 0; t < row.size(); ++t)
-        recipe_.matrix[i][t].number = static_cast<int>(number(row[t], "numbers"));
+      for (std::size_t t = 0; t < row.size(); ++t) {
+        const double given = number(row[t], "numbers");
+        if (given != std::floor(given) || given < 0 || given > 1e6)
+          refuse(&row[t], "numbers", "has " + text(given) + ", expected a whole number from 0 on");
+        recipe_.matrix[i][t].number = static_cast<int>(given);
+      }
     }
   }
 
@@ -194,6 +246,7 @@ class RecipeReader {
     recipe_.mass_volume = number(needed(table, "volume_m3", "mass.volume_m3"), "mass.volume_m3");
     if (!(recipe_.mass_volume > 0)) refuse(&table, "mass.volume_m3", "is not above 0");
     if (table.contains("alone_s")) recipe_.alone_s = number(*table.get("alone_s"), "mass.alone_s");
+    if (!(recipe_.alone_s > 0)) refuse(table.get("alone_s"), "mass.alone_s", "is not above 0");
     const std::string name = word(table, "intensity", "mass.intensity");
     const auto at = std::find(recipe_.intensities.begin(), recipe_.intensities.end(), name);
     if (at == recipe_.intensities.end())

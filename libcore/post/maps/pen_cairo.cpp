@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/printable.hpp"
 #include "post/maps/page_font_cairo.hpp"
 
 namespace talus {
@@ -122,7 +123,8 @@ void Pen::set(const std::string& words, const Letters& letters) {
   pango_layout_set_width(words_->layout,
                          letters.width > 0 ? static_cast<int>(letters.width * PANGO_SCALE) : -1);
   pango_layout_set_wrap(words_->layout, PANGO_WRAP_WORD_CHAR);
-  pango_layout_set_text(words_->layout, words.data(), static_cast<int>(words.size()));
+  const std::string shown = printable(words);
+  pango_layout_set_text(words_->layout, shown.data(), static_cast<int>(shown.size()));
   pango_cairo_update_layout(page_, words_->layout);
 }
 

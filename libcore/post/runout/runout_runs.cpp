@@ -44,7 +44,7 @@ RunoutRun runout_run(const RunFile& run, const RunMember& member, const Trn& trn
   r.mass = run.blocks.mass;
   for (const WeightedValue& d : displacements(run)) r.displacement.push_back(d.value);
   r.lines = reach_of_lines(run);
-  r.trees = {run.forests, run.tree_hits};
+  r.trees = trees_of(run);
   r.curves = curves(run);
   return r;
 }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
+
+#include "record/pieces.hpp"
 
 namespace talus {
 namespace {
@@ -14,15 +17,18 @@ void add_run(const RunTrees& run, std::map<StemName, HitStem>& stems,
              std::map<std::string, ForestSummary>& forests) {
   for (const ForestInfo& forest : run.forests) {
     ForestSummary& sum = forests[forest.name];
+    const int n_worlds = run.independent ? count_worlds(run.worlds) : 1;
     sum.name = forest.name;
     ++sum.n_runs;
-    sum.stems += forest.n_stems;
+    sum.n_worlds += n_worlds;
+    sum.stems += static_cast<double>(forest.n_stems) * n_worlds;
   }
-  std::map<StemName, int> seen;  // hits of the stem in this run so far
+  std::set<StemName> seen;  // in this run so far
+  std::set<std::pair<int, StemName>> met;
   for (const TreeHitRow& row : run.hits) {
     const std::string& name = run.forests[row.forest].name;
     const StemName key(name, row.stem, row.foot.x(), row.foot.y());
-    const bool is_new = seen[key]++ == 0;
+    const int world = run.independent ? run.worlds[static_cast<std::size_t>(row.hit.block)] : 0;
     HitStem& stem = stems[key];
     if (stem.n_hits == 0) {
       stem.forest = name;
@@ -34,8 +40,8 @@ void add_run(const RunTrees& run, std::map<StemName, HitStem>& stems,
     stem.least_left = std::min(stem.least_left, row.left);
     ForestSummary& sum = forests[name];
     sum.work += row.hit.work;
-    if (!is_new) continue;
-    ++stem.n_runs;
+    stem.n_runs += seen.insert(key).second;
+    if (!met.emplace(world, key).second) continue;
     sum.hit += 1;
     if (row.broken_by < 0) continue;
     ++stem.n_broken;
@@ -45,6 +51,10 @@ void add_run(const RunTrees& run, std::map<StemName, HitStem>& stems,
 
 }  // namespace
 
+RunTrees trees_of(const RunFile& run) {
+  return {run.forests, run.tree_hits, worlds_of(run), run.info.independent};
+}
+
 TreeSummary summary_of(const std::vector<RunTrees>& runs) {
   std::map<StemName, HitStem> stems;
   std::map<std::string, ForestSummary> forests;
@@ -52,7 +62,7 @@ TreeSummary summary_of(const std::vector<RunTrees>& runs) {
   TreeSummary out;
   for (auto& [key, stem] : stems) out.stems.push_back(std::move(stem));
   for (auto& [name, sum] : forests) {
-    for (double* value : {&sum.stems, &sum.hit, &sum.broken, &sum.work}) *value /= sum.n_runs;
+    for (double* value : {&sum.stems, &sum.hit, &sum.broken, &sum.work}) *value /= sum.n_worlds;
     out.forests.push_back(sum);
   }
   return out;

@@ -15,7 +15,10 @@ namespace talus {
 struct RunTrees {
   std::vector<ForestInfo> forests;
   std::vector<TreeHitRow> hits;
+  std::vector<int> worlds;  ///< of each block (worlds_of): those of one meet the same trees
+  bool independent = false;
 };
+[[nodiscard]] RunTrees trees_of(const RunFile& run);
 
 /// A stem that was hit in some run. Stems of two runs are one where forest, id and place agree.
 struct HitStem {
@@ -23,7 +26,7 @@ struct HitStem {
   TreeHitRow first;         ///< its first hit in the first run that hit it
   int n_runs = 0;           ///< that hit it
   int n_hits = 0;           ///< blocks that touched it, over all runs
-  int n_broken = 0;         ///< runs in which it broke
+  int n_broken = 0;         ///< runs in which it broke; rocks that broke it, where each met its own
   double largest_work = 0;  ///< that one block lost to it [J]
   double least_left = 0;    ///< of its capacity at the end of a run [J]
 };
@@ -32,8 +35,9 @@ struct HitStem {
 struct ForestSummary {
   std::string name;
   int n_runs = 0;                         ///< in which it stood
-  double stems = 0, hit = 0, broken = 0;  ///< mean over these runs
-  double work = 0;                        ///< energy taken, mean over these runs [J]
+  int n_worlds = 0;                       ///< these, or the rocks that each met the whole forest
+  double stems = 0, hit = 0, broken = 0;  ///< mean over these runs or rocks
+  double work = 0;                        ///< energy taken, mean over them [J]
 };
 
 struct TreeSummary {

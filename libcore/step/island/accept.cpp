@@ -154,6 +154,7 @@ struct SubstepAcceptance {
     memory.state = static_cast<std::uint8_t>(stays);
     memory.bond_area = contact.bond >= 0 ? 0 : contact.bond_area;  // of the ground
     const double k_t = lane.shear_damping() / per_time;
+    if (stays == ContactState::open) return;  // a bond without tensile strength, hardly open
     memory.shear = stays == ContactState::slip ? Vec3((impulse - p_n * normal) / (-h * k_t))
                                                : Vec3(contact.shear + path - along * normal);
   }
@@ -175,7 +176,7 @@ struct SubstepAcceptance {
         note_overlap(thinner_of(members, contact), overlap, thickness_of(members, contact), deep,
                      report);
       if (is_open) {
-        if (contact.hit >= 0) remember_contact(r, path, overlap);
+        if (contact.hit >= 0 || contact.bond_area > 0) remember_contact(r, path, overlap);
         continue;
       }
       const BodyPair& pair = system.island.pairs[contact.pair];
@@ -282,7 +283,7 @@ struct SubstepAcceptance {
       const size_t k = members.at(contact.a);
       const Motion& before = free.substeps[k].start;
       note_stem_touch(scene, contact.a, contact.fixed, before.pose.position + contact.arm, free.t,
-                      before, state.motion[members.block(k)], state.stem_hits);
+                      before, state.motion[members.block(k)], state);
     }
   }
 };
@@ -296,8 +297,8 @@ int heaviest_of(const Scene& scene, const IslandMembers& members) {
 
 // Bonds of the substep that broke are gone; those with the ground have left the memories already.
 void break_bonds(const SubstepTries& tries, State& state) {
-  for (const int bond : tries.broken)
-    if (static_cast<size_t>(bond) < state.bonds.size()) state.bonds[bond].area = 0;
+  for (const BondFace& face : tries.broken)
+    if (face.bond >= 0) state.bonds[face.bond].area = 0;
 }
 
 }  // namespace
@@ -330,7 +331,7 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
   acceptance.note_touched_panels();
   acceptance.note_touched_stems();
   note_work(scene, end.pushes, state.fence);
-  note_stem_work(scene, end.pushes, state.stem_hits);
+  note_stem_work(scene, end.pushes, state);
   push_bodies(scene, end.pushes, free.t + free.h, state);
 }
 

@@ -10,6 +10,7 @@
 #include "step/accuracy.hpp"
 #include "step/island/stages.hpp"
 #include "step/island/stems.hpp"
+#include "step/substep.hpp"
 
 namespace talus {
 namespace {
@@ -129,45 +130,38 @@ struct SubstepCheck {
                              : scene.ground.classes[contact.ground_class];
   }
 
-  [[nodiscard]] BondLoad& load_of(const KeptContact& contact) const {
-    const int bond = bond_number(static_cast<int>(state.bonds.size()), contact);
-    for (BondLoad& load : end.bond_loads)
-      if (load.bond == bond) return load;
-    BondLoad& load = end.bond_loads.emplace_back();
-    load.bond = bond;
-    return load;
-  }
-
-  // What the bonds carry; whether it is more than one of them holds.
+  // The faces of the bonds and what they carry; whether that is more than one of them holds.
   [[nodiscard]] bool overloads_bonds() const {
-    end.bond_loads.clear();
+    end.bond_faces.clear();
     if (!system.has_bonds) return false;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
+      if (contact.bond_area == 0 || contact.hit >= 0) continue;
       const RowIn<const RowGroup> lane = lane_of(system, r);
-      if (contact.bond_area == 0 || contact.hit >= 0 || lane.state() == ContactState::open)
-        continue;
+      const Vec3 normal = lane.normal(), path = path_of_contact(system, end, r);
       const double per_h = 1 / (free.h * members.of(contact.a).recovery_time);
-      const Vec3 path = path_of_contact(system, end, r);
-      const double along = lane.normal().dot(path);
-      double N = -per_h * lane.normal_damping() * (contact.gap_start + contact.offset + along);
-      Vec3 shear = -per_h * lane.shear_damping() * (contact.shear + path - along * lane.normal());
-      if (!hits.bond_impulse.empty()) {
-        const Vec3 by_hits = hits.bond_impulse[r] / free.h;
-        const double pressed = lane.normal().dot(by_hits);
-        N += pressed;
-        shear += by_hits - pressed * lane.normal();
+      BondFace& face = face_of(contact.bond, contact.a, normal, end.bond_faces);
+      BondCorner corner = corner_of(contact, bond_class(contact), per_h * lane.normal_damping(),
+                                    per_h * lane.shear_damping(), normal, path);
+      if (lane.state() == ContactState::open) {
+        corner.force.setZero();
+        double radius = members.of(contact.a).radius;
+        if (contact.b >= 0) radius = std::min(radius, members.of(contact.b).radius);
+        face.opened |= contact.gap_start + normal.dot(path) > bonded_gap_ratio * radius;
       }
-      add_load(N, shear, contact.bond_area, bond_class(contact), load_of(contact));
+      if (!hits.bond_impulse.empty()) corner.force += hits.bond_impulse[r] / free.h;
+      corner.polygon = contact.pair;
+      face.corners.push_back(corner);
     }
-    return std::any_of(end.bond_loads.begin(), end.bond_loads.end(), breaks);
+    return !std::all_of(end.bond_faces.begin(), end.bond_faces.end(), holds);
   }
 
   // --- what gives way --------------------------------------------------------------------------
 
-  // How far a fixed body had been pushed when it was searched.
-  [[nodiscard]] Vec3 pushed_before(int fixed) const {
-    if (is_stem(scene, fixed)) return met_by_stem(state.yielding, stem_of(scene, fixed)).shift;
+  // How far a fixed body had been pushed when it was searched for a block.
+  [[nodiscard]] Vec3 pushed_before(int block, int fixed) const {
+    if (is_stem(scene, fixed))
+      return met_by_stem(scene, state, world_of(scene, block), stem_of(scene, fixed)).shift;
     return search.poses[hull_of_fixed(scene, fixed)].position - scene.fixed.pose[fixed].position;
   }
 
@@ -191,7 +185,7 @@ struct SubstepCheck {
       const double gap_end = contact.gap_start + normal.dot(path_of_contact(system, end, r));
       if (p_n >= (1 - 1e-12) * lane.normal_limit() || follows_block(scene, members, system, r))
         push.shift = std::min(0.0, gap_end) * cosine;
-      push.to = push.shift + push.along.dot(pushed_before(contact.fixed));
+      push.to = push.shift + push.along.dot(pushed_before(contact.a, contact.fixed));
       add_push(push, end.pushes);
     }
   }

@@ -16,7 +16,6 @@ namespace {
 using std::size_t;
 
 using law::pair_touch_ratio, law::reach_by_gravity;
-constexpr double held = 1e100;  // strength of an intact bond while the forces are sought
 
 // Sets what the motion of the points says of a contact: they move by `moved` relative to each other
 // within the substep without contact forces, and with `slip` at its start.
@@ -35,13 +34,6 @@ void set_motion(const Vec3& normal, double gap, const Vec3& arm, const Vec3& dri
 
 double approach_of(const ContactRow& row, double h) {
   return std::min(row.speed_start, row.normal.dot(row.free_move) / h);
-}
-
-// Holds a contact of a bond without limit; check_substep() compares what it carries.
-void hold(const GroundClass& face, double recovery_time, ContactRow& row) {
-  row.cohesion = held;
-  row.tension = face.tension > 0 ? held : 0;
-  row.bias = (row.gap_start + row.offset) / recovery_time;
 }
 
 // Whether block a touched what has this name in the last step.
@@ -102,7 +94,8 @@ struct ContactMaker {
   [[nodiscard]] const std::vector<ContactMemory>& memory_of(int b) const { return state.memory[b]; }
   // The intact bond of two blocks.
   [[nodiscard]] int bond_of(const PairManifold& m) const {
-    const int bond = find_bond(state.bonds, m.block_a, m.block_b);
+    const int bond = find_bond(state.bonds, m.block_a, m.block_b,
+                               state.motion[m.block_a].pose.attitude, m.normal);
     return bond >= 0 && is_broken(tries, bond) ? -1 : bond;
   }
 
@@ -155,10 +148,11 @@ struct ContactMaker {
 
   // What block b remembers; of a bond with the ground that the substep breaks, no more.
   [[nodiscard]] std::span<const ContactMemory> ground_memory(int b) const {
-    if (!is_broken(tries, static_cast<int>(state.bonds.size()) + b)) return memory_of(b);
+    if (tries.broken.empty()) return memory_of(b);
     making.unbonded = memory_of(b);
     for (ContactMemory& memory : making.unbonded)
-      if (memory.key.body_b == ground_name) memory.bond_area = 0;
+      if (memory.key.body_b == ground_name && is_broken(tries, b, memory.normal))
+        memory.bond_area = 0;
     return making.unbonded;
   }
 
@@ -190,8 +184,6 @@ struct ContactMaker {
       for (Vec3* v : {&row.normal, &row.arm, &row.drift, &row.shear, &row.shear_velocity,
                       &row.slip_start, &row.free_move, &row.arm_start})
         *v = s.R * *v;
-      const GroundClass& ground = scene.ground.classes[row.ground_class];
-      if (row.bond_area > 0) hold(ground, c.recovery_time, row);
       row.touch = c.touch;
       add_contact(row, row.bond_area > 0);
     }
@@ -276,7 +268,8 @@ struct ContactMaker {
     row.key.body_b = m.block_b;
     row.a = m.block_a;
     row.b = m.block_b;
-    row.bond = meeting.bond;
+    const bool bonded = meeting.bond >= 0 && point.area > 0;
+    row.bond = bonded ? meeting.bond : -1;
     row.touch = c.touch;
     row.friction = meeting.faces.friction;
     row.restitution = meeting.faces.restitution;
@@ -289,12 +282,10 @@ struct ContactMaker {
     const Mobility Wa = mobility_at(members, free, ka, arm, n),
                    Wb = mobility_at(members, free, kb, arm_b, n);
     set_law(scene, c, h, {Wa.normal + Wb.normal, Wa.tangent + Wb.tangent}, approach, row);
-    const bool bonded = meeting.bond >= 0;
     if (bonded) {  // where the faces were when the bond was new, it carries nothing
-      const BlockBond& bond = state.bonds[meeting.bond];
-      row.bond_area = m.area > 0 ? bond.area * point.area / m.area : 0;
+      row.bond_area = point.area;
       if (row.memory < 0) row.offset = -row.gap_start;
-      hold(bond.face, c.recovery_time, row);
+      hold(state.bonds[meeting.bond].face, c.recovery_time, row);
     }
     add_contact(row, bonded);
   }

@@ -16,6 +16,7 @@
 #include "contact/hulls.hpp"
 #include "contact/manifold.hpp"
 #include "contact/search.hpp"
+#include "scene/bond_face.hpp"
 #include "scene/bonds.hpp"
 #include "scene/fixed_bodies.hpp"
 #include "solver/contact_row.hpp"
@@ -239,7 +240,7 @@ struct SubstepEnd {  // clang-format off
   // 8 check_substep
   std::vector<Vec6> displacement;           ///< by contact                              (n_members)
   std::vector<double> farthest;             ///< that contact moves a point [m]          (n_members)
-  std::vector<BondLoad> bond_loads;         ///< by bond                                 (n_loaded)
+  std::vector<BondFace> bond_faces;         ///< and what they carry                     (n_bonded)
   double error = 0;                         ///< estimated, as a share of the way [-]
   std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
   // 9 accept
@@ -262,10 +263,10 @@ struct SubstepVerdict {
 /// What the attempts at a substep have come to so far, and those of the step.
 struct SubstepTries {
   // of the substep
-  int halvings = 0;         ///< because it did not converge
-  int used_up_cuts = 0;     ///< at the time when what gives way is used up
-  bool takes_all = false;   ///< contacts that may be left out are not
-  std::vector<int> broken;  ///< bonds that it breaks: see bond_number()
+  int halvings = 0;              ///< because it did not converge
+  int used_up_cuts = 0;          ///< at the time when what gives way is used up
+  bool takes_all = false;        ///< contacts that may be left out are not
+  std::vector<BondFace> broken;  ///< bonds that it breaks
   // of the step
   double last_h = 0;   ///< length of the substep before, or of the step [s]
   double longest = 0;  ///< the next one is not tried longer, because of its error [s]
@@ -368,18 +369,20 @@ template <class Of>
   return members.of(thinner_of(members, contact)).thickness;
 }
 
-/// Bonds of blocks are numbered as in the state; after them come those of blocks with the ground.
-[[nodiscard]] inline int bond_number(int n_bonds, const KeptContact& contact) {
-  return contact.bond >= 0 ? contact.bond : n_bonds + contact.a;
-}
-
 /// Whether contacts of the island would be softer in another attempt that did not converge.
 [[nodiscard]] inline bool can_ease(const IslandMembers& members, const SubstepTries& tries) {
   return tries.eased < law::most_eased && !members.is_soft;
 }
 
+/// Whether a substep breaks a bond of blocks; the bond with the ground of a contact of block b.
 [[nodiscard]] inline bool is_broken(const SubstepTries& tries, int bond) {
-  return std::find(tries.broken.begin(), tries.broken.end(), bond) != tries.broken.end();
+  return std::any_of(tries.broken.begin(), tries.broken.end(),
+                     [bond](const BondFace& face) { return face.bond == bond; });
+}
+[[nodiscard]] inline bool is_broken(const SubstepTries& tries, int b, const Vec3& normal) {
+  return std::any_of(tries.broken.begin(), tries.broken.end(), [&](const BondFace& face) {
+    return face.bond < 0 && face.block == b && is_same_face(face.normal, normal);
+  });
 }
 
 }  // namespace talus

@@ -90,7 +90,8 @@ void slide_member(const Scene& scene, const IslandMembers& members, const FreeMo
 Motion begin_drag(const Scene& scene, const State& state, size_t b, double h) {
   const Motion& motion = state.motion[b];
   if (!any_drags(scene)) return motion;
-  return after_drag(scene, static_cast<int>(b), motion, remembers_ground(state, b), h / 2);
+  return after_drag(scene, static_cast<int>(b), motion, first_half(motion, h),
+                    remembers_ground(state, b), h / 2);
 }
 
 void begin_soil(const Scene& scene, const State& state, int b, const BlockNumbers& c,
@@ -161,7 +162,7 @@ Motion end_drag(const Scene& scene, int b, const Motion& before, const Motion& s
     return kinetic_energy(scene, static_cast<size_t>(b), m);
   };
   state.ledger.drag += energy(before) - energy(start);
-  const Motion dragged = after_drag(scene, b, end, is_pressed, h / 2);
+  const Motion dragged = after_drag(scene, b, end, second_half(before, h, end), is_pressed, h / 2);
   state.ledger.drag += energy(end) - energy(dragged);
   return dragged;
 }

@@ -58,8 +58,28 @@ bool is_far_from_fixed(const Scene& scene, const State& state, int b, double mar
   return std::none_of(search.near.begin(), search.near.end(),
                       [&](int f) { return is_near(hull_of_fixed(scene, f)); }) &&
          std::none_of(search.shifted.begin(), search.shifted.end(), is_near) &&
-         is_far_from_stems(scene, state, at, reach, search);
+         is_far_from_stems(scene, state, b, at, reach, search);
 }
+
+// Where the fixed bodies are that rocks which fall one by one have pushed, each its own.
+class OwnShifts final : public ShiftedBodies {
+ public:
+  OwnShifts(const Scene& scene, const State& state) : scene_(scene), state_(state) {}
+  [[nodiscard]] bool any() const {
+    return !shares_world(scene_) && !scene_.fixed.yieldings.empty();
+  }
+  void of(int free, std::vector<ShiftedBody>& out) const override {
+    const int world = world_of(scene_, free);
+    for_each_shifted(scene_, state_, world, [&](int f) {
+      out.push_back(
+          {hull_of_fixed(scene_, f), scene_.fixed.pose[f], fixed_pose(scene_, state_, world, f)});
+    });
+  }
+
+ private:
+  const Scene& scene_;
+  const State& state_;
+};
 
 // Contacts between the blocks marked in `search.moving`, and of those with others, over `h`.
 void search_marked(const Scene& scene, double h, State& state, PairSearch& search) {
@@ -70,14 +90,15 @@ void search_marked(const Scene& scene, double h, State& state, PairSearch& searc
   settings.graze_m = scene.gravity.norm() * h * h / law::stiffest_in_island;
   const std::span<const Pose> poses = search.poses;
   const bool none_placed = state.placed.turned.size() != poses.size();
+  const OwnShifts own(scene, state);
   place_hulls(blocks.hulls, none_placed ? poses : poses.first(static_cast<size_t>(n_blocks(scene))),
               {}, search.moving, state.placed);
   for (const int body : search.shifted) place_body(blocks.hulls, body, poses[body], state.placed);
-  const PairReport found =
-      find_pair_contacts(blocks.hulls, state.placed,
-                         {search.step, search.turn, search.awake, n_fixed(scene), &search.grid,
-                          search.shifted, scene.settings.block_contacts, search.absent},
-                         settings, state.pairs, search.pairs);
+  const PairReport found = find_pair_contacts(
+      blocks.hulls, state.placed,
+      {search.step, search.turn, search.awake, n_fixed(scene), &search.grid, search.shifted,
+       scene.settings.block_contacts, own.any() ? &own : nullptr, search.absent},
+      settings, state.pairs, search.pairs);
   search.n_fixed_near += found.n_fixed_near;
   add_stem_pairs(scene, state, settings.margin, search);
 }
@@ -106,18 +127,25 @@ void place_at_rest(const Scene& scene, PairSearch& search) {
   search.shifted.clear();
 }
 
-// Fixed bodies where they are now. Those that were never pushed are not looked at.
-void place_fixed(const Scene& scene, const State& state, PairSearch& search) {
+// Fixed bodies where they are now in the shared world, or else where they stood first. Those that
+// were never pushed are not looked at.
+void place_fixed(const Scene& scene, State& state, PairSearch& search) {
   if (n_fixed(scene) == 0) return;
   if (search.grid.n_bodies != n_fixed(scene)) place_at_rest(scene, search);
+  if (!shares_world(scene)) return place_own_fixed(scene, -1, state, search);
   for (const int body : search.shifted)  // by this state or by one before it
     search.poses[body] = scene.fixed.pose[fixed_of(scene, body)];
   search.shifted.clear();
   for (const int f : state.yielding.shifted) {
     const int body = hull_of_fixed(scene, f);
     search.shifted.push_back(body);
-    search.poses[body] = fixed_pose(scene, state, f);
+    search.poses[body] = fixed_pose(scene, state, 0, f);
   }
+}
+
+// Whether the fixed body of a manifold stands for its block.
+bool stands_for(const Scene& scene, const State& state, const PairManifold& m) {
+  return stands(scene, state, world_of(scene, m.block_a), fixed_of(scene, m.block_b));
 }
 
 // Pairs of blocks within reach; true when one of them was asleep and now is not.
@@ -128,8 +156,7 @@ bool join_pairs(const Scene& scene, State& state, PairSearch& search) {
   for (size_t j = 0; j < search.pairs.manifolds.size(); ++j) {
     const PairManifold& m = search.pairs.manifolds[j];
     if (is_fixed(scene, m.block_b)) {
-      if (!takes_part(state, m.block_a) || !stands(scene, state, fixed_of(scene, m.block_b)))
-        continue;
+      if (!takes_part(state, m.block_a) || !stands_for(scene, state, m)) continue;
       search.joined.emplace_back(m.block_a, -1);
       search.joined_manifold.push_back(static_cast<int>(j));
       search.near_fixed[m.block_a] = 1;
@@ -153,8 +180,7 @@ bool join_pairs(const Scene& scene, State& state, PairSearch& search) {
 bool in_island(const Scene& scene, const State& state, const IslandMembers& members,
                const PairManifold& m) {
   return members.place[m.block_a] >= 0 &&
-         (is_fixed(scene, m.block_b) ? stands(scene, state, fixed_of(scene, m.block_b))
-                                     : members.place[m.block_b] >= 0);
+         (is_fixed(scene, m.block_b) ? stands_for(scene, state, m) : members.place[m.block_b] >= 0);
 }
 
 // Bounds how far a point of either part of a pair goes ahead as the other body sees it: of all
@@ -194,6 +220,24 @@ double travel_ahead(const Hulls& hulls, const PlacedHulls& placed, const PairSea
 
 }  // namespace
 
+void place_own_fixed(const Scene& scene, int b, State& state, PairSearch& search) {
+  if (shares_world(scene) || scene.fixed.yieldings.empty()) return;
+  const auto put = [&](int body, const Pose& pose) {
+    search.poses[body] = pose;
+    // before the first search nothing is placed, and nothing pushed
+    if (state.placed.turned.size() == search.poses.size())
+      place_body(scene.blocks.hulls, body, pose, state.placed);
+  };
+  for (const int body : search.shifted) put(body, scene.fixed.pose[fixed_of(scene, body)]);
+  search.shifted.clear();
+  if (b < 0) return;
+  const int world = world_of(scene, b);
+  for_each_shifted(scene, state, world, [&](int f) {
+    search.shifted.push_back(hull_of_fixed(scene, f));
+    put(search.shifted.back(), fixed_pose(scene, state, world, f));
+  });
+}
+
 void take_pairs(const Scene& scene, const State& state, const PairSearch& search, int k,
                 const IslandMembers& members, std::vector<int>& manifolds) {
   const auto at = static_cast<size_t>(k);
@@ -214,6 +258,7 @@ void find_pairs(const Scene& scene, const IslandMembers& members, double h, Stat
   place_fixed(scene, state, search);
   search_marked(scene, h, state, search);
   for (const int b : members.blocks) search.moving[b] = 0;
+  place_own_fixed(scene, members.blocks[0], state, search);
   search.is_of_step = false;
   manifolds.clear();
   for (size_t m = 0; m < search.pairs.manifolds.size(); ++m)
@@ -276,6 +321,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   for (int b = 0; b < n; ++b) {
     const auto i = static_cast<size_t>(b);
     const bool moves = !does_not_move(state.phase[i]);
+    if (may_be_far && moves) place_own_fixed(scene, b, state, search);
     const bool is_near =
         !may_be_far || (moves && !is_far_from_fixed(scene, state, b, margin, search));
     n_near += is_near;
@@ -287,6 +333,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
     if (search.moving[i] != 0)
       set_motion_ahead(scene, b, motion_at(scene, state, b, state.time), scene.settings.dt, search);
   }
+  place_own_fixed(scene, -1, state, search);
   if (n_near == 0) {
     find_islands(n, {}, {}, search.groups);
     return;

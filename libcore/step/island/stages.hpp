@@ -26,6 +26,10 @@ void release_members(IslandMembers& members);
 
 // --- 2 find_pairs (step/island/pairs.cpp)
 // -----------------------------------------------------------
+/// Where blocks have each their own world: places the fixed bodies where block `b` has pushed them;
+/// -1: where they stood first, as they are between steps.
+void place_own_fixed(const Scene& scene, int b, State& state, PairSearch& search);
+
 /// Fills `manifolds` with those of island `k` that form_islands found.
 void take_pairs(const Scene& scene, const State& state, const PairSearch& search, int k,
                 const IslandMembers& members, std::vector<int>& manifolds);

@@ -19,9 +19,9 @@ constexpr double thin_stem = 0.05;     // ... which counts as this at least [m]
 constexpr double as_good_as_all = 0.999, as_good_as_none = 0.05;  // of the impulse at the limit
 constexpr double still_moves = 0.1;                               // of the speed at the start
 
-VerticalCylinder cylinder_of(const Scene& scene, const State& state, int stem) {
+VerticalCylinder cylinder_of(const Scene& scene, const State& state, int world, int stem) {
   const Stem& of = scene.forest.stems[stem];
-  return {axis_of_stem(scene, state, stem), of.radius, of.foot.z() + of.height};
+  return {axis_of_stem(scene, state, world, stem), of.radius, of.foot.z() + of.height};
 }
 
 bool meets(const VerticalCylinder& cylinder, const Vec3& at, double reach) {
@@ -29,17 +29,18 @@ bool meets(const VerticalCylinder& cylinder, const Vec3& at, double reach) {
          at.z() - reach <= cylinder.top;
 }
 
-// Calls visit(stem, cylinder) for the stems that stand and meet the ball; in the order of their
-// numbers.
+// Calls visit(stem, cylinder) for the stems that stand for block `b` and meet the ball; in the
+// order of their numbers.
 template <class Visit>
-void for_each_near(const Scene& scene, const State& state, const Vec3& at, double reach,
+void for_each_near(const Scene& scene, const State& state, int b, const Vec3& at, double reach,
                    PairSearch& search, Visit&& visit) {
+  const int world = world_of(scene, b);
   const Vec3 around = Vec3::Constant(reach);
   find_near(scene.forest.grid, {at - around, at + around}, search.near);
   search.n_fixed_near += static_cast<std::int64_t>(search.near.size());
   for (const int stem : search.near) {
-    const VerticalCylinder cylinder = cylinder_of(scene, state, stem);
-    if (meets(cylinder, at, reach) && stands(scene, state, body_of_stem(scene, stem)))
+    const VerticalCylinder cylinder = cylinder_of(scene, state, world, stem);
+    if (meets(cylinder, at, reach) && stands(scene, state, world, body_of_stem(scene, stem)))
       visit(stem, cylinder);
   }
 }
@@ -50,11 +51,11 @@ bool is_on_stem(const Scene& scene, const KeptContact& contact) {
 
 }  // namespace
 
-bool is_far_from_stems(const Scene& scene, const State& state, const Vec3& at, double reach,
+bool is_far_from_stems(const Scene& scene, const State& state, int b, const Vec3& at, double reach,
                        PairSearch& search) {
   if (scene.forest.stems.empty()) return true;
   bool is_far = true;
-  for_each_near(scene, state, at, reach, search,
+  for_each_near(scene, state, b, at, reach, search,
                 [&](int, const VerticalCylinder&) { is_far = false; });
   return is_far;
 }
@@ -67,7 +68,7 @@ void add_stem_pairs(const Scene& scene, const State& state, double margin, PairS
     const auto i = static_cast<size_t>(b);
     if (search.awake[i] == 0) continue;
     const double ahead = margin + search.step[i].norm() + search.turn[i];
-    for_each_near(scene, state, search.poses[i].position, hulls.radius[i] + ahead, search,
+    for_each_near(scene, state, b, search.poses[i].position, hulls.radius[i] + ahead, search,
                   [&](int stem, const VerticalCylinder& cylinder) {
                     for (int p = hulls.part_begin[i]; p < hulls.part_begin[i + 1]; ++p) {
                       PairManifold m;

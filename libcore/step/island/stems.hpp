@@ -8,9 +8,9 @@
 
 namespace talus {
 
-/// Whether a block whose ball of `reach` about `at` holds it until the end of the step touches no
-/// stem within it.
-[[nodiscard]] bool is_far_from_stems(const Scene& scene, const State& state, const Vec3& at,
+/// Whether block `b`, which a ball of `reach` about `at` holds until the end of the step, touches
+/// no stem within it.
+[[nodiscard]] bool is_far_from_stems(const Scene& scene, const State& state, int b, const Vec3& at,
                                      double reach, PairSearch& search);
 
 /// Appends to the pairs found those of the blocks that are awake with the stems within `margin` and

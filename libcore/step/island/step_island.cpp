@@ -69,8 +69,8 @@ void note_cut(SubstepCut reason, const SubstepEnd& end, const IslandMembers& mem
       ++tries.deep_cuts;
       break;
     case SubstepCut::bond_broken:
-      for (const BondLoad& load : end.bond_loads)
-        if (breaks(load)) tries.broken.push_back(load.bond);
+      for (const BondFace& face : end.bond_faces)
+        if (!holds(face)) tries.broken.push_back(face);
       break;
     case SubstepCut::yielding_used_up:
       ++tries.used_up_cuts;
@@ -147,10 +147,12 @@ double prepare_substep(const Scene& scene, int k, bool is_mass, double t, double
   const bool begins = t == state.time;
   {
     const StageTimer timer(w.clock, IslandStage::find_pairs);
-    if (search.is_of_step && begins)
+    if (search.is_of_step && begins) {
+      place_own_fixed(scene, w.members.blocks[0], state, search);
       take_pairs(scene, state, search, k, w.members, w.manifolds);
-    else
+    } else {
       find_pairs(scene, w.members, ahead, state, search, w.manifolds);
+    }
   }
   const StageTimer timer(w.clock, IslandStage::choose_stiffness);
   if (is_mass) return longest_mass_substep(scene, search, w.members, w.manifolds, ahead);
@@ -187,6 +189,7 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
   }
   for (const int b : w.members.blocks) state.local_time[b] = t_end;
   release_members(w.members);
+  place_own_fixed(scene, -1, state, work.search);
 }
 
 }  // namespace talus

@@ -159,7 +159,7 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     if (row.waits) continue;
     const bool is_open = row.state == ContactState::open;
     if (!is_open || row.offset > 0) note_overlap(b, overlap, c.thickness, work.deep, report);
-    if (is_open) continue;
+    if (is_open && row.bond_area == 0) continue;
     const double p_n = row.normal.dot(row.impulse);
     const Vec3 p_t = row.impulse - p_n * row.normal;
     const double along = row.normal.dot(moved);
@@ -181,6 +181,7 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
          .stiffness = row.bond_area > 0 ? 0 : row.normal_damping * per_h / c.recovery_time,
          .bond_area = row.bond_area,
          .state = static_cast<std::uint8_t>(row.state)});
+    if (is_open) continue;  // a bond without tensile strength, hardly open
     ++report.n_closed;
     report.sum_penetration += std::max(overlap, 0.0);
   }

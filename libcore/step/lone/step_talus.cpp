@@ -87,14 +87,16 @@ struct Advance {
 
   // Drag acts for half of the substep at its start, and for half at its end; that of the ground
   // where something presses the block then.
-  Motion dragged(const Motion& from, double h) {
-    return after_drag(scene, b, from, !state.memory[i()].empty(), h / 2);
+  Motion dragged(const Motion& from, const HalfWay& half, double h) {
+    return after_drag(scene, b, from, half, !state.memory[i()].empty(), h / 2);
   }
-  Motion dragged_at_start(double h) { return any_drags(scene) ? dragged(motion(), h) : motion(); }
+  Motion dragged_at_start(double h) {
+    return any_drags(scene) ? dragged(motion(), first_half(motion(), h), h) : motion();
+  }
   void drag(const Substep& s, const Motion& end) {
     const auto energy = [this](const Motion& m) { return kinetic_energy(scene, i(), m); };
     state.ledger.drag += energy(motion()) - energy(s.start);
-    motion() = dragged(end, s.h);
+    motion() = dragged(end, second_half(motion(), s.h, end), s.h);
     state.ledger.drag += energy(end) - energy(motion());
   }
 
@@ -236,9 +238,11 @@ struct Advance {
       report.flags = report.flags | StepFlag::unconverged;
       most_tries = law::tries_once_unconverged;
     }
-    if (!last && (changes_bearing() || bond_fails()) && is_rough(t, h)) return shorten(h / 2, h);
-    if (break_bonds()) return Attempt::shorter;
     const Solved<Dof> solved = solved_motion(c, s, system);
+    load_bonds(s, solved);
+    if (!last && (changes_bearing() || !work.bond_faces.empty()) && is_rough(t, h))
+      return shorten(h / 2, h);
+    if (break_bonds()) return Attempt::shorter;
     const double hit = first_hit(c, s, solved, work);
     if (hit < s.h && !last) return shorten(hit, h);
     const double error = error_over_way(s, solved.end);
@@ -319,33 +323,35 @@ struct Advance {
            scene.settings.accuracy * c.gravity * scene.settings.dt;
   }
 
-  // A bond that opened is gone; bonds that slip are gone when no other holds the block any more, so
-  // that a face fails at the sum of its strengths. The substep is then computed again without them;
-  // the state loses them when that is accepted, since rows without a bond leave none.
-  [[nodiscard]] bool bond_holds() const {
-    return std::any_of(work.rows.begin(), work.rows.end(), [](const ContactRow& row) {
-      return row.bond_area > 0 && row.state == ContactState::stick;
-    });
-  }
-  static bool fails(const ContactRow& row, bool holds) {
-    return row.bond_area > 0 &&
-           (row.state == ContactState::open || (row.state == ContactState::slip && !holds));
-  }
-  [[nodiscard]] bool bond_fails() const {
-    const bool holds = bond_holds();
-    return std::any_of(work.rows.begin(), work.rows.end(),
-                       [&](const ContactRow& row) { return fails(row, holds); });
-  }
-  bool break_bonds() {
-    const bool holds = bond_holds();
-    bool broken = false;
+  // The faces that are bonded to the ground, and what they carry.
+  template <int Dof>
+  void load_bonds(const Substep& s, const Solved<Dof>& solved) {
+    work.bond_faces.clear();
+    const double per_h = 1 / (s.h * c.recovery_time);
     for (const ContactRow& row : work.rows) {
-      if (!fails(row, holds)) continue;
-      if (!breaks_bonds) work.unbonded = state.memory[i()];
-      work.unbonded[row.memory].bond_area = 0;
-      broken = breaks_bonds = true;
+      if (!(row.bond_area > 0)) continue;
+      const Vec3 path = row.free_move + solved.moved(row.arm, s.h);
+      BondFace& face = face_of(-1, b, row.normal, work.bond_faces);
+      BondCorner& corner = face.corners.emplace_back(
+          corner_of(row, scene.ground.classes[static_cast<size_t>(row.ground_class)],
+                    per_h * row.normal_damping, per_h * row.shear_damping, row.normal, path));
+      if (row.state != ContactState::open) continue;
+      corner.force.setZero();
+      face.opened |= row.gap_start + row.normal.dot(path) > bonded_gap_ratio * c.radius;
     }
-    return broken;
+    std::erase_if(work.bond_faces, [](const BondFace& face) { return holds(face); });
+  }
+
+  // What carries more than it holds is gone. The substep is then computed again without it; the
+  // state loses it when that is accepted, since rows without a bond leave none.
+  bool break_bonds() {
+    if (work.bond_faces.empty()) return false;
+    if (!breaks_bonds) work.unbonded = state.memory[i()];
+    for (const ContactRow& row : work.rows)
+      for (const BondFace& face : work.bond_faces)
+        if (row.bond_area > 0 && is_same_face(face.normal, row.normal))
+          work.unbonded[row.memory].bond_area = 0;
+    return breaks_bonds = true;
   }
 
   // Off the ground nothing strains the block: quasi-static.

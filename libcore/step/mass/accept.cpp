@@ -127,8 +127,9 @@ void find_pushes(const MassEnd& end, const State& state, const PairSearch& searc
   const Scene& scene = end.scene;
   pushes.clear();
   if (!anything_yields(scene)) return;
-  const auto pushed_before = [&](int fixed) -> Vec3 {
-    if (is_stem(scene, fixed)) return met_by_stem(state.yielding, stem_of(scene, fixed)).shift;
+  const auto pushed_before = [&](int block, int fixed) -> Vec3 {
+    if (is_stem(scene, fixed))
+      return met_by_stem(scene, state, world_of(scene, block), stem_of(scene, fixed)).shift;
     return search.poses[hull_of_fixed(scene, fixed)].position - scene.fixed.pose[fixed].position;
   };
   end.for_each_pressed([&](size_t r, const MassPair& pair, const PressedRow& row) {
@@ -144,7 +145,7 @@ void find_pushes(const MassEnd& end, const State& state, const PairSearch& searc
     if (end.is_limited(end.w.system.rows[r], row.p_n) || is_stem(scene, contact.fixed))
       push.shift =
           std::min(0.0, end.gap_end(pair, row, contact.gap_free)) * row.normal.dot(push.along);
-    push.to = push.shift + push.along.dot(pushed_before(contact.fixed));
+    push.to = push.shift + push.along.dot(pushed_before(contact.a, contact.fixed));
     add_push(push, pushes);
   });
 }
@@ -283,8 +284,7 @@ struct MassAcceptance : MassEnd {
       const Motion& after = state.motion[members.block(k)];
       const Vec3 at = w.members[k].middle + row.arm_a;
       if (is_stem(scene, contact.fixed))
-        note_stem_touch(scene, contact.a, contact.fixed, at, free.t, before, after,
-                        state.stem_hits);
+        note_stem_touch(scene, contact.a, contact.fixed, at, free.t, before, after, state);
       else if (panel_number(scene, contact.fixed) >= 0)
         note_hit(scene, contact.a, contact.fixed, at, free.t, before, after, state.fence);
     });
@@ -299,7 +299,7 @@ struct MassAcceptance : MassEnd {
     report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, free.h) : free.h;
     note_touched();
     note_work(scene, w.pushes, state.fence);
-    note_stem_work(scene, w.pushes, state.stem_hits);
+    note_stem_work(scene, w.pushes, state);
     push_bodies(scene, w.pushes, free.t + free.h, state);
   }
 };

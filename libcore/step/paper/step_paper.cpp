@@ -260,7 +260,8 @@ struct OpenClose {
   [[nodiscard]] const Vec3& position(int block) const { return state.motion[block].pose.position; }
 
   void add_pair(const PairManifold& m) {
-    const int bond = find_bond(state.bonds, m.block_a, m.block_b);
+    const int bond = find_bond(state.bonds, m.block_a, m.block_b,
+                               state.motion[m.block_a].pose.attitude, m.normal);
     const GroundClass face = bond >= 0 ? state.bonds[bond].face : pair_class(scene, m);
     for (int p = m.point_begin; p < m.point_end; ++p) {
       const PairPoint& point = work.search.pairs.points[p];
@@ -274,7 +275,7 @@ struct OpenClose {
       contact.arm_a = point.point_b + point.gap * m.normal - position(m.block_a);
       contact.arm_b = point.point_b - position(m.block_b);
       contact.gap_start = point.gap;
-      if (bond >= 0 && m.area > 0) contact.bond_area = state.bonds[bond].area * point.area / m.area;
+      if (bond >= 0) contact.bond_area = point.area;
       start_contact(face, contact);
     }
   }

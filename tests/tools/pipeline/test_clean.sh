@@ -8,6 +8,8 @@ echo mine >slope/out/runs/run_of_mine.h5
 echo mine >slope/out/stages/remarks.txt
 touch slope/out/maps/velocity.tif.aux.xml slope/out/runs.sqlite-wal slope/out/.trn.part-elsewhere-77.tif
 touch slope/out/runs/run_7.h5.part slope/out/runs.sqlite.late-elsewhere-77
+mkdir slope/out/.trn.part-elsewhere-77-abcdef slope/out/stages/.runs.list.there.part-77-abcdef
+touch slope/out/.trn.part-elsewhere-77-abcdef/trn.tif
 made slope clean
 prints "left in out: maps notes.txt runs stages"
 left=$(cd slope/out && find . -type f | sort | tr '\n' ' ')
@@ -22,20 +24,62 @@ echo 'no TOML' >slope/site.toml
 made slope clean
 [ ! -e slope/out ] || fail "slope/out was left: $(find slope/out)"
 
-# folders of others, and the site's own
+# a file that the site file names stays, whatever its name and however it is spelt there
+site kept
+made kept terrain
+for name in fence.gpkg blocks.gpkg runout.gpkg trace.gpkg hazard.json; do echo mine >kept/out/$name; done
+cat >>kept/site.toml <<END
+# it's a "remark" about 'out/hazard.json
+[place.a]
+polygon_file = "out/fence.gpkg|layername=it's"
+[place.b]
+polygon_file = 'out/../out/blocks.gpkg'
+[place.c]
+polygon_file = "$PWD/kept/out/runout.gpkg"
+[place.d]
+polygon_file = "elsewhere/trace.gpkg"
+END
+made kept clean
+prints "left in out: blocks.gpkg fence.gpkg runout.gpkg"
+[ "$(cat kept/out/*)" = "mine
+mine
+mine" ] || fail "left: $(ls kept/out)"
+
+# folders of others
 mkdir mine
 echo precious >mine/notes.txt
 echo precious >mine/report.html
 site other
-for out in ../mine ../other . ../nowhere; do
+for out in ../mine ../nowhere; do
   made other OUT=$out clean
   [ "$(cat mine/*)" = "precious
 precious" ] || fail "clean of $out removed a file of mine"
-  [ -s other/site.toml ] && [ -s other/Makefile ] && [ -s other/contours.gpkg ] || fail "clean of $out hurt the site"
 done
 expect 2 make -C other BIN= OUT=../mine
 says "../mine/report.html was not made by the pipeline"
 [ "$(cat mine/report.html)" = precious ] || fail "a file of mine was replaced"
-made other OUT=. terrain
-made other OUT=. clean
-[ "$(ls other | tr '\n' ' ')" = "Makefile contours.gpkg site.toml " ] || fail "OUT=. left $(ls other)"
+
+# the site's own folder, by any name, and folders that hold what the site is made from
+ln -s other alias
+for out in . ./ ../other ../alias/ "$PWD/other" "$PWD/mine/../alias"; do
+  for goal in clean terrain; do
+    expect 2 make -C other BIN= OUT="$out" $goal
+    says "the site's own folder"
+  done
+done
+mkdir other/data
+mv other/contours.gpkg other/data
+sed -i 's#^contours = .*#contours = "data/contours.gpkg"#' other/site.toml
+for out in data "$PWD/alias/data" ..; do
+  expect 2 make -C other BIN= OUT="$out" terrain
+  says "is an input and lies in"
+done
+cp other/data/contours.gpkg mine/given.gpkg
+rm mine/report.html
+expect 2 make -C other BIN= OUT=../mine CONTOURS=../mine/given.gpkg -n terrain
+says "../mine/given.gpkg: is an input and lies in ../mine"
+rmdir other/data/stages stages
+made other terrain
+made other clean
+[ "$(find other -type f | sort | tr '\n' ' ')" = "other/Makefile other/data/contours.gpkg other/site.toml " ] ||
+  fail "left: $(find other)"

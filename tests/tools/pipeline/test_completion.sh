@@ -14,6 +14,12 @@ offered talus-runs t
 offered talus-report --
 prints "--qgis"
 prints "--overwrite"
+# behind a file, whose name has signs of sed and of the shell
+for name in data/site.toml 'a&b[1].toml' '*' --flat/x '--a\(b'; do
+  bash -c 'source "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _talus' \
+    "$source_dir/share/bash-completion/talus" talus-tin "$name" "" 2>err
+  [ ! -s err ] || fail "completion behind $name says: $(cat err)"
+done
 for tool in "${bin%%:*}"/talus-*; do
   [ -x "$tool" ] && [ ! -d "$tool" ] || continue
   grep -qw -- "$(basename "$tool")" "$source_dir/share/bash-completion/talus" || fail "no completion for $tool"

@@ -2,7 +2,7 @@
 . "$source_dir/tests/tools/pipeline/common.sh"
 # Every section is read by a stage; where stages read single keys, none is forgotten. What [site]
 # holds else stands in the report alone.
-reference=$source_dir/docs/reference/site-file.md stages=$source_dir/tools/frame/site_stages.cpp
+reference=$source_dir/docs/reference/site-file.md stages=$source_dir/libcore/site/stages.cpp
 for section in $(sed -n 's/^### \[\([a-z_]*\).*/\1/p' "$reference" | sort -u); do
   if grep -q "[{ ]\"$section\"" "$stages" || [ "$section" = site ]; then continue; fi
   for key in $(sed -n "/^### \[$section\]/,/^### /s/^| \`\([a-z_0-9]*\)\`.*/\1/p" "$reference"); do

@@ -13,8 +13,9 @@ refused() {
 refused terrain contours '"a;touch hurt.gpkg"' "cannot stand in a makefile"
 refused terrain contours '"$(shell touch hurt)"' "cannot stand in a makefile"
 refused terrain layer '"a\nall: ; touch hurt"' "line break or control character"
-refused 'fence."x;touch hurt"' line '[[0, 0], [1, 1]]' "cannot stand in a makefile"
-refused 'fence."$(shell touch hurt)"' line '[[0, 0], [1, 1]]' "cannot stand in a makefile"
+refused 'hazard.class."x;touch hurt"' frequency_per_a 0.01 "cannot stand in a makefile"
+refused 'hazard.class."$(shell touch hurt)"' frequency_per_a 0.01 "cannot stand in a makefile"
+refused 'fence."x\u001b[2J"' line '[[0, 0], [1, 1]]' 'the name x\x1b[2J'
 
 # a key of parts without end overflows no stack, neither in the file nor on the command line
 awk 'BEGIN { print "[output]"; for (i = 0; i < 60000; i++) printf "a."; print "a = 1" }' >deep.toml
@@ -38,6 +39,19 @@ printf 'include stages/site.mk\nall: ; @echo $(SITE_TIN_FLAGS)\n' >Makefile
 expect 0 make
 prints '--layer $(shell touch hurt)'"'"';touch hurt'
 nothing_left hurt odd/hurt
+
+# a fence is named as its user likes, and its runs without fences are made
+site fences
+sed -i '/^\[fence/,$d' fences/site.toml
+y=5200100
+for name in 'x;touch hurt' '$(shell touch hurt)' 'a=b' 'road #2, 50 %' "it's" 'a.b' 'C:\\\\x' '`touch hurt`'; do
+  y=$((y + 5))
+  printf '[fence."%s"]\nline = [[500060, %s], [500164, %s]]\nheight_m = 3\n' "$name" $y $y >>fences/site.toml
+done
+made fences WITHOUT=yes runs
+talus-runs --db fences/out/runs.sqlite list | grep 'without/run_1.h5' >command
+[ "$(grep -o 'active=false' command | wc -l)" -eq 8 ] || fail "not all fences were taken away: $(cat command)"
+nothing_left hurt fences/hurt
 
 # names that begin as an option or as a remark of the shell do, and the sign of a pattern
 for name in -c.gpkg '#1.gpkg' 'steep 30%.gpkg'; do

@@ -65,13 +65,13 @@ refused() {
   nothing_left other.html
 }
 sed 's/^name = .*/name = "another"/' slope/site.toml >other.toml
-refused "run_1.h5: was computed with site.name = 'designed'; in the site file it is 'another'"
+refused "run_1.h5: was computed with other settings than the site file has: site.name: 'designed', there 'another'"
 sed 's/^height_m = 8/height_m = 9/' slope/site.toml >other.toml
-refused "was computed with fence.valley.height_m = 8; in the site file it is 9"
+refused "fence.valley.height_m: 8, there 9"
 sed '/^\[fence/,$d' slope/site.toml >other.toml
-refused "; in the site file it is not given"
+refused ", there not given"
 sed 's/^depth_m = .*//; s/^plane_dip_deg = .*/plane_dip_deg = 30/' slope/site.toml >other.toml
-refused "was computed with source.plane_dip_deg = 33; in the site file it is 30"
+refused "source.plane_dip_deg: 33, there 30"
 sed 's/^\[solver\]/&\nn_runs = 7/' slope/site.toml >other.toml
 expect 0 talus-report other.toml --dir slope/out -o other.html --no-db
 cp slope/out/trn.tif slope/out/bed.tif

@@ -43,3 +43,23 @@ if grep -q '^talus-' out; then fail "the map was touched, and make would start a
 (cd named && ogr2ogr -q -update -where "elevation_m < 30" -nln lowest map.gpkg contours_now.gpkg)
 made named -n terrain
 prints "talus-tin"
+
+# names and filters with signs of make and of the shell
+(cd named && ogr2ogr -q -update -nln "heights #2 50 % (\$x) 'new'" map.gpkg contours_now.gpkg)
+layers map.gpkg ''
+cat >more.toml <<'END'
+layer = "heights #2 50 % ($x) 'new'"
+where = "elevation_m < 1000 AND '#a,b)' <> '$(x)'"
+END
+sed -i '/^contours/r more.toml' named/site.toml
+made named terrain
+gdalinfo -checksum named/out/trn.tif | grep Checksum >found
+cmp -s expected found || fail "a layer with signs of make gives another terrain"
+sed -i -e '/^layer/d' -e '/^where/d' named/site.toml
+for flags in "--layer high --where \"'#,)(' <> 'a' AND elevation_m > 3\"" \
+  "--layer high --where \"'#,)(' <> 'b' AND elevation_m > 3\"" "--layer 'heights #2 50 % (\$\$x) '\\''new'\\'''"; do
+  made named TIN_FLAGS="$flags" terrain
+  prints "tin: contours"
+  made named TIN_FLAGS="$flags" -n terrain
+  if grep -q '^talus-' out; then fail "nothing changed, and make would start a tool with TIN_FLAGS=$flags"; fi
+done

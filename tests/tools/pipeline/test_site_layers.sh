@@ -95,6 +95,29 @@ expect 0 stages
 grep -q 'fence.valley.height_m = 8$' stages/run.txt || fail "the section of the file has no say"
 expect 2 talus-site drawn/site.toml -o stages --overwrite --no-db --set site.layers=other.gpkg
 says "cannot name site.layers"
+# layers beside those of sections are named; one that is nearly one of them is refused as a field is
+ogr2ogr -q -update drawn/site.gpkg drawn/site.gpkg source -nln roads
+expect 0 stages
+says "site.gpkg: layers that stand for no section: roads"
+for pair in fence:fences ground:grounds sources:source Releasepoints:release_points; do
+  ogr2ogr -q -update drawn/site.gpkg drawn/site.gpkg source -nln "${pair%:*}"
+  expect 1 stages
+  says "site.gpkg: has a layer ${pair%:*} that stands for no section"
+  says "hint: did you mean ${pair#*:}? Rename the layer, or take it out"
+  edit drawn "DROP TABLE \"${pair%:*}\""
+done
+expect 0 stages
+# a folder of files is a source of layers as well
+mkdir drawn/layers
+for layer in source fences places; do ogr2ogr -q drawn/layers/$layer.shp drawn/site.gpkg $layer; done
+mv drawn/layers/fences.dbf drawn/layers/fence.dbf
+for part in shp shx prj; do mv drawn/layers/fences.$part drawn/layers/fence.$part; done
+cp drawn/site.toml kept.toml
+sed -i 's/^layers = .*/layers = "layers"/' drawn/site.toml
+expect 1 stages
+says "layers: has a layer fence that stands for no section"
+cp kept.toml drawn/site.toml
+
 sed -i 's/^layers = .*/layers = "absent.gpkg"/' drawn/site.toml
 expect 1 stages
 says "there is no file drawn/absent.gpkg"

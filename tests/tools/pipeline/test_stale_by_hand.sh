@@ -42,4 +42,4 @@ expect 0 talus-dda slope/one.toml --trn by_hand/bed.tif --blocks slope/out/block
 expect 0 talus-runout by_hand/runs/run_1.h5 --trn by_hand/bed.tif -o by_hand/runout.gpkg --json by_hand/runout.json --no-db
 expect 0 talus-report slope/one.toml --dir by_hand -o report.html --no-db
 expect 1 talus-report slope/two.toml --dir by_hand -o report.html --no-db --overwrite
-says "was computed with the sections [ground.*] in another order"
+says "was computed with other settings than the site file has: order of [ground.*]: "

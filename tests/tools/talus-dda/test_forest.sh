@@ -157,3 +157,55 @@ printf 'x,y,dbh_cm\n500060,5000030,40\n500060,5000050,40\n' >one_list.csv
 expect 1 run lists --json
 says "forest.b: has a stem where forest.a has one, at 500060, 5000030"
 nothing_left lists.h5
+
+# magnitudes show units that were not meant: half of the stems decide, not one of them
+with_forest list 'stems_file = "stems.geojson"'
+expect 0 run list --overwrite
+says 'forest.wood: 2 stems, diameter 12.5 (12.5 to 60) cm, height 20 m'
+with_forest drawn "$polygon\nstems_per_ha = 1500\ndbh_mean_cm = 25\ndbh_std_cm = 0\nconifer_share = 0.5"
+expect 0 run drawn --overwrite
+says 'forest.wood: 1500 stems a hectare on 0.36 ha, conifers 50 %'
+says ' stems, diameter 25 cm, height 20 m'
+listed() {  # DIAMETER: nine stems, eight of them so thick
+  printf 'x,y,dbh_cm\n500060,5000030,30\n'
+  for row in 1 2 3 4 5 6 7 8; do echo "500060,50000$((30 + 5 * row)),$1"; done
+}
+refused_unit() {  # NAME DIAMETER MESSAGE: as a table, and in a GeoPackage and a FlatGeobuf
+  listed $2 >$1.csv
+  for list in $1.csv $1.gpkg $1.fgb; do
+    case $list in
+      *.csv) ;;
+      *) ogr2ogr -q $list $1.csv -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo AUTODETECT_TYPE=YES -a_srs EPSG:32632 ;;
+    esac
+    refused "stems_file = \"$list\"" "$3"
+  done
+}
+if command -v ogr2ogr >/dev/null; then
+  refused_unit metres 0.35 'half of the stems are thinner than 0.35 cm (0.35 to 30); read as metres it would be 35 cm'
+  refused_unit millimetres 350 'half of the stems are thicker than 350 cm (30 to 350); read as millimetres it would be 35 cm'
+fi
+listed 1.2 >feet.csv
+with_forest list 'stems_file = "feet.csv"'
+expect 0 run list --overwrite
+says 'warning: forest.wood: half of the stems are thinner than 1.2 cm'
+refused "$polygon\nstems_per_ha = 400\ndbh_mean_cm = 0.3\ndbh_std_cm = 0.05" 'read as metres it would be 3'
+refused "$polygon\nstems_per_ha = 400\nheight_m = 250" 'has trees of 250 m, expected up to 130'
+raster metres.asc 0.18 0.18
+refused 'nrtrees_raster = "nrtrees.asc"\ndbhmean_raster = "metres.asc"' 'dbhmean_raster metres.asc holds diameters at breast height in centimetres'
+raster shares.asc 0.8 0
+refused "$rasters\nconif_percent_raster = \"shares.asc\"" 'has a conif_percent_raster of 0.8 %, in no cell more than 1 %'
+raster cells.asc 16 0
+with_forest cells 'nrtrees_raster = "cells.asc"'
+expect 0 run cells
+says 'nrtrees_raster has 16 stems a hectare: are they stems a cell? Then there are 400 a hectare'
+
+# whole numbers of 8 bits are stems, centimetres and per cent as others
+if command -v gdal_translate >/dev/null; then
+  for name in nrtrees dbhmean dbhstd conif; do
+    raster $name.asc 100 100
+    gdal_translate -q -ot Byte -a_nodata none -a_srs EPSG:32632 $name.asc $name.tif
+  done
+  with_forest bytes 'nrtrees_raster = "nrtrees.tif"\ndbhmean_raster = "dbhmean.tif"\ndbhstd_raster = "dbhstd.tif"\nconif_percent_raster = "conif.tif"'
+  expect 0 run bytes
+  says 'forest.wood: 100 stems a hectare on 0.8 ha, conifers 100 %'
+fi

@@ -15,7 +15,7 @@ refused 'has no [hazard.class.V2]' --class V2=run_0.h5
 refused 'class V5 has no runs' --class V1=run_0.h5
 refused 'there is no such file' --class V1=run_0.h5 --class V5=gone.h5
 site '[hazard.class.V1]' 'by_weights = true'
-refused 'has blocks without weights' run_0.h5
+refused "the weights of the run's blocks are no frequencies" run_0.h5
 site '[hazard.class.V1]' 'failure_probability = 0.1' 'in_years = 50'
 refused 'mode of [hazard] is diffuse' run_0.h5
 site '[hazard]' 'recipe = "switzerland_zh"' '[hazard.class.V1]' 'frequency_per_a = 1'

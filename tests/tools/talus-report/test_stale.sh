@@ -25,7 +25,7 @@ left_out 'made with other [object.*] or [hazard*] than the site file has'
 grep -q 'places.json' err && fail 'places do not depend on frequencies'
 sed 's/radius_m = 1.5/radius_m = 2.5/' site.toml >object.toml
 expect 1 talus-report object.toml --dir results -o report.html --no-db --overwrite  # runs watched it
-says 'was computed with object.hut.radius_m = 1.5; in the site file it is 2.5'
+says 'was computed with other settings than the site file has: object.hut.radius_m: 1.5, there 2.5'
 # the bytes of a file that a section names, not its name
 sed -i 's/250010/250012/g' school.geojson
 report site.toml

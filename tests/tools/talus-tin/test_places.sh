@@ -51,10 +51,16 @@ refused prefix.geojson "begin with the zone number 32"
 expect 0 talus-tin prefix.geojson -o back.ply --crs EPSG:4647 --t-srs EPSG:25832 --report back.json --overwrite --no-db
 same_triangles back.json
 cone 31467 1 550000 5300000 >short.geojson
+# ... which zones of Gauss and Krueger and of UTM do alike: the hint asks for the CRS
 refused short.geojson "lack the zone number 3"
-rm -f mended.gpkg
-run_hint
-expect 0 talus-tin mended.gpkg -o back.ply --report back.json --overwrite --no-db
+says "hint: is it the CRS of these coordinates? name the right one with --crs EPSG:code"
+expect 0 talus-tin short.geojson -o back.ply --crs EPSG:25832 --report back.json --overwrite --no-db
+same_triangles back.json
+# the number of a zone of another projection
+cone 25832 1 3550000 5300000 >other.geojson
+refused other.geojson "as eastings of zone 3 of Gauss and Krueger (meridian 9 E) they would lie in it"
+says "hint: is it the CRS of these coordinates? name the right one with --crs EPSG:code"
+expect 0 talus-tin other.geojson -o back.ply --crs EPSG:31467 --report back.json --overwrite --no-db
 same_triangles back.json
 
 # feet without a word of it; the hint

@@ -70,8 +70,65 @@ says "the header says inches (\$INSUNITS 1), which GDAL and QGIS write whatever 
 # plan and CRS in feet: only the heights are in doubt
 drawing 2 1 1300000 1000000 >oregon.dxf
 expect 1 talus-tin oregon.dxf -o bad.ply --crs EPSG:2994 --t-srs EPSG:32610 --no-db
-says "as EPSG:2994 (NAD83(HARN) / Oregon GIC Lambert (ft)) is: are its heights, too?"
-says "hint: --elevation-unit-m 0.3048"
+says "oregon.dxf: the plan is in units of 0.3048 m, and nothing says what unit the heights are in"
+says "hint: --elevation-unit-m METRES: 0.3048 where they are in the unit of the plan, 1 where they are metres"
+
+# the same plan in other formats, for contours, points, breaklines and spot heights
+command -v gdaltransform >/dev/null || skip "needs gdal-bin"
+nothing_said() {
+  expect 1 talus-tin "$@" -o bad.ply --no-db
+  says "m, and nothing says what unit the heights are in"
+  nothing_left bad.ply
+}
+# highest FILE METRES: of a report, within a millimetre
+highest() {
+  awk -v z="$(value "$1" highest_m)" -v expected="$2" 'BEGIN { exit !((z - expected) ^ 2 < 1e-6) }' ||
+    fail "$1: up to $(value "$1" highest_m) m, expected $2"
+}
+cone 26912 1 450000 4400000 >utah.geojson
+ogr2ogr -q -t_srs EPSG:3566 utah.gpkg utah.geojson
+nothing_said utah.gpkg --t-srs EPSG:26912
+says "hint: --elevation-unit-m METRES: 0.304800609601 where"
+expect 0 talus-tin utah.gpkg -o m.ply --t-srs EPSG:26912 --elevation-unit-m 1 --report m.json --no-db
+highest m.json 130
+expect 0 talus-tin utah.gpkg -o ft.ply --t-srs EPSG:26912 --elevation-unit-m 0.304800609601 --report ft.json --no-db
+highest ft.json 39.624079248
+# without --t-srs the plan is in doubt first, and the hint says nothing of heights
+expect 1 talus-tin utah.gpkg -o bad.ply --no-db
+says "in US survey foot of 0.3048006096 m, expected a projected one in metres"
+grep -q '^  hint: --t-srs EPSG:32612 reprojects$' err || fail "the hint guesses: $(cat err)"
+# a system of heights says the unit, in feet of its own and in metres
+ogr2ogr -q -a_srs EPSG:3566+6360 in_feet.gpkg utah.gpkg
+ogr2ogr -q -a_srs EPSG:3566+5703 in_metres.gpkg utah.gpkg
+ogr2ogr -q -a_srs EPSG:26912+6360 utm_feet.gpkg utah.geojson
+expect 0 talus-tin in_feet.gpkg -o ft.ply --t-srs EPSG:26912 --report ft.json --overwrite --no-db
+says "in_feet.gpkg: heights in EPSG:6360 (NAVD88 height (ftUS)), taken to metres"
+highest ft.json 39.624079248
+expect 0 talus-tin in_metres.gpkg -o m.ply --t-srs EPSG:26912 --report m.json --overwrite --no-db
+highest m.json 130
+expect 0 talus-tin utm_feet.gpkg -o ft.ply --report ft.json --overwrite --no-db
+highest ft.json 39.624079248
+# the user's word for a system in metres
+expect 0 talus-tin utah.gpkg -o m.ply --t-srs EPSG:26912 --vertical-crs EPSG:5703 --report m.json --overwrite --no-db
+highest m.json 130
+# points of the ground
+ogr2ogr -q -a_srs EPSG:3566 ground.gpkg utah.gpkg -dialect sqlite -sql "SELECT ST_DissolvePoints(geom) AS geom FROM utah" -explodecollections
+nothing_said ground.gpkg --points --t-srs EPSG:26912
+expect 0 talus-tin ground.gpkg -o p.ply --points --t-srs EPSG:26912 --elevation-unit-m 0.304800609601 --no-db
+# breaklines and spot heights beside contours in metres
+ogr2ogr -q spots.gpkg ground.gpkg -where "FID < 5"
+for extra in "--breaklines utah.gpkg" "--spots spots.gpkg"; do
+  nothing_said utah.geojson $extra
+  expect 0 talus-tin utah.geojson $extra -o m.ply --elevation-unit-m 1 --overwrite --no-db
+done
+printf 'x,y,z\n450000,4400000,452.7559055\n' >peak.csv
+ogr2ogr -q -a_srs EPSG:26912+8228 peak.gpkg peak.csv -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z
+expect 0 talus-tin utah.geojson --spots peak.gpkg -o peak.ply --no-db
+says "peak.gpkg: heights in EPSG:8228 (NAVD88 height (ft)), taken to metres"
+expect 0 talus-trn peak.ply -o peak.tif --cell-size-m 1 --no-db
+awk -v z="$(gdallocationinfo -valonly -geoloc peak.tif 450000 4400000)" 'BEGIN { exit !((z - 138) ^ 2 < 1e-4) }' ||
+  fail "the spot height is $(gdallocationinfo -valonly -geoloc peak.tif 450000 4400000) m, expected 138"
+
 # breaklines and spot heights in a drawing of their own
 printf '0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n2\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nPOINT\n8\nS\n10\n2132545.931758530\n20\n17060367.454068241\n30\n452.755905511811\n0\nENDSEC\n0\nEOF\n' >spot.dxf
 expect 1 talus-tin metres.dxf -o bad.ply --crs EPSG:25832 --spots spot.dxf --no-db

@@ -29,6 +29,34 @@ expect 0 talus-trn mended.tif -o mended_trn.tif --overwrite --no-db
 is_plane mended_trn.tif 1e-6
 rm mended.tif
 
+# the number of another zone: nothing is shifted, the hint asks for the CRS
+plane gauss.asc 3550000
+gdal_translate -q -ot Float64 -a_srs EPSG:25832 gauss.asc gauss.tif
+refused gauss.tif "as eastings of zone 3 of Gauss and Krueger (meridian 9 E) they would lie in it"
+says "hint: is it the CRS of these coordinates? name the right one with --crs EPSG:code"
+expect 0 talus-trn gauss.tif -o mended_trn.tif --crs EPSG:31467 --overwrite --no-db
+is_plane mended_trn.tif 1e-6
+
+# a country in one zone: its far side is warned of; of a whole continent the window alone is judged
+gdal_translate -q -ot Float64 -a_srs EPSG:25833 -a_ullr -31540 6735305 -31335 6735100 plane.asc wide.tif
+expect 0 talus-trn wide.tif -o wide_trn.tif --no-db
+says "warning: wide.tif: its coordinates"
+prints "100 % known, 1001.25 to 1101.25 m"
+gdal_translate -q -ot Float64 -a_srs EPSG:25833 -a_ullr -2000000 6000000 2000000 2000000 plane.asc continent.tif
+refused continent.tif "lie outside the area that EPSG:25833"
+expect 0 talus-trn continent.tif -o window_trn.tif --window 300000,5200000,700000,5600000 --no-db
+if grep -q warning: err && ! grep -q "steeper than 70" err; then fail "the window lies in the zone: $(cat err)"; fi
+
+# northings of a zone beyond the equator, as satellite images have them: the command of the hint
+gdal_translate -q -ot Float64 -a_srs EPSG:32619 -a_ullr 350000 -1650000 350205 -1650205 plane.asc landsat.tif
+refused landsat.tif "they lie in its zone on the other side of the equator"
+says "hint: --t-srs EPSG:32719, or gdalwarp"
+expect 0 talus-trn landsat.tif -o south.tif --t-srs EPSG:32719 --no-db
+gdalinfo south.tif | grep -q "^Upper Left *( *350000.000, *8350000.000)" || fail "not 10,000 km to the north: $(gdalinfo south.tif | grep Upper)"
+gdal_translate -q -a_srs EPSG:32719 -a_ullr 350000 8350000 350205 8349795 landsat.tif moved.tif
+expect 0 talus-trn south.tif -o compared.tif --reference moved.tif --no-db
+prints "largest 0 m"
+
 # feet in plan
 plane feet.asc 2132545.931758530 17060367.454068240 16.40419947506562 1
 gdal_translate -q -ot Float64 -a_srs EPSG:25832 feet.asc feet.tif

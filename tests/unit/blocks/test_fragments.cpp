@@ -47,6 +47,35 @@ TEST(Fragments, FillTheirParentToRounding) {
   EXPECT_GT(n_cut, 50);
 }
 
+// A plane passes the centroid by up to a fifth of the width, so pieces are no halves: limits.md has
+// these numbers.
+TEST(Fragments, AreNoHalves) {
+  struct Case {
+    Vec3 size;
+    double mean;
+  };
+  for (const Case& of : {Case{{1, 1, 1}, 0.67}, Case{{3, 2, 1}, 0.66}, Case{{6, 1, 1}, 0.64}}) {
+    std::vector<Polyhedron> shapes;
+    for (int i = 0; i < 4000; ++i) {
+      const Vec3 corner(10.0 * i, 0, 0);
+      shapes.push_back(box(corner, corner + of.size));
+    }
+    BlockSet set = set_of(shapes);
+    SplitSettings settings;
+    settings.max_generation = 1;
+    const std::vector<Fragment> fragments = add_fragments(set, settings);
+    double sum = 0, most = 0;
+    for (std::size_t b = 0; b < shapes.size(); ++b) {
+      const double share =
+          fragments[static_cast<std::size_t>(fragments[b].first_piece)].volume_share;
+      sum += std::max(share, 1 - share);
+      most = std::max({most, share, 1 - share});
+    }
+    EXPECT_NEAR(sum / 4000, of.mean, 0.005) << of.size.transpose();
+    EXPECT_NEAR(most, 0.875, 0.005) << of.size.transpose();
+  }
+}
+
 TEST(Fragments, NoneIsSmallerThanAskedForAndNoneCutMoreOften) {
   BlockSet set = set_of({box(Vec3(0, 0, 0), Vec3(3, 2, 1))});
   SplitSettings settings;

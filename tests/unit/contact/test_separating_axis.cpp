@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
 #include "bent_body.hpp"
 #include "contact/separating_axis.hpp"
 #include "convex_bodies.hpp"
@@ -65,6 +69,27 @@ TEST(FindAxis, GivesThePenetrationDepthOfTheMinkowskiDifference) {
   }
   EXPECT_GT(n_overlap, 1000);
   EXPECT_GT(n_edges, 300);
+}
+
+// Cubes that overlap edge on edge by a micrometre: the direction across both edges, not a face's at
+// 45 degrees to it; edges parallel to rounding leave the faces.
+TEST(FindAxis, EdgesThatHardlyCrossAreAnAxis) {
+  AxisScratch scratch;
+  for (const double degrees : {0.0, 0.001, 0.01, 0.1, 0.9, 1.1, 5.0}) {
+    Bodies bodies;
+    const Quat on_edge(Eigen::AngleAxisd(std::numbers::pi / 4, Vec3::UnitY()));
+    const Quat turned(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vec3::UnitX()));
+    for (const Pose& pose : {Pose{Vec3::Zero(), on_edge}, Pose{Vec3::Zero(), turned * on_edge}})
+      add(bodies, box(Vec3::Constant(-0.5), Vec3::Constant(0.5)), pose);
+    place(bodies);
+    press(bodies, 0, 1, -Vec3::UnitX(), 1e-6);
+    const AxisChoice choice = find_axis(bodies.hulls, bodies.placed, 0, 1, 0, {}, scratch);
+    ASSERT_TRUE(choice.touches);
+    EXPECT_EQ(choice.axis.kind == AxisKind::edges, degrees >= 0.01) << degrees;
+    if (degrees < 0.01) continue;
+    EXPECT_NEAR(std::abs(choice.normal.x()), 1, 1e-9);
+    EXPECT_NEAR(choice.separation, -1e-6, 1e-9);
+  }
 }
 
 // Within `hold` the chosen axis must remain as good as any, up to the bonus that keeps it.

@@ -126,9 +126,32 @@ TEST(CrsPlace, ZoneNumbersBeforeEastingsAreNamed) {
   EXPECT_TRUE(with.says("begin with the zone number 32")) << with.refusal;
   EXPECT_EQ(with.hint, "--crs EPSG:4647 --t-srs EPSG:25832");
   EXPECT_TRUE(outcome_at("EPSG:32633", 33400000, 5200000).says("begin with the zone number 33"));
-  const Outcome without = outcome_at("EPSG:31467", 550000, 5300000);
-  EXPECT_TRUE(without.says("lack the zone number 3")) << without.refusal;
-  EXPECT_NE(without.hint.find("ShiftCoords(geometry, 3000000, 0)"), std::string::npos);
+  // also those of Gauss and Krueger, 3 and 6 degrees wide, where the CRS has none: 1954 in China
+  EXPECT_TRUE(outcome_at("EPSG:2434", 37400000, 3500000).says("begin with the zone number 37"));
+  EXPECT_TRUE(outcome_at("EPSG:21459", 19400000, 3500000).says("begin with the zone number 19"));
+}
+
+// Another number, or the lack of one, stands for another projection: the hint asks for it, and no
+// command shifts anything.
+TEST(CrsPlace, NumbersOfOtherZonesAreNoReasonToShift) {
+  struct Case {
+    const char* crs;
+    double x, y;
+    const char* words;
+  };
+  for (const Case& c :
+       {Case{"EPSG:25832", 3550000, 5300000, "as eastings of zone 3 of Gauss and Krueger"},
+        Case{"EPSG:32632", 2550000, 5300000, "as eastings of zone 2 of Gauss and Krueger"},
+        Case{"EPSG:3765", 5560000, 5000000, "as eastings of zone 5 of Gauss and Krueger"},
+        Case{"EPSG:32632", 1600000, 5000000, "lie outside the area"},     // Gauss-Boaga, west
+        Case{"EPSG:32650", 39400000, 3500000, "as eastings of zone 39"},  // 3 degrees, in China
+        Case{"EPSG:31467", 550000, 5300000, "the eastings lack the zone number 3"}}) {
+    const Outcome outcome = outcome_at(c.crs, c.x, c.y);
+    EXPECT_TRUE(outcome.says(c.words)) << c.crs << ": " << outcome.refusal;
+    EXPECT_EQ(outcome.hint,
+              "is it the CRS of these coordinates? name the right one with --crs EPSG:code")
+        << c.crs << ": " << outcome.refusal;
+  }
 }
 
 TEST(CrsPlace, FeetAndMillimetresAreNamed) {
@@ -136,6 +159,12 @@ TEST(CrsPlace, FeetAndMillimetresAreNamed) {
   EXPECT_TRUE(feet.says("as feet they would lie in it")) << feet.refusal;
   EXPECT_EQ(feet.hint, "--unit-m 0.3048 scales plan and heights");
   EXPECT_TRUE(outcome_at("EPSG:31254", 80000e3, 236000e3).says("as millimetres"));
+  // feet of two lengths in America: its systems in feet are meant, not a scale
+  const Outcome american = outcome_at("EPSG:26943", 2000000 / 0.3048, 600000 / 0.3048);
+  EXPECT_TRUE(american.says("as feet they would lie in it")) << american.refusal;
+  EXPECT_NE(american.hint.find("--crs EPSG:code"), std::string::npos) << american.hint;
+  // metres of another system lie in a zone from equator to pole whatever they are multiplied by
+  EXPECT_FALSE(outcome_at("EPSG:32632", 1600000, 5000000).says("as feet"));
 }
 
 TEST(CrsPlace, OtherSignsAreNamed) {
@@ -153,6 +182,42 @@ TEST(CrsPlace, BesideTheAreaIsWarnedOfAndFarFromItRefused) {
   EXPECT_TRUE(outcome_at("EPSG:31287", 650000, 5200000).says("lie outside the area"));
   EXPECT_TRUE(outcome_at("EPSG:2056", 650000, 5200000).says("lie outside the area"));
   EXPECT_TRUE(outcome_at("EPSG:4326", 11, 47, "EPSG:2193").says("lie outside the area"));
+}
+
+// A country may be in one zone altogether, as Norway is: what counts there is the scale.
+TEST(CrsPlace, AWideExtentInOneZoneIsWarnedOf) {
+  const Outcome bergen = outcome_at("EPSG:25833", -31540, 6735100);  // 6.7 degrees beside
+  EXPECT_EQ(bergen.refusal, "");
+  EXPECT_EQ(bergen.warnings.size(), 2u) << "beside the area, and north askew by 8 degrees";
+  EXPECT_EQ(outcome_at("EPSG:32719", -250000, 6000000).refusal, "");  // 8 degrees beside, in Chile
+  EXPECT_TRUE(outcome_at("EPSG:25833", -600000, 6735100).says("lie outside the area"));  // 1.5 %
+  EXPECT_TRUE(outcome_at("EPSG:32633", 500000, -1500000).says("lie outside the area"));
+}
+
+// Northings of a zone go on beyond the equator, as satellite images have them.
+TEST(CrsPlace, TheOtherHemisphereOfAZoneIsReprojected) {
+  for (const char* crs : {"EPSG:32619", "EPSG:31973"}) {  // WGS 84, SIRGAS 2000
+    const Outcome named = outcome_at(crs, 350000, -1650000);
+    EXPECT_TRUE(named.says("they lie in its zone on the other side of the equator")) << crs;
+    EXPECT_EQ(named.hint, "--t-srs EPSG:32719 reprojects");
+    const Outcome taken = outcome_at(crs, 350000, -1650000, "EPSG:32719");
+    EXPECT_EQ(taken.refusal, "") << crs;
+    EXPECT_TRUE(taken.warnings.empty()) << crs;
+  }
+  EXPECT_EQ(outcome_at("EPSG:32733", 400000, 11500000).hint, "--t-srs EPSG:32633 reprojects");
+}
+
+TEST(CrsPlace, LongitudesCountModulo360) {
+  const std::vector<talus::Vec3> fiji = {
+      {179.9996, -16.799, 0}, {180, -16.798, 0}, {-180, -16.799, 0}, {-179.9995, -16.798, 0}};
+  const MapWindow window = talus::window_of(fiji, wkt("EPSG:4326"));
+  EXPECT_NEAR(window.x_min, 179.9996, 1e-9);
+  EXPECT_NEAR(window.x_max, 180.0005, 1e-9);
+  EXPECT_EQ(outcome_of({wkt("EPSG:4326"), window, wkt("EPSG:3460")}).refusal, "");
+  EXPECT_EQ(talus::window_of(fiji, wkt("EPSG:3460")).x_min, -180) << "metres do not turn";
+  // in grads, 200 of which are 180 degrees
+  const std::vector<talus::Vec3> grads = {{199.9, 50, 0}, {-199.9, 50, 0}};
+  EXPECT_NEAR(talus::window_of(grads, wkt("EPSG:4901")).x_max, 200.1, 1e-9);
 }
 
 TEST(CrsPlace, NorthOfTheMapFarOffNorthIsWarnedOf) {

@@ -1,5 +1,7 @@
+#include <gdal_priv.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +9,7 @@
 #include "base/random.hpp"
 #include "base/sha256.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/judged_heights_gdal.hpp"
 #include "io/raster_gdal.hpp"
 
 namespace {
@@ -115,6 +118,74 @@ TEST_F(Raster, WhatCannotBeWrittenIsAnError) {
   EXPECT_THROW(talus::write_trn(path("a.tif"), random_trn(3, 3), {{}, {"COMPRESS"}}),
                talus::InputError);
   EXPECT_THROW(static_cast<void>(talus::read_trn(path("missing.tif"))), talus::InputError);
+}
+
+// A slope with a tower that no ground has, 400 m above what is beside it.
+Trn tower() {
+  std::vector<double> z;
+  for (int i = 0; i < 20 * 30; ++i) z.push_back(i == 315 ? 1400 : 1000 + i / 30);
+  z[7] = std::nan("");
+  return talus::make_trn({20, 30, 5, {650'000, 5'200'000}}, "", z);
+}
+
+void copy(const std::string& from, const std::string& to, const char* driver_name) {
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(driver_name);
+  const GDALDatasetUniquePtr source(GDALDataset::Open(from.c_str()));
+  GDALClose(driver->CreateCopy(to.c_str(), source.get(), 0, nullptr, nullptr, nullptr));
+}
+
+bool is_refused(const std::string& path) {
+  try {
+    static_cast<void>(talus::read_trn(path));
+  } catch (const talus::InputError&) {
+    return true;
+  }
+  return false;
+}
+
+// Who writes a TRN has judged it; the copy of another program keeps that, a change does not.
+TEST_F(Raster, JudgedHeightsAreNotJudgedAgain) {
+  talus::write_trn(path("judged.tif"), tower(), {{}, {}, "level area at 1400 m"});
+  EXPECT_FALSE(is_refused(path("judged.tif")));
+  EXPECT_TRUE(talus::were_heights_judged(path("judged.tif")));
+  EXPECT_EQ(talus::accepted_doubts(path("judged.tif")), "level area at 1400 m");
+  copy(path("judged.tif"), path("copy.tif"), "GTiff");
+  EXPECT_FALSE(is_refused(path("copy.tif")));
+  EXPECT_EQ(talus::accepted_doubts(path("copy.tif")), "level area at 1400 m");
+  double height = 1500;
+  {
+    const GDALDatasetUniquePtr edited(GDALDataset::Open(path("copy.tif").c_str(), GDAL_OF_UPDATE));
+    ASSERT_EQ(edited->GetRasterBand(1)->RasterIO(GF_Write, 3, 3, 1, 1, &height, 1, 1, GDT_Float64,
+                                                 0, 0, nullptr),
+              CE_None);
+  }
+  EXPECT_TRUE(is_refused(path("copy.tif")));
+  EXPECT_EQ(talus::accepted_doubts(path("copy.tif")), "");
+}
+
+// A scale turns the same numbers into other heights; other cells turn them into other slopes.
+TEST_F(Raster, TagsOfOtherHeightsCountForNothing) {
+  const auto edited = [this](const std::string& name, const auto& edit) {
+    talus::write_trn(path(name), tower(), {{}, {}, "level area at 1400 m"});
+    {
+      const GDALDatasetUniquePtr file(GDALDataset::Open(path(name).c_str(), GDAL_OF_UPDATE));
+      edit(*file);
+    }
+    return is_refused(path(name)) && talus::accepted_doubts(path(name)).empty();
+  };
+  EXPECT_FALSE(edited("same.tif", [](GDALDataset&) {}));
+  EXPECT_TRUE(edited("scaled.tif", [](GDALDataset& f) { f.GetRasterBand(1)->SetScale(1.1); }));
+  EXPECT_TRUE(edited("offset.tif", [](GDALDataset& f) { f.GetRasterBand(1)->SetOffset(1); }));
+  EXPECT_TRUE(
+      edited("known.tif", [](GDALDataset& f) { f.GetRasterBand(1)->SetNoDataValue(1001); }));
+  EXPECT_TRUE(edited("finer.tif", [](GDALDataset& f) {
+    std::array<double, 6> transform = {650'000, 2, 0, 5'200'000, 0, -2};
+    f.SetGeoTransform(transform.data());
+  }));
+  EXPECT_TRUE(edited("old.tif", [](GDALDataset& f) {
+    f.SetMetadataItem("HEIGHTS_JUDGED", nullptr);
+    f.SetMetadataItem("DOUBTS_ACCEPTED", "YES");
+  }));
 }
 
 }  // namespace

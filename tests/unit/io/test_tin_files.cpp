@@ -118,6 +118,10 @@ TEST(TinFiles, LandXmlIsNorthingEastingElevation) {
 }
 
 TEST(TinFiles, LandXmlThatCannotBeTakenIsRefused) {
+  EXPECT_EQ(
+      refusal(write("high.xml",
+                    landxml("<Metric linearUnit=\"meter\" elevationUnit=\"feet\"/>", corners, ""))),
+      ": the unit of heights is feet, expected meter");
   EXPECT_EQ(refusal(write("feet.xml", landxml("<Imperial linearUnit=\"foot\"/>", corners, ""))),
             ": the units are feet (Imperial), expected metres");
   EXPECT_EQ(refusal(write("bare.xml", landxml(metric, corners, ""))),

@@ -81,6 +81,20 @@ TEST(TinPly, ReadsBackWhatItWrote) {
   EXPECT_EQ(bytes_of(back), bytes_of(parse_tin(bytes_of(back), "x.ply")));
 }
 
+TEST(TinPly, SaysThatItsHeightsWereJudgedUntilTheyAreChanged) {
+  Tin tin = example();
+  tin.accepted_doubts = "contour at 0 m, x 1, y 2; " + std::string(700, 'z') + " end";
+  std::string bytes = bytes_of(tin);
+  const Tin back = parse_tin(bytes, "x.ply");
+  EXPECT_TRUE(back.is_judged);
+  EXPECT_EQ(back.accepted_doubts, tin.accepted_doubts);
+  bytes[bytes.find("end_header") + 11] ^= 1;  // the lowest bit of the first coordinate
+  const Tin changed = parse_tin(bytes, "x.ply");
+  EXPECT_FALSE(changed.is_judged);
+  EXPECT_EQ(changed.accepted_doubts, "");
+  EXPECT_FALSE(parse_tin(with("heights_judged", "heights_refused"), "x.ply").is_judged);
+}
+
 // Map coordinates survive to the last bit: that is why the origin is a multiple of 100 m.
 TEST(TinPly, KeepsMapCoordinatesExactly) {
   talus::Random random(9, "ply");

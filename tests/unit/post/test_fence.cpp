@@ -315,6 +315,29 @@ TEST(Touches, KnowWhoHangsInAPanelThatGaveWay) {
   for (int block = 0; block < 5; ++block) EXPECT_EQ(touch[block].held, held[block]) << block;
 }
 
+// Rocks that fell one by one: a panel that one broke stood for the next, and holds only whoever
+// pushed it himself.
+TEST(Touches, OfRocksThatFellOneByOneKnowTheirOwnPanels) {
+  RunFile run;
+  run.info.independent = true;
+  for (int rock = 0; rock < 3; ++rock) {
+    add_crossing(run, 5, 1, 1, 1e3, 4);
+    run.blocks.rest.back().position = {22.5, 15, 100};  // 2.5 m beyond the line
+    add_touch(run, rock, 0, 5, 3, 1e3);
+  }
+  run.panels = {{0, 0, 1e5, 0, 0, FenceTouch::never, -1},
+                {0, 0, 1e5, 1e5, -4, 3.5, 0, 0},
+                {0, 0, 1e5, 0, -3, FenceTouch::never, -1, 1}};
+  const Fence fence = straight_fence();
+  const auto touch = touches(run, 0, fence, line_crossings(run, 0, fence, 0));
+  const double gap_since[] = {3.5, FenceTouch::never, FenceTouch::never};
+  const bool held[] = {false, true, false};
+  for (int rock = 0; rock < 3; ++rock) {
+    EXPECT_EQ(touch[rock].gap_since, gap_since[rock]) << rock;
+    EXPECT_EQ(touch[rock].held, held[rock]) << rock;
+  }
+}
+
 // On a slope of 0.5 that falls to the east, filled to 4 m: a triangle of 4 m by 8 m behind a fence
 // of 10 m a field.
 TEST(Storage, OfAPlaneIsTheWedge) {

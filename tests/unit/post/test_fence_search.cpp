@@ -268,6 +268,21 @@ TEST(FenceSearch, FiveBlocksAtOncePassAFieldThatHoldsEachOfThem) {
   EXPECT_DOUBLE_EQ(field_loads(apart.lines[0], placed, 1).run, 1000e3);
 }
 
+// The same blocks as rocks that fall one by one: each finds the field whole and alone.
+TEST(FenceSearch, RocksThatFallOneByOneDoNotAddUp) {
+  Slope scene = scene_of({40});
+  for (int r = 0; r < 12; ++r)
+    add_run(scene, {{100, 100.1, 100.2, 100.3, 100.4}}, {200e3}, 0.1, 0.1);
+  for (SearchHit& hit : scene.lines[0].hits) hit.arrival.world = hit.arrival.block;
+  sort_hits(scene.lines[0]);
+  PlacedFence placed{0, 100, 102.5, 1, 4, 500e3, 2};
+  const FieldLoads loads = field_loads(scene.lines[0], placed, 1);
+  EXPECT_DOUBLE_EQ(loads.single, 200e3);
+  EXPECT_DOUBLE_EQ(loads.second, 200e3);
+  EXPECT_DOUBLE_EQ(loads.run, 200e3);
+  EXPECT_EQ(follow(scene.runs, scene.lines, {placed}).stopped, 1);
+}
+
 TEST(FenceSearch, WhatTheUpperRowMissesGoesOnToTheLowerOne) {
   // fast blocks first, then high ones that only the lower row stops
   Slope scene = scene_of({40, 60});

@@ -55,6 +55,36 @@ HazardRuns runs_of(double frequency, int first, int n) {
   return runs;
 }
 
+// Runs of `n_rocks` each; rocks that moved as if they were alone.
+std::vector<RunMember> members_of(int n_runs, int n_rocks, double weight, bool has_frequencies) {
+  std::vector<RunMember> members(static_cast<std::size_t>(n_runs));
+  for (int r = 0; r < n_runs; ++r) {
+    members[r].file = "run_" + std::to_string(r) + ".h5";
+    members[r].info.independent = true;
+    members[r].info.weights_are_frequencies = has_frequencies;
+    members[r].n_blocks = n_rocks;
+    for (int rock = 0; rock < n_rocks; ++rock) members[r].weight += weight;
+  }
+  return members;
+}
+
+HazardClass class_named(const std::string& name, FrequencyKind kind, double frequency = 0) {
+  HazardClass out;
+  out.name = name;
+  out.kind = kind;
+  out.frequency = {frequency, frequency, frequency};
+  return out;
+}
+
+std::string refusal_of_runs(const HazardClass& kind, const std::vector<RunMember>& members) {
+  try {
+    static_cast<void>(hazard_runs(kind, members, 0, 0));
+  } catch (const InputError& error) {
+    return std::string(error.what()) + " | " + error.hint();
+  }
+  return "accepted";
+}
+
 EventRow row(int run, float energy) { return {7, run, energy, energy, 1}; }
 
 std::string class_of_periods(const Recipe& recipe, double any, double medium, double strong) {
@@ -187,24 +217,28 @@ TEST(Hazard, RaisesCellsOfAMassAndLeavesOutliersTheirEnergy) {
     rows[i].first_time = times[i];
     rows[i].largest.total_energy = 5e3F;
   }
-  const std::vector<EventRow> made = event_rows(rows, blocks, recipe, 0);
+  RunMember run;
+  const std::vector<EventRow> made = event_rows(rows, blocks, recipe, run, 0);
   EXPECT_GT(made[0].intensity, 300);
   EXPECT_GT(made[1].intensity, 300);
   EXPECT_EQ(made[2].intensity, 5);  // 7.5 s behind the others
   EXPECT_EQ(made[3].intensity, 5);
   EXPECT_EQ(made[0].energy, 5);
+  run.info.independent = true;  // none of them was there when another came
+  EXPECT_EQ(event_rows(rows, blocks, recipe, run, 0)[0].intensity, 5);
+  run.info.independent = false;
   blocks.volume = {30, 30, 1};  // no mass
-  EXPECT_EQ(event_rows(rows, blocks, recipe, 0)[0].intensity, 5);
+  EXPECT_EQ(event_rows(rows, blocks, recipe, run, 0)[0].intensity, 5);
 }
 
 TEST(Hazard, OfWeightsIsTheSumOfTheBlocksFrequencies) {
-  HazardRuns runs = runs_of(0, 0, 20);
-  runs.kind.kind = FrequencyKind::of_weights;
-  runs.basis = share_basis(std::vector<double>(20, 0.5), false);  // 0.5 a year released a run
-  const std::vector<HazardRuns> classes{runs};
+  // 0.5 a year released a run
+  const std::vector<HazardClass> kinds{class_named("V1", FrequencyKind::of_weights)};
+  const std::vector<HazardRuns> classes{
+      hazard_runs(kinds[0], members_of(20, 50, 0.01, true), 0, 0)};
   std::vector<EventRow> rows;
   for (int run = 0; run < 10; ++run)
-    for (const float energy : {20.0F, 40.0F}) rows.push_back({7, run, energy, energy, 0.01F});
+    for (const float energy : {20.0F, 40.0F}) rows.push_back({7, run, energy, energy, 0.01});
   sort_events(rows);
   HazardRates at(classes);
   const std::vector<Rate> rates = at.above(rows, std::vector<double>{30});
@@ -216,6 +250,95 @@ TEST(Hazard, OfWeightsIsTheSumOfTheBlocksFrequencies) {
   EXPECT_EQ(energy[1].value, 40);
   EXPECT_EQ(energy[2].value, 40);
   EXPECT_TRUE(std::isnan(energy[3].value));
+}
+
+// Twenty runs of rocks of which every fourth crosses the cell: the class says how many rocks it
+// sheds, the release points how many each of them.
+TEST(Hazard, OfSingleRocksCountsRocksHoweverManyARunHas) {
+  const auto rates_of = [](const HazardClass& kind, int n_rocks, double weight) {
+    const std::vector<HazardRuns> classes{
+        hazard_runs(kind, members_of(20, n_rocks, weight, weight != 1), 0, 0)};
+    std::vector<EventRow> rows;
+    for (int run = 0; run < 20; ++run)
+      for (int rock = 0; rock < n_rocks / 4; ++rock)
+        rows.push_back({7, run, rock % 2 == 0 ? 20.0F : 40.0F, 0, weight});
+    sort_events(rows);
+    HazardRates at(classes);
+    const Rate rate = at.above(rows, {})[0], share = at.shares_above(rows, {}, 0)[0];
+    const std::vector<Rate> energy = at.energies(rows, std::vector<double>{20, 10, 9});
+    return std::vector<double>{rate.value,      rate.low,
+                               rate.high,       share.value,
+                               share.high,      at.passages_above(rows, {})[0],
+                               energy[0].value, energy[1].value,
+                               energy[2].value, largest_rate_elsewhere(classes)};
+  };
+  const HazardClass all = class_named("V1", FrequencyKind::of_events, 0.4);
+  const std::vector<double> few = rates_of(all, 8, 1), many = rates_of(all, 80, 1);
+  EXPECT_NEAR(few[0], 0.1, 1e-12);
+  EXPECT_NEAR(few[3], 0.25, 1e-12);
+  EXPECT_NEAR(few[5], 0.1, 1e-12);
+  EXPECT_EQ(few[6], 40);
+  EXPECT_EQ(few[7], 20);
+  EXPECT_TRUE(std::isnan(few[8]));
+  for (std::size_t i : {0U, 3U, 5U, 6U, 7U}) EXPECT_NEAR(many[i], few[i], 1e-12) << i;
+  const HazardClass points = class_named("V1", FrequencyKind::of_weights);
+  const std::vector<double> each = rates_of(points, 8, 0.4 / 8);
+  EXPECT_TRUE(std::isnan(each[8]));
+  for (std::size_t i = 0; i < each.size(); ++i)
+    if (i != 8) EXPECT_EQ(static_cast<float>(each[i]), static_cast<float>(few[i])) << i;
+}
+
+TEST(Hazard, OfSingleRocksAsksOneQuestionOnce) {
+  const HazardClass given = class_named("V1", FrequencyKind::of_events, 0.28),
+                    asked = class_named("V1", FrequencyKind::of_weights);
+  EXPECT_EQ(refusal_of_runs(given, members_of(3, 28, 1, false)), "accepted");
+  EXPECT_EQ(refusal_of_runs(asked, members_of(3, 28, 0.01, true)), "accepted");
+  const std::string both = refusal_of_runs(given, members_of(3, 28, 0.01, true));
+  EXPECT_NE(both.find("run_0.h5: hazard.class.V1"), std::string::npos) << both;
+  EXPECT_NE(both.find("by_weights = true"), std::string::npos) << both;
+  HazardClass failure = given;
+  failure.kind = FrequencyKind::of_failure;
+  EXPECT_NE(refusal_of_runs(failure, members_of(3, 28, 0.01, true)), "accepted");
+  // once a year at each point is a frequency, and pieces of blocks have weights that are none
+  EXPECT_EQ(refusal_of_runs(asked, members_of(3, 28, 1, true)), "accepted");
+  EXPECT_NE(refusal_of_runs(asked, members_of(3, 28, 0.5, false)).find("are no frequencies"),
+            std::string::npos);
+  std::vector<RunMember> mixed = members_of(3, 28, 1, false);
+  mixed[1].info.independent = false;
+  EXPECT_NE(refusal_of_runs(given, mixed).find("run_1.h5"), std::string::npos);
+
+  const std::string release = "[blocks.cliff]\nfrequency_per_a = 0.01\n";
+  EXPECT_NE(refusal_of_site("[hazard.class.V1]\nfrequency_per_a = 0.28\n" + release)
+                .find("[blocks.cliff] has frequency_per_a"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_site("[hazard.class.V1]\nevents = 3\nobserved_a = 10\n"
+                            "[blocks.cliff]\nfrequency_per_m2_a = 0.01\n")
+                .find("[blocks.cliff] has frequency_per_m2_a"),
+            std::string::npos);
+  EXPECT_EQ(refusal_of_site("[hazard.class.V1]\nby_weights = true\n" + release), "accepted");
+  EXPECT_EQ(refusal_of_site("[hazard.class.V1]\nby_weights = true\n"
+                            "[hazard.class.V5]\nfrequency_per_a = 0.28\n" +
+                            release),
+            "accepted");  // which runs are of which release the runs say
+}
+
+// A case that counts three times as much does so in the share of runs and in that of rocks.
+TEST(Hazard, OfWeighedRunsGoesByTheirWeights) {
+  for (const bool alone : {false, true}) {
+    std::vector<RunMember> members = members_of(20, 4, 1, false);
+    for (int r = 0; r < 20; ++r) {
+      members[r].info.independent = alone;
+      members[r].run_weight = r < 10 ? 1.5 : 0.5;
+      members[r].weight *= members[r].run_weight;
+    }
+    const std::vector<HazardRuns> classes{
+        hazard_runs(class_named("V1", FrequencyKind::of_events, 1), members, 0, 0)};
+    std::vector<EventRow> rows;
+    for (int run = 0; run < 10; ++run)
+      for (int rock = 0; rock < 4; ++rock) rows.push_back({7, run, 20, 20, 1.5});
+    HazardRates at(classes);
+    EXPECT_NEAR(at.above(rows, {})[0].value, 0.75, 1e-12);
+  }
 }
 
 TEST(Hazard, IsBoundedWhereNoRunCame) {
@@ -344,6 +467,33 @@ TEST(Recipe, HolesAreRefusedWithTheirPlace) {
   expect("split = \"a\"", "split = \"c\"", "expected a or b");
   expect("mark = \"v\"", "makr = \"v\"", "is not a key of a recipe");
   expect("label = \"low hazard\"", "", "class.yellow.label");
+}
+
+// What is stronger or comes more often has no lower class; on both sides of the split.
+TEST(Recipe, UpsideDownIsRefused) {
+  const std::string whole = shipped();
+  const auto expect = [&](const std::string& from, const std::string& to,
+                          const std::string& words) {
+    const std::string said = refusal_of_recipe(replaced(whole, from, to));
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_NE(said.find("r.toml:"), std::string::npos) << said;
+  };
+  expect("[\"blue\", \"yellow\", \"yellow\"]", "[\"red\", \"red\", \"red\"]",
+         "gives \"blue\" to medium in 30 years, and the row before gives \"red\" to weak");
+  expect("[\"red\", \"red\", \"red\"]", "[\"none\", \"none\", \"none\"]",
+         "gives \"none\" to strong in 30 years");
+  expect("[\"blue\", \"yellow\", \"yellow\"]", "[\"yellow\", \"yellow\", \"blue\"]",
+         "gives \"blue\" in 300 years, and \"yellow\" in 100");
+  expect("\"yellow|blue\"", "\"yellow|red\"", "gives \"red\" in 300 years, and \"blue\" in 100");
+  expect("beyond = \"residual\"", "beyond = \"blue\"", "the matrix gives \"yellow\"");
+  expect("alone_s = 3", "alone_s = -1", "mass.alone_s: is not above 0");
+  expect("alone_s = 3", "alone_s = 0", "is not above 0");
+  expect("[6, 5, 4]", "[6, 5, -4]", "has -4, expected a whole number");
+  expect("[6, 5, 4]", "[6, 5.5, 4]", "has 5.5, expected a whole number");
+  expect("hatched = true", "hatched = \"yes\"", "is neither true nor false");
+  expect("\"weak\", \"medium\"", "\"weak\", \"weak\"", "has \"weak\" twice");
+  expect("return_period_a = [30, 100, 300]", "return_period_a = [-30, 100, 300]",
+         "does not ascend from above 0");
 }
 
 TEST(Recipe, SmoothingTakesTheMostOfTheNeighbours) {

@@ -36,6 +36,8 @@ RunFile random_run(int number, bool tall) {
   RunFile run;
   run.info.run_id = "run" + std::to_string(1000 + number);
   run.info.seed = number;
+  run.info.independent = number % 2 == 1;
+  run.info.weights_are_frequencies = number % 3 == 1;
   run.info.status = "done";
   run.info.config = "seed = " + std::to_string(number) + "\n";
   for (int block = 0; block < 2; ++block) add_box(run, {2, 2, tall ? 3.0 : 2.0}, {0, 0, 0});
@@ -167,6 +169,8 @@ TEST(PartFile, GivesBackItsRuns) {
     EXPECT_EQ(got.info.run_id, wanted.info.run_id);
     EXPECT_EQ(got.info.config, wanted.info.config);
     EXPECT_EQ(got.info.seed, wanted.info.seed);
+    EXPECT_EQ(got.info.independent, wanted.info.independent);
+    EXPECT_EQ(got.info.weights_are_frequencies, wanted.info.weights_are_frequencies);
     EXPECT_EQ(got.blocks.vertices, wanted.blocks.vertices);
     EXPECT_EQ(got.blocks.face_vertices, wanted.blocks.face_vertices);
     EXPECT_EQ(got.blocks.block_face_begin, wanted.blocks.block_face_begin);

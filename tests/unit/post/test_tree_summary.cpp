@@ -47,4 +47,24 @@ TEST(TreeSummary, StemsOfTwoStandsAreNotOne) {
   EXPECT_EQ(summary_of({one, two}).stems.size(), 2u);
 }
 
+// Rocks that fall one by one: each met the whole wood, so that means are a rock's.
+TEST(TreeSummary, CountsRockByRock) {
+  RunTrees one{{{"wood", 50}},
+               {row_of(3, 0, 20, 0, 0), row_of(3, 1, 50, 0, 1), row_of(3, 2, 10, 90, -1),
+                row_of(4, 3, 10, 90, -1)},
+               {0, 1, 2, 2, 4},
+               true};
+  const TreeSummary sum = summary_of({one});
+  ASSERT_EQ(sum.stems.size(), 2u);
+  EXPECT_EQ(sum.stems[0].n_runs, 1);
+  EXPECT_EQ(sum.stems[0].n_hits, 3);
+  EXPECT_EQ(sum.stems[0].n_broken, 2);
+  EXPECT_EQ(sum.stems[1].n_broken, 0);
+  ASSERT_EQ(sum.forests.size(), 1u);
+  EXPECT_EQ(sum.forests[0].n_worlds, 4);
+  EXPECT_DOUBLE_EQ(sum.forests[0].stems, 50);
+  EXPECT_DOUBLE_EQ(sum.forests[0].hit, 1);
+  EXPECT_DOUBLE_EQ(sum.forests[0].broken, 0.5);
+}
+
 }  // namespace

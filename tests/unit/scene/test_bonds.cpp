@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <tuple>
+#include <vector>
 
 #include "scene/fence.hpp"
 #include "step/step.hpp"
@@ -132,6 +135,146 @@ TEST(Bonds, HangByTheirTensileStrength) {
     EXPECT_EQ(state.bonds[0].area > 0, share < 1);
     EXPECT_EQ(slid(scene, state) < 0.01, share < 1);
   }
+}
+
+// --- one rule for both kinds of bonds ----------------------------------------------------------
+
+/// Forces on the cube at the bonded face, and couples there.
+struct FaceLoad {
+  const char* name;
+  Vec3 force = Vec3::Zero();   // [N]
+  Vec3 couple = Vec3::Zero();  // [N m]
+};
+
+constexpr double c = 20000, t = 30000;  // of the bonds below; friction of 10 degrees
+const double k = c + std::tan(10 * degree) * weight / area;
+const double torsion = (std::sqrt(2) + std::log(1 + std::sqrt(2))) / 6;  // of a unit square
+
+// What a face of 1 m2 that bears the cube's weight just holds, in closed form.
+const FaceLoad face_loads[] = {
+    {"tension", Vec3(0, 0, weight + t), {}},
+    {"shear", Vec3(0.6, -0.8, 0) * k, {}},
+    {"bending", {}, Vec3(0, (weight + t) / 2, 0)},
+    {"torsion", {}, Vec3(0, 0, torsion* k)},
+    {"tension and bending", Vec3(0, 0, weight + t / 2), Vec3(t / 4, 0, 0)},
+    {"tension and shear", Vec3(c, 0, weight + t / 2), {}},
+    {"pull and torsion", Vec3(0, 0, weight), Vec3(0, 0, torsion* c)},
+};
+
+// A cube on a slab that holds to the ground, or on the ground itself, with `share` of the load
+// besides its weight. The weight stays, so the share is of what the load is more than that.
+Scene loaded_cube(bool on_ground, const FaceLoad& load, double share) {
+  GroundClass bonded = ground_of(10);
+  bonded.cohesion = c;
+  bonded.tension = t;
+  const double low = on_ground ? 0 : 0.5;
+  Body slab, cube;
+  slab.parts = {box(Vec3(-3, -3, 0), Vec3(3, 3, 0.5))};
+  cube.parts = {box(Vec3(-0.5, -0.5, low), Vec3(0.5, 0.5, low + 1))};
+  for (Body* body : {&slab, &cube}) body->parts[0].face_tag.assign(6, 0);
+  Settings settings;
+  settings.sleep = false;
+  std::vector<Body> bodies;
+  if (!on_ground) bodies.push_back(slab);
+  bodies.push_back(cube);
+  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 10), on_ground ? bonded : ground_of(85),
+                         bodies, settings);
+  if (!on_ground) scene.joints.of_set = {bonded};
+  const int b = on_ground ? 0 : 1;
+  const auto add = [&](const Vec3& at, const Vec3& force) {
+    const Quat& attitude = scene.blocks.rest[b].attitude;
+    scene.loads.push_back({b, attitude.conjugate() * (at - Vec3(0, 0, 0.5)), force});
+  };
+  const Vec3 force = load.force.z() > 0 ? Vec3(share * load.force.x(), share * load.force.y(),
+                                               weight + share * (load.force.z() - weight))
+                                        : Vec3(share * load.force);
+  add(Vec3::Zero(), force);
+  for (int axis = 0; axis < 3; ++axis) {  // couples of an arm of 1 m
+    const Vec3 arm = 0.5 * Vec3::Unit((axis + 1) % 3),
+               pair = share * load.couple[axis] * Vec3::Unit((axis + 2) % 3);
+    if (pair.isZero(0)) continue;
+    add(arm, pair);
+    add(-arm, -pair);
+  }
+  return scene;
+}
+
+double strayed(const Scene& scene, const State& state) {
+  const auto b = scene.blocks.rest.size() - 1;
+  const Pose &now = state.motion[b].pose, &then = scene.blocks.rest[b];
+  return (now.position - then.position).norm() + now.attitude.angularDistance(then.attitude);
+}
+
+class LoadedFace : public testing::TestWithParam<std::tuple<bool, int>> {};
+INSTANTIATE_TEST_SUITE_P(
+    Bonds, LoadedFace,
+    testing::Combine(testing::Bool(), testing::Range(0, static_cast<int>(std::size(face_loads)))));
+
+TEST_P(LoadedFace, HoldsUpToItsClosedForm) {
+  const auto [on_ground, i] = GetParam();
+  const FaceLoad& load = face_loads[i];
+  const Scene below = loaded_cube(on_ground, load, 0.98),
+              above = loaded_cube(on_ground, load, 1.02);
+  EXPECT_LT(strayed(below, run(below, 0.5)), 1e-3) << load.name;
+  EXPECT_GT(strayed(above, run(above, 0.5)), 0.01) << load.name;
+}
+
+// A bond without tensile strength that is lifted off and lands again is gone, on the ground as
+// between blocks; before that it holds the cube on a slope steeper than its friction.
+class OpenedBond : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Bonds, OpenedBond, testing::Bool());
+
+TEST_P(OpenedBond, IsGone) {
+  const bool on_ground = GetParam();
+  GroundClass bonded = ground_of(10);
+  bonded.cohesion = 1e6;
+  Scene scene = cube_on_slab(15, bonded);
+  if (on_ground) {
+    const SlopeFrame frame = slope_frame(15, 30);
+    const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
+    Settings settings;
+    settings.sleep = false;
+    scene = scene_of(plane_trn(frame, 1, 30), bonded, {cube}, settings);
+  } else {
+    scene.ground.classes[0].cohesion = scene.ground.classes[0].tension = 1e9;
+  }
+  const auto slid_by = [&](double time) { return strayed(scene, run(scene, time)); };
+  EXPECT_LT(slid_by(1), 1e-3);
+  // the ground drops away at 12 m/s2, stops, and the cube lands a few centimetres lower
+  scene.base.time = {0, 0.5, 0.5001, 0.6, 0.6001, 0.7, 0.7001, 9};
+  const Vec3 down(0, 0, -12);
+  scene.base.acceleration = {Vec3::Zero(), Vec3::Zero(), down,         down,
+                             -down,        -down,        Vec3::Zero(), Vec3::Zero()};
+  EXPECT_GT(slid_by(3), 0.3);
+}
+
+// A bond that the pull of a hanging chain breaks: the one that carries most, and no other.
+TEST(Bonds, OfAChainTheOneThatCarriesMostBreaks) {
+  GroundClass set = ground_of(10);
+  set.cohesion = 1e6;
+  set.tension = 2.5 * weight / area;
+  Body slab, cube[3];
+  slab.parts = {box(Vec3(-3, -3, 4), Vec3(3, 3, 5))};
+  slab.parts[0].face_tag.assign(6, 0);
+  std::vector<Body> bodies{slab};
+  for (int i = 0; i < 3; ++i) {
+    cube[i].parts = {box(Vec3(-0.5, -0.5, 3 - i), Vec3(0.5, 0.5, 4 - i))};
+    cube[i].parts[0].face_tag.assign(6, 0);
+    bodies.push_back(cube[i]);
+  }
+  Settings settings;
+  settings.sleep = false;
+  Scene scene = scene_of(make_trn([](double, double) { return -20.0; }, 1, 30), ground_of(45),
+                         bodies, settings);
+  scene.joints.of_set = {set};
+  scene.fixed.classes = {ground_of(60)};
+  add_fixed_body(scene, box(Vec3(-3, -3, 0), Vec3(-2, 3, 4)), 0);
+  add_fixed_body(scene, box(Vec3(2, -3, 0), Vec3(3, 3, 4)), 0);
+  const State state = run(scene, 0.5);
+  ASSERT_EQ(state.bonds.size(), 3u);
+  EXPECT_EQ(state.bonds[0].area, 0);
+  EXPECT_NEAR(state.bonds[1].area, 1, 1e-9);
+  EXPECT_NEAR(state.bonds[2].area, 1, 1e-9);
 }
 
 // Faces of two sets: each pair of faces has its own friction.

@@ -51,7 +51,7 @@ TEST_P(Heading, ABodyWithoutAnAxisTakesItsCapacityAndBreaks) {
   const double capacity = 0.4 * energy;
   const Scene scene = post_in_the_path(capacity, capacity / 0.5, GetParam());
   const State state = run(scene, 1.5);
-  const Yielded& met = state.yielding.met[0];
+  const Yielded& met = met_by(state.yielding, 0, 0);
   EXPECT_EQ(met.broken_by, 0);
   EXPECT_GT(met.broken_at, 0.41);
   EXPECT_LT(met.broken_at, 0.6);
@@ -66,7 +66,7 @@ TEST_P(Heading, ABodyWithoutAnAxisGivesWayAlongThePush) {
   const double force = energy / 0.8;
   const Scene scene = post_in_the_path(10 * energy, force, GetParam());
   const State state = run(scene, 1);
-  const Yielded& met = state.yielding.met[0];
+  const Yielded& met = met_by(state.yielding, 0, 0);
   EXPECT_EQ(met.broken_by, -1);
   EXPECT_NEAR(met.work, energy, 1e-4 * energy);
   EXPECT_LT(state.motion[0].velocity.norm(), 0.1);
@@ -75,7 +75,7 @@ TEST_P(Heading, ABodyWithoutAnAxisGivesWayAlongThePush) {
   EXPECT_EQ(met.deflection, 0);
   EXPECT_EQ(state.yielding.shifted, std::vector<int>{0});
   EXPECT_LT(
-      (fixed_pose(scene, state, 0).position - scene.fixed.pose[0].position - met.shift).norm(),
+      (fixed_pose(scene, state, 0, 0).position - scene.fixed.pose[0].position - met.shift).norm(),
       1e-15);
 }
 
@@ -88,9 +88,62 @@ TEST(Yielding, ABodyWithoutAnAxisFollowsPushesFromTwoSides) {
   north.along = -Vec3::UnitY(), north.shift = -0.1, north.to = -0.1, north.work = 1;
   const std::vector<YieldPush> pushes = {east, north};
   push_bodies(scene, pushes, 1, state);
-  EXPECT_LT((state.yielding.met[0].shift - Vec3(0.2, 0.1, 0)).norm(), 1e-15);
+  EXPECT_LT((met_by(state.yielding, 0, 0).shift - Vec3(0.2, 0.1, 0)).norm(), 1e-15);
   push_bodies(scene, pushes, 2, state);  // it is there already
-  EXPECT_LT((state.yielding.met[0].shift - Vec3(0.2, 0.1, 0)).norm(), 1e-15);
+  EXPECT_LT((met_by(state.yielding, 0, 0).shift - Vec3(0.2, 0.1, 0)).norm(), 1e-15);
+}
+
+// --- whose bodies they are ---------------------------------------------------------------------
+
+// Blocks that meet share one world; else each rock has its own, which its pieces share.
+TEST(Yielding, AWorldIsOfAllBlocksOrOfOneRock) {
+  Scene scene;
+  scene.blocks.mass.resize(5);
+  for (int b = 0; b < 5; ++b) EXPECT_EQ(world_of(scene, b), 0);
+  scene.settings.block_contacts = false;
+  for (int b = 0; b < 5; ++b) EXPECT_EQ(world_of(scene, b), b);
+  scene.fragments.resize(5);
+  for (int b = 0; b < 5; ++b) scene.fragments[static_cast<std::size_t>(b)].released = b < 2 ? b : 1;
+  const int worlds[] = {0, 1, 1, 1, 1};
+  for (int b = 0; b < 5; ++b) EXPECT_EQ(world_of(scene, b), worlds[b]);
+}
+
+// A hundred thousand rocks among as many stems: what a rock did not touch costs nothing, what it
+// touched 64 bytes and the room that lists grow by.
+TEST(Yielding, ARockKeepsOnlyWhatItTouched) {
+  constexpr int n = 100000, touched = 5;
+  Scene scene;
+  scene.blocks.mass.resize(n);
+  scene.settings.block_contacts = false;
+  scene.forest.stems.resize(n);
+  scene.forest.yieldings.resize(n);
+  for (int s = 0; s < n; ++s) {
+    scene.forest.yieldings[static_cast<std::size_t>(s)] = {50e3, 1e5, Vec3::Zero(), s};
+    scene.forest.stems[static_cast<std::size_t>(s)].capacity = 50e3;
+  }
+  State state;
+  state.phase.assign(n, Phase::near_ground);
+  state.memory.resize(n);
+  state.yielding = start_yielding(scene);
+  std::vector<YieldPush> pushes(1);
+  for (int k = 0; k < touched; ++k)
+    for (int rock = 0; rock < n; ++rock) {
+      pushes[0].block = rock;
+      pushes[0].yielding = static_cast<int>((7919LL * rock + 104729LL * k) % n);
+      pushes[0].work = k == 0 ? 50e3 : 1e3;
+      push_bodies(scene, pushes, 1, state);
+    }
+  std::size_t bytes = sizeof(std::vector<MetBody>) * state.yielding.worlds.size(), n_met = 0;
+  for (const std::vector<MetBody>& world : state.yielding.worlds) {
+    bytes += sizeof(MetBody) * world.capacity();
+    n_met += world.size();
+  }
+  EXPECT_EQ(n_met, static_cast<std::size_t>(n) * touched);
+  EXPECT_LT(bytes, static_cast<std::size_t>(n) * (24 + 2 * 64 * touched));  // 10^6: 0.66 GB
+  EXPECT_EQ(met_by(state.yielding, 3, 3 * 7919).broken_by, 3);
+  EXPECT_EQ(met_by(state.yielding, 4, 3 * 7919).broken_by, -1);
+  EXPECT_TRUE(stands(scene, state, 4, 3 * 7919));
+  EXPECT_FALSE(stands(scene, state, 3, 3 * 7919));
 }
 
 // --- many fixed bodies -------------------------------------------------------------------------

@@ -137,6 +137,39 @@ TEST(Site, TheCommandLineOverridesTheFile) {
 }
 
 // What is printed reads back as the same configuration.
+TEST(Site, ANameMayHoldWhatAKeyAndItsValueArePartedBy) {
+  const std::string fence = "line = [[0, 0], [1, 1]]\n";
+  Site site = parse_site(
+      "[fence.\"a=b\"]\n" + fence + "[fence.a]\n" + fence + "[fence.\"v1.5 = 'x'\"]\n" + fence,
+      "site.toml");
+  const auto set = [&site](const std::string& words) {
+    const std::size_t at = talus::end_of_key(site, words);
+    talus::override_value(site, words.substr(0, at), words.substr(at + 1));
+  };
+  set("fence.a=b.active=false");
+  set("fence.v1.5 = 'x'.height_m=7");
+  set("fence.a.line_where=name = 'a=b'");
+  EXPECT_FALSE(site.fences[0].active);
+  EXPECT_EQ(site.fences[1].line_where, "name = 'a=b'");
+  EXPECT_TRUE(site.fences[1].active);
+  EXPECT_EQ(site.fences[2].height_m, 7);
+  EXPECT_EQ(talus::end_of_key(site, "solver.lawn=paper"), 11U);
+  EXPECT_EQ(talus::end_of_key(site, "solver.law"), std::string::npos);
+}
+
+TEST(Site, NamesOfWhatIsNotSeenAreRefusedWhereverTheyStand) {
+  for (const char* name : {"\\u001b[2J", "a\\nb", "a\\tb", "\\u202egnp", "\\u0085"}) {
+    const std::string text = std::string("[ground.\"") + name + "\"]\nfriction_deg = 30\n";
+    EXPECT_THROW(static_cast<void>(parse_site(text, "site.toml")), InputError) << name;
+  }
+  Site site = parse_site("[site]\nname = \"a\"\n", "site.toml");
+  EXPECT_THROW(
+      talus::take_sections(site, {{"fence", "a\x1b[2J", "site.gpkg, fences", {}, "digest"}}),
+      InputError);
+  EXPECT_NO_THROW(static_cast<void>(
+      parse_site("[ground.\"H\u00f6he 50 % #1 (a/b); $x 'y'\"]\nfriction_deg = 30\n", "s")));
+}
+
 TEST(Site, PrintedConfigurationReadsBackTheSame) {
   Site site = parse_site(whole, "s/site.toml");
   talus::override_value(site, "source.depth_m", "12");

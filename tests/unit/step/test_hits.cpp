@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include "base/random.hpp"
@@ -192,6 +194,53 @@ TEST(Hits, ABeamThatFallsOnTwoCubesStaysLevel) {
   EXPECT_LT(state.motion[1].velocity.z(), -1);
   EXPECT_NEAR(state.motion[1].velocity.z(), state.motion[2].velocity.z(), 1e-9);
   EXPECT_LT(state.motion[0].angular_momentum.norm(), 1e-8 * scene.blocks.mass[0]);
+}
+
+/// A rhombic prism about the y axis, its edges at x -+ `tip`, its sides at an angle of
+/// 2 atan(steep) there, turned about the x axis.
+struct Prism {
+  double tip, steep, length;
+};
+
+Body prism_at(const Prism& prism, double x, double turn, const Vec3& velocity) {
+  const double h = prism.tip / std::sqrt(2);
+  Polyhedron p = box(Vec3(-h, -prism.length / 2, -h), Vec3(h, prism.length / 2, h));
+  const Mat3 on_edge = Eigen::AngleAxisd(std::numbers::pi / 4, Vec3::UnitY()).toRotationMatrix(),
+             about_x = Eigen::AngleAxisd(turn, Vec3::UnitX()).toRotationMatrix();
+  for (Vec3& v : p.vertices) {
+    v = on_edge * v;
+    v.z() *= prism.steep;
+    v = about_x * v + Vec3(x, 0, 30);
+  }
+  return body_of(p, velocity);
+}
+
+// Two prisms meet edge on edge, their edges crossing in the middle at a small angle: the direction
+// across both is that of the hit, whatever the faces beside them.
+class EdgesThatHardlyCross : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Hits, EdgesThatHardlyCross,
+                         testing::Values(0.01, 0.03, 0.1, 0.3, 0.5, 0.9, 1.1, 2.0, 5.0));
+
+TEST_P(EdgesThatHardlyCross, AreHitAcrossBoth) {
+  const double turn = GetParam() * std::numbers::pi / 180, e = 0.5;
+  const std::pair<Prism, Prism> pairs[] = {{{0.707, 1, 1}, {0.707, 1, 1.2}},
+                                           {{0.5, 0.5, 1}, {1.1, 2, 3}},
+                                           {{0.3, 1, 0.4}, {0.9, 0.6, 1}}};
+  for (const auto& [a, b] : pairs)
+    for (const double dt : {1e-3, 5e-3}) {
+      const std::vector<Body> bodies = {prism_at(a, -1.5, turn / 3, Vec3(4, 0, 0)),
+                                        prism_at(b, 0.5, turn / 3 - turn, Vec3::Zero())};
+      Scene scene = all_alike(plane_trn(slope_frame(0, 0), 5, 50), ground_of(0, e), bodies, dt);
+      scene.gravity.setZero();
+      State state = start(scene);
+      run(scene, 1, state);
+      const double ma = scene.blocks.mass[0], mb = scene.blocks.mass[1];
+      const Vec3 va(4 * (ma - e * mb) / (ma + mb), 0, 0), vb(4 * (1 + e) * ma / (ma + mb), 0, 0);
+      EXPECT_LT((motion_at(scene, state, 0, 1).velocity - va).norm(), 0.01)
+          << a.length << ' ' << dt;
+      EXPECT_LT((motion_at(scene, state, 1, 1).velocity - vb).norm(), 0.01)
+          << a.length << ' ' << dt;
+    }
 }
 
 // Elastic boxes in a bowl.

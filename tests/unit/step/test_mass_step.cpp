@@ -10,6 +10,7 @@
 
 #include "scene/fence.hpp"
 #include "scene/stems.hpp"
+#include "scene/worlds.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/flight.hpp"
 #include "step/step.hpp"
@@ -351,13 +352,13 @@ TEST(MassStep, PushesAFenceAsTheExactStepDoes) {
     fence.deflection = 3;
     add_fence(scene, fence);
     const Course course = run(scene, 2);
-    deflection = -course.state.yielding.met[0].deflection;
+    deflection = -met_by(course.state.yielding, 0, 0).deflection;
     steps = course.steps_in_mass;
     EXPECT_LT(std::abs(course.imbalance), 1e-2) << masses;
-    EXPECT_NEAR(course.state.ledger.fence, course.state.yielding.met[0].work, 1);
+    EXPECT_NEAR(course.state.ledger.fence, met_by(course.state.yielding, 0, 0).work, 1);
     EXPECT_GE(course.state.fence.hits.size(), 6u);
-    std::cout << course.state.yielding.met[0].work << " J " << deflection << " m\n";
-    return course.state.yielding.met[0].work;
+    std::cout << met_by(course.state.yielding, 0, 0).work << " J " << deflection << " m\n";
+    return met_by(course.state.yielding, 0, 0).work;
   };
   double far = 0, mass_far = 0;
   int steps = 0, mass_steps = 0;

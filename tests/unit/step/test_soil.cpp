@@ -176,6 +176,29 @@ TEST_P(Soil, DragSlowsASlide) {
   EXPECT_LT(dragged_slide(settings, false).error, 1e-3);
   EXPECT_LT(dragged_slide(settings, true).error, 1e-3);
 }
+// Over a strip of cells that drag it by nu, a slab without friction loses nu L.
+TEST_P(Soil, DragBeginsAndEndsAtTheBordersOfItsGround) {
+  constexpr double nu = 1.5, speed = 9;
+  GroundClass smooth, dragging;
+  dragging.drag_per_time = nu;
+  for (const double from : {-10.0, -10.013}) {
+    const Body slab =
+        body_of(box(Vec3(from - 0.5, 0.1, 0), Vec3(from + 0.5, 1.1, 0.1)), Vec3(speed, 0.7, 0));
+    Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 20), smooth, {slab}, settings);
+    scene.ground.classes.push_back(dragging);
+    const Trn& trn = scene.ground.trn;
+    for (int row = 0; row + 1 < trn.n_rows; ++row)
+      for (int col = 0; col + 1 < trn.n_cols; ++col) {
+        const double x = trn.node0.x() + (col + 0.5) * trn.cell_size;
+        scene.ground.cell_class.push_back(x > 0 && x < 2 ? 1 : 0);
+      }
+    cases::Run run(std::move(scene));
+    run.advance_to(2);
+    ASSERT_GT(run.motion().pose.position.x(), 2);
+    EXPECT_NEAR(run.motion().velocity.x(), speed - nu * 2, 2e-4);
+  }
+}
+
 TEST_P(Soil, DragStopsASlide) { EXPECT_LT(dragged_stop(settings).error, 1e-3); }
 
 // --- all together ------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 // The run registry: entries that come late.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -62,6 +63,34 @@ TEST_F(Registry, AdoptingCompletesTheRowOfTheSameRunAndAddsOthers) {
   EXPECT_EQ(runs_that_wrote(path("a.sqlite"), std::string(64, 'a')).size(), 2u);
 }
 
+// Somebody removed the registry while the run went on: its number is another run's by now.
+TEST_F(Registry, ARunWhoseRowIsGoneGetsANewOne) {
+  RunRecord first = run_of(7);
+  first.id = start_run(path("a.sqlite"), first);
+  for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(path("a.sqlite") + end);
+  RunRecord other = run_of(8);
+  other.outputs[0].sha256 = std::string(64, 'b');
+  EXPECT_EQ(add_run(path("a.sqlite"), other), first.id);
+  record_results(path("a.sqlite"), first);
+  finish_run(path("a.sqlite"), first);
+  const std::vector<RunRecord> runs = list_runs(path("a.sqlite"));
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[0].process_id, 8);
+  EXPECT_EQ(runs[1].process_id, 7);
+  EXPECT_EQ(runs[1].status, "done");
+  EXPECT_EQ(read_run(path("a.sqlite"), "1").outputs[0].sha256, std::string(64, 'b'));
+  EXPECT_EQ(read_run(path("a.sqlite"), "2").outputs[0].sha256, std::string(64, 'a'));
+}
+
+TEST_F(Registry, HasTheRightsThatTheUmaskLeaves) {
+  const mode_t before = ::umask(0002);
+  (void)start_run(path("a.sqlite"), run_of(7));
+  ::umask(before);
+  const auto rights = std::filesystem::status(path("a.sqlite")).permissions();
+  EXPECT_NE(rights & std::filesystem::perms::group_write, std::filesystem::perms::none);
+  EXPECT_EQ(rights & std::filesystem::perms::others_write, std::filesystem::perms::none);
+}
+
 // --- merging -----------------------------------------------------------------------------------
 
 TEST_F(Registry, MergingTwiceAddsNoRunTwiceAndKeepsAllThatIsKnownOfIt) {
@@ -85,6 +114,25 @@ TEST_F(Registry, ARegistryWhoseToolWasKilledBeforeItsFirstEntryAddsNothing) {
   std::ofstream(path("begun.sqlite")).close();
   add_run(path("b.sqlite"), run_of(2));
   EXPECT_EQ(merge_runs(path("all.sqlite"), {path("begun.sqlite"), path("b.sqlite")}).n_added, 1);
+}
+
+// A log of a node that died while it wrote, cut in the middle or overwritten.
+TEST_F(Registry, MergingLeavesOutWhatIsDamagedAndNamesIt) {
+  for (int process = 0; process < 20; ++process) add_run(path("cut.sqlite"), run_of(process));
+  std::filesystem::resize_file(path("cut.sqlite"),
+                               std::filesystem::file_size(path("cut.sqlite")) / 2);
+  std::ofstream(path("other.sqlite")) << std::string(5000, '#');
+  add_run(path("b.sqlite"), run_of(1001));
+  const RegistryMerge merge =
+      merge_runs(path("all.sqlite"), {path("cut.sqlite"), path("b.sqlite"), path("other.sqlite")});
+  EXPECT_EQ(merge.n_added, 1);
+  ASSERT_EQ(merge.left_out.size(), 2u);
+  EXPECT_NE(merge.left_out[0].find("cut.sqlite"), std::string::npos);
+  EXPECT_NE(merge.left_out[1].find("other.sqlite"), std::string::npos);
+  EXPECT_EQ(list_runs(path("all.sqlite")).size(), 1u);
+  EXPECT_THROW(merge_runs(path("all.sqlite"), {path("cut.sqlite")}), InputError);
+  EXPECT_THROW(merge_runs(path("all.sqlite"), {path("b.sqlite"), path("absent.sqlite")}),
+               InputError);
 }
 
 TEST_F(Registry, MergingRefusesTwoEntriesOfARunThatDifferAndThenMergesNothing) {

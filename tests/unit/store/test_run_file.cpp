@@ -55,6 +55,7 @@ RunFile sample(int n_frames, int n_rows) {
   run.info.origin = {500000, 5000000, 0};
   run.info.law = "talus";
   run.info.seed = 17;
+  run.info.independent = run.info.weights_are_frequencies = true;
   run.info.status = "done";
   run.info.duration = 20;
   run.info.time = 20;
@@ -126,6 +127,8 @@ TEST(RunFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.info.config, run.info.config);
   EXPECT_EQ(back.info.origin, run.info.origin);
   EXPECT_EQ(back.info.seed, 17);
+  EXPECT_TRUE(back.info.independent);
+  EXPECT_TRUE(back.info.weights_are_frequencies);
   EXPECT_EQ(back.blocks.mass, run.blocks.mass);
   EXPECT_EQ(back.blocks.vertices, run.blocks.vertices);
   EXPECT_EQ(back.blocks.face_vertices, run.blocks.face_vertices);
@@ -150,6 +153,8 @@ TEST(RunFile, ReadsBackWhatWasWritten) {
   EXPECT_TRUE(std::isinf(back.panels[0].capacity));
   EXPECT_EQ(back.panels[1].broken_at, 3.25);
   EXPECT_EQ(back.panels[1].broken_by, 1);
+  EXPECT_EQ(back.panels[1].rock, -1);
+  EXPECT_FALSE(back.info.independent);
   ASSERT_EQ(back.forests.size(), 2u);
   EXPECT_EQ(back.forests[0].name, "upper");
   EXPECT_EQ(back.forests[1].n_stems, 30);
@@ -214,6 +219,20 @@ TEST(RunFile, IsReadInParts) {
     EXPECT_EQ(found.attitude.coeffs(), expected.attitude.coeffs());
     EXPECT_EQ(found.spin, expected.spin);
   }
+}
+
+TEST(RunFile, KeepsWhatEachRockLeftOfAPanel) {
+  const TemporaryFile file("alone.h5");
+  RunFile run = sample(0, 0);
+  run.info.independent = true;
+  run.panels.push_back({0, 1, 5e5, 2e5, -0.5, std::numeric_limits<double>::infinity(), -1, 1});
+  talus::write_run_file(file.path, run);
+  const RunFile back = talus::read_run_file(file.path);
+  EXPECT_TRUE(back.info.independent);
+  ASSERT_EQ(back.panels.size(), 3u);
+  EXPECT_EQ(back.panels[1].rock, -1);
+  EXPECT_EQ(back.panels[2].rock, 1);
+  EXPECT_EQ(back.panels[2].deflection, -0.5);
 }
 
 TEST(RunFile, HoldsARunWithoutRows) {

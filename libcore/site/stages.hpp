@@ -1,4 +1,4 @@
-// tools/frame/site_stages.hpp
+// libcore/site/stages.hpp: public
 // Which stage of the pipeline reads what of the site file.
 #pragma once
 

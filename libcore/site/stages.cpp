@@ -1,4 +1,4 @@
-#include "tools/frame/site_stages.hpp"
+#include "site/stages.hpp"
 
 #include <algorithm>
 

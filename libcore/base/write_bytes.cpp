@@ -1,6 +1,7 @@
-#include "io/write_bytes.hpp"
+#include "base/write_bytes.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,8 +13,24 @@
 
 namespace talus {
 
+namespace {
+
+// A new file, or a device that is there. No link is followed: under a name that others know one may
+// lead to any file of the user's.
+int open_new(const std::string& path) {
+  constexpr int flags = O_WRONLY | O_CLOEXEC | O_NOFOLLOW;
+  struct stat there {};
+  const bool is_there = lstat(path.c_str(), &there) == 0;
+  if (is_there && !S_ISREG(there.st_mode) && !S_ISLNK(there.st_mode))
+    return open(path.c_str(), flags);
+  if (is_there && unlink(path.c_str()) != 0) return -1;
+  return open(path.c_str(), flags | O_CREAT | O_EXCL, 0666);
+}
+
+}  // namespace
+
 void write_bytes(const std::string& path, std::span<const unsigned char> bytes) {
-  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int descriptor = open_new(path);
   const auto remove = [&] {
     std::error_code error;
     if (std::filesystem::is_regular_file(path, error)) std::filesystem::remove(path, error);

@@ -1,0 +1,18 @@
+// libcore/base/printable.hpp: public
+// Text of strangers as it may reach a terminal, a table, a page or JSON: one rule for all of them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace talus {
+
+/// Control characters but line feeds and tabs, characters that turn the direction of text or break
+/// lines unseen, and bytes that are no UTF-8 stand as \x1b or \u202e; all else as it is.
+/// printable(printable(t)) is printable(t).
+[[nodiscard]] std::string printable(std::string_view text);
+
+/// The same for JSON and TOML: what stands in their texts becomes \u001b, which means the same.
+[[nodiscard]] std::string printable_json(std::string_view json);
+
+}  // namespace talus

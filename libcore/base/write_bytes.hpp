@@ -1,0 +1,15 @@
+// libcore/base/write_bytes.hpp: public
+// Bytes as a file that is on the disk when the call returns.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace talus {
+
+/// Writes bytes to `path`, synced to the disk. The file is a new one: what had the name before is
+/// taken away, and a link is not followed. Throws InputError with the system's reason (disk full,
+/// file too large, no permission); what was written so far is removed.
+void write_bytes(const std::string& path, std::span<const unsigned char> bytes);
+
+}  // namespace talus

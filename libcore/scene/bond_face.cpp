@@ -1,0 +1,218 @@
+#include "scene/bond_face.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "geometry/convex_outline.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+double planar_cross(const Vec2& p, const Vec2& q) { return p.x() * q.y() - p.y() * q.x(); }
+
+/// The corners of a bonded face in its plane.
+struct PlaneFace {
+  Vec2 centre = Vec2::Zero();    ///< mean of the corners
+  double size = 0;               ///< distance of the farthest corner from that [m]
+  std::vector<Vec2> at;          ///< from the centre, over the size
+  std::vector<Vec2> shear;       ///< [N]
+  std::vector<double> normal;    ///< > 0: pressed [N]
+  double pressed = 0, area = 0;  ///< sums of the last and of the shares
+
+  explicit PlaneFace(const BondFace& face) {
+    const Vec3& n = face.normal;
+    const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
+    for (const BondCorner& corner : face.corners) {
+      at.emplace_back(u.dot(corner.point), v.dot(corner.point));
+      shear.emplace_back(u.dot(corner.force), v.dot(corner.force));
+      normal.push_back(n.dot(corner.force));
+      centre += at.back() / static_cast<double>(face.corners.size());
+      pressed += normal.back();
+      area += corner.area;
+    }
+    for (Vec2& x : at) x -= centre, size = std::max(size, x.norm());
+    if (size > 0)
+      for (Vec2& x : at) x /= size;
+  }
+};
+
+// Pressure may be of any size, so stresses above -t balance the normal forces where these and t
+// over the whole area together press within the face: not out across any of its sides.
+bool holds_normal_force(const BondFace& face, const PlaneFace& plane) {
+  constexpr double rounding = 1e-9;
+  double all_over = plane.pressed;
+  for (const BondCorner& corner : face.corners) all_over += corner.tension * corner.area;
+  if (all_over < 0) return false;
+  const std::vector<Vec2> outline = convex_outline(plane.at);
+  for (size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 &from = outline[i], &to = outline[(i + 1) % outline.size()];
+    const Vec2 inward = Vec2(from.y() - to.y(), to.x() - from.x()).normalized();
+    double moment = 0, all = 0;
+    for (size_t k = 0; k < face.corners.size(); ++k) {
+      const double bears = face.corners[k].tension * face.corners[k].area;
+      // what is farther than the outline's side by rounding is on it
+      const double distance = std::max(0.0, inward.dot(plane.at[k] - from));
+      moment += (plane.normal[k] + bears) * distance;
+      all += std::abs(plane.normal[k]) + bears;
+    }
+    if (moment < -rounding * all) return false;
+  }
+  return true;
+}
+
+/// Shear strength of a piece of the face.
+struct ShearPiece {
+  Vec2 at = Vec2::Zero();  ///< as in PlaneFace
+  double strength = 0;     ///< [N]
+};
+
+// Points of a quadrature of degree 5 over triangles (Radon), barycentric, and their weights.
+constexpr double root = 3.872983346207417;  // sqrt(15)
+constexpr std::array<std::array<double, 4>, 7> quadrature = [] {
+  constexpr double a = (6 - root) / 21, b = (6 + root) / 21;
+  constexpr double wa = (155 - root) / 1200, wb = (155 + root) / 1200;
+  return std::array<std::array<double, 4>, 7>{{{1.0 / 3, 1.0 / 3, 1.0 / 3, 9.0 / 40},
+                                               {1 - 2 * a, a, a, wa},
+                                               {a, 1 - 2 * a, a, wa},
+                                               {a, a, 1 - 2 * a, wa},
+                                               {1 - 2 * b, b, b, wb},
+                                               {b, 1 - 2 * b, b, wb},
+                                               {b, b, 1 - 2 * b, wb}}};
+}();
+
+// Corners [begin, end) of `order` in the order of their angle about their mean.
+void order_ring(const PlaneFace& plane, std::vector<size_t>& ring) {
+  Vec2 mean = Vec2::Zero();
+  for (const size_t k : ring) mean += plane.at[k] / static_cast<double>(ring.size());
+  const auto angle = [&](size_t k) {
+    const Vec2 x = plane.at[k] - mean;
+    return std::atan2(x.y(), x.x());
+  };
+  std::sort(ring.begin(), ring.end(), [&](size_t i, size_t k) { return angle(i) < angle(k); });
+}
+
+// The pieces of one convex part of the face: each corner has half of the two triangles that it
+// makes with the centre of area, over which its strength is even.
+void add_pieces(const BondFace& face, const PlaneFace& plane, std::vector<size_t>& ring,
+                std::vector<ShearPiece>& pieces) {
+  const double pressure = std::max(0.0, plane.pressed) / plane.area;
+  const auto strength = [&](const BondCorner& corner) {
+    return (corner.cohesion + corner.friction * pressure) * corner.area;
+  };
+  order_ring(plane, ring);
+  const size_t n = ring.size();
+  const auto at = [&](size_t i) -> const Vec2& { return plane.at[ring[i % n]]; };
+  double twice = 0;
+  Vec2 centre = Vec2::Zero();
+  for (size_t i = 1; i + 1 < n; ++i) {
+    const double part = planar_cross(at(i) - at(0), at(i + 1) - at(0));
+    twice += part;
+    centre += part / 3 * (at(0) + at(i) + at(i + 1));
+  }
+  if (twice > 0) centre /= twice;
+  for (size_t i = 0; i < n; ++i) {
+    const Vec2 before = (at(i + n - 1) + at(i)) / 2, after = (at(i) + at(i + 1)) / 2;
+    const double first = planar_cross(before - centre, at(i) - centre),
+                 second = planar_cross(at(i) - centre, after - centre);
+    const double all = strength(face.corners[ring[i]]);
+    if (!(twice > 0) || !(first + second > 0)) {
+      pieces.push_back({at(i), all});
+      continue;
+    }
+    for (const auto& [a, b, c, weight] : quadrature) {
+      const double share = weight * all / (first + second);
+      pieces.push_back({a * centre + b * before + c * at(i), share * std::max(0.0, first)});
+      pieces.push_back({a * centre + b * at(i) + c * after, share * std::max(0.0, second)});
+    }
+  }
+}
+
+std::vector<ShearPiece> shear_pieces(const BondFace& face, const PlaneFace& plane) {
+  std::vector<ShearPiece> pieces;
+  std::vector<size_t> left(face.corners.size()), ring;
+  std::iota(left.begin(), left.end(), 0);
+  while (!left.empty()) {
+    const int polygon = face.corners[left.front()].polygon;
+    const auto others = std::stable_partition(
+        left.begin(), left.end(), [&](size_t k) { return face.corners[k].polygon == polygon; });
+    ring.assign(left.begin(), others);
+    left.erase(left.begin(), others);
+    add_pieces(face, plane, ring, pieces);
+  }
+  return pieces;
+}
+
+// Speed of a piece of a plate that moves by (v_x, v_y, turn about the centre).
+double speed_of(const ShearPiece& piece, const Vec3& motion) {
+  return std::hypot(motion.x() - motion.z() * piece.at.y(), motion.y() + motion.z() * piece.at.x());
+}
+
+// Shear stresses of the strength's size at most balance the load where the load does less work in
+// every motion of the face than they would (theorems of limit analysis). The motion that they do
+// the least work in is found by least squares, again and again with the weights strength / speed:
+// the stresses of each solution balance the load, which shows that the face holds where none is
+// too large, and its motion shows that it fails where the load does more work.
+bool holds_shear_force(const BondFace& face, const PlaneFace& plane) {
+  constexpr int most_rounds = 60;
+  constexpr double least_speed = 1e-9;
+  Vec3 load = Vec3::Zero();
+  double all = 0;
+  for (size_t k = 0; k < plane.at.size(); ++k) {
+    load += Vec3(plane.shear[k].x(), plane.shear[k].y(), planar_cross(plane.at[k], plane.shear[k]));
+    all += plane.shear[k].norm();
+  }
+  if (!(all > 0)) return true;
+  std::vector<ShearPiece> pieces = shear_pieces(face, plane);
+  std::erase_if(pieces, [](const ShearPiece& piece) { return !(piece.strength > 0); });
+  std::vector<double> speed(pieces.size(), 1);
+  for (int round = 0; round < most_rounds; ++round) {
+    Mat3 stiffness = Mat3::Zero();
+    for (size_t i = 0; i < pieces.size(); ++i) {
+      const double weight = pieces[i].strength / speed[i], x = pieces[i].at.x(),
+                   y = pieces[i].at.y();
+      stiffness.diagonal() += weight * Vec3(1, 1, x * x + y * y);
+      stiffness(2, 0) -= weight * y;
+      stiffness(2, 1) += weight * x;
+    }
+    stiffness(0, 2) = stiffness(2, 0);
+    stiffness(1, 2) = stiffness(2, 1);
+    const Vec3 motion = stiffness.ldlt().solve(load);
+    if (!motion.allFinite()) return false;
+    double resists = 0, fastest = 0, stressed = 0;
+    for (size_t i = 0; i < pieces.size(); ++i) {
+      const double now = speed_of(pieces[i], motion);
+      stressed = std::max(stressed, now / speed[i]);
+      resists += pieces[i].strength * now;
+      fastest = std::max(fastest, now);
+      speed[i] = now;
+    }
+    if (stressed <= 1) return !pieces.empty();
+    if (resists < load.dot(motion)) return false;
+    for (double& s : speed) s = std::max(s, least_speed * fastest);
+  }
+  return true;  // as near to its strength as the rounds can tell
+}
+
+}  // namespace
+
+BondFace& face_of(int bond, int block, const Vec3& normal, std::vector<BondFace>& faces) {
+  for (BondFace& face : faces)
+    if (face.bond == bond && face.block == block &&
+        (bond >= 0 || is_same_face(face.normal, normal)))
+      return face;
+  faces.push_back({bond, block, normal, false, {}});
+  return faces.back();
+}
+
+bool holds(const BondFace& face) {
+  if (face.opened) return false;
+  const PlaneFace plane(face);
+  return holds_normal_force(face, plane) && holds_shear_force(face, plane);
+}
+
+}  // namespace talus
