@@ -102,11 +102,14 @@ class Ground {
   [[nodiscard]] double false_easting() const {
     return srs_.IsProjected() ? srs_.GetProjParm(SRS_PP_FALSE_EASTING, 0) : 0;
   }
+  [[nodiscard]] bool is_transverse_mercator() const {
+    const char* const projection = srs_.GetAttrValue("PROJECTION");
+    return projection != nullptr && EQUAL(projection, SRS_PT_TRANSVERSE_MERCATOR);
+  }
   // Whether zones that have this central meridian have this number: those of UTM, or those of Gauss
   // and Krueger, which are 6 or 3 degrees wide.
   [[nodiscard]] bool has_zone_number(double number) const {
-    const char* const projection = srs_.GetAttrValue("PROJECTION");
-    if (projection == nullptr || !EQUAL(projection, SRS_PT_TRANSVERSE_MERCATOR)) return false;
+    if (!is_transverse_mercator()) return false;
     const double meridian = srs_.GetNormProjParm(SRS_PP_CENTRAL_MERIDIAN) + meridian_deg_;
     const double scale = srs_.GetNormProjParm(SRS_PP_SCALE_FACTOR, 1);
     const auto is_at = [meridian](double degrees) {
@@ -210,10 +213,12 @@ bool is_stretched(const Ground& ground, const std::vector<Vec2>& places) {
 enum class Verdict { inside, beside, far };
 
 // Maps reach beyond the area of their system by as much as it is wide: neighbours' zones are used.
-// To the east and west a whole country may be in one zone; there the scale decides, not the area.
+// To the east and west a whole country may be in one zone (Transverse Mercator); there the scale
+// decides, which is 1 % off 900 km from its meridian.
 Verdict verdict_in(const Ground& ground, const std::vector<Vec2>& places) {
   const Area& area = *ground.area();
-  const double margin_x = ground.is_geographic() ? std::clamp(area.width(), 1.0, 6.0) : 180;
+  const double margin_x =
+      ground.is_transverse_mercator() ? 180 : std::clamp(area.width(), 1.0, 6.0);
   const double margin_y = std::clamp(area.north - area.south, 1.0, 6.0);
   Verdict verdict = Verdict::inside;
   for (const Vec2& place : places) {
