@@ -626,19 +626,22 @@ std::string reason_to_replace(const std::string& own, const std::string& given,
   return "whose datum is not known";
 }
 
+std::function<double(double, double)> on_one_side(const std::string& crs_wkt) {
+  const GdalErrors errors;
+  if (crs_wkt.empty() || parse_plan(crs_wkt).IsGeographic() == 0)
+    return [](double x, double) { return x; };
+  const double turn = 360 * degree / parse_plan(crs_wkt).GetAngularUnits();
+  return [turn](double x, double other) {
+    const double turns = std::round((x - other) / turn);
+    return std::isfinite(turns) ? x - turns * turn : x;
+  };
+}
+
 MapWindow window_of(const std::vector<Vec3>& points, const std::string& crs_wkt) {
   MapWindow window{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  double turn = 0;  // 360 degrees, where x is a longitude
-  if (!crs_wkt.empty()) {
-    const GdalErrors errors;
-    const OGRSpatialReference srs = parse_plan(crs_wkt);
-    if (srs.IsGeographic() != 0) turn = 360 * degree / srs.GetAngularUnits();
-  }
+  const auto near = on_one_side(crs_wkt);
   for (const Vec3& p : points) {
-    const double first = points.front().x();
-    const double x = turn > 0 && std::isfinite(p.x() - first)
-                         ? first + std::remainder(p.x() - first, turn)
-                         : p.x();
+    const double x = near(p.x(), points.front().x());
     window.x_min = std::min(window.x_min, x);
     window.y_min = std::min(window.y_min, p.y());
     window.x_max = std::max(window.x_max, x);
