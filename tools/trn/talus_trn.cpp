@@ -437,8 +437,9 @@ std::string summary_of(const Json& report) {
   for (const char* name : {"reference", "reference_points"}) {
     if (!report.contains(name)) continue;
     const Json& e = report[name];
-    const auto metres = [&](const char* key) {  // to a micrometre
-      return text(std::round(1e6 * e[key].get<double>()) / 1e6 + 0.0, 4) + " m";
+    // to the micrometre: less is rounding
+    const auto metres = [&](const char* key) {
+      return text(0.0 + std::round(1e6 * e[key].get<double>()) / 1e6, 4) + " m";
     };
     lines += "\nagainst " + e["file"].get<std::string>() + ": RMSE " + metres("rmse_m") + ", MAE " +
              metres("mae_m") + ", 95 % within " + metres("p95_m") + ", largest " +
