@@ -2,6 +2,7 @@
 // A TIN or a DEM to the terrain that blocks move on, and how good it is. Page:
 // docs/tools/talus-trn.md
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -436,7 +437,10 @@ std::string summary_of(const Json& report) {
   for (const char* name : {"reference", "reference_points"}) {
     if (!report.contains(name)) continue;
     const Json& e = report[name];
-    const auto metres = [&](const char* key) { return text(e[key].get<double>(), 4) + " m"; };
+    // to the micrometre: less is rounding
+    const auto metres = [&](const char* key) {
+      return text(0.0 + std::round(1e6 * e[key].get<double>()) / 1e6, 4) + " m";
+    };
     lines += "\nagainst " + e["file"].get<std::string>() + ": RMSE " + metres("rmse_m") + ", MAE " +
              metres("mae_m") + ", 95 % within " + metres("p95_m") + ", largest " +
              metres("largest_m") + " at " + text(e["largest_at"][0].get<double>(), 9) + "," +

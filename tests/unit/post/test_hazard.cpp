@@ -306,6 +306,8 @@ TEST(Hazard, OfSingleRocksAsksOneQuestionOnce) {
   std::vector<RunMember> mixed = members_of(3, 28, 1, false);
   mixed[1].info.independent = false;
   EXPECT_NE(refusal_of_runs(given, mixed).find("run_1.h5"), std::string::npos);
+  mixed[1].n_blocks = 1;  // alone in any case
+  EXPECT_EQ(refusal_of_runs(given, mixed), "accepted");
 
   const std::string release = "[blocks.cliff]\nfrequency_per_a = 0.01\n";
   EXPECT_NE(refusal_of_site("[hazard.class.V1]\nfrequency_per_a = 0.28\n" + release)
