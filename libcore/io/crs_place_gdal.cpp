@@ -102,11 +102,14 @@ class Ground {
   [[nodiscard]] double false_easting() const {
     return srs_.IsProjected() ? srs_.GetProjParm(SRS_PP_FALSE_EASTING, 0) : 0;
   }
+  [[nodiscard]] bool is_transverse_mercator() const {
+    const char* const projection = srs_.GetAttrValue("PROJECTION");
+    return projection != nullptr && EQUAL(projection, SRS_PT_TRANSVERSE_MERCATOR);
+  }
   // Whether zones that have this central meridian have this number: those of UTM, or those of Gauss
   // and Krueger, which are 6 or 3 degrees wide.
   [[nodiscard]] bool has_zone_number(double number) const {
-    const char* const projection = srs_.GetAttrValue("PROJECTION");
-    if (projection == nullptr || !EQUAL(projection, SRS_PT_TRANSVERSE_MERCATOR)) return false;
+    if (!is_transverse_mercator()) return false;
     const double meridian = srs_.GetNormProjParm(SRS_PP_CENTRAL_MERIDIAN) + meridian_deg_;
     const double scale = srs_.GetNormProjParm(SRS_PP_SCALE_FACTOR, 1);
     const auto is_at = [meridian](double degrees) {
@@ -210,10 +213,12 @@ bool is_stretched(const Ground& ground, const std::vector<Vec2>& places) {
 enum class Verdict { inside, beside, far };
 
 // Maps reach beyond the area of their system by as much as it is wide: neighbours' zones are used.
-// To the east and west a whole country may be in one zone; there the scale decides, not the area.
+// To the east and west a whole country may be in one zone (Transverse Mercator); there the scale
+// decides, which is 1 % off 900 km from its meridian.
 Verdict verdict_in(const Ground& ground, const std::vector<Vec2>& places) {
   const Area& area = *ground.area();
-  const double margin_x = ground.is_geographic() ? std::clamp(area.width(), 1.0, 6.0) : 180;
+  const double margin_x =
+      ground.is_transverse_mercator() ? 180 : std::clamp(area.width(), 1.0, 6.0);
   const double margin_y = std::clamp(area.north - area.south, 1.0, 6.0);
   Verdict verdict = Verdict::inside;
   for (const Vec2& place : places) {
@@ -621,19 +626,22 @@ std::string reason_to_replace(const std::string& own, const std::string& given,
   return "whose datum is not known";
 }
 
+std::function<double(double, double)> on_one_side(const std::string& crs_wkt) {
+  const GdalErrors errors;
+  if (crs_wkt.empty() || parse_plan(crs_wkt).IsGeographic() == 0)
+    return [](double x, double) { return x; };
+  const double turn = 360 * degree / parse_plan(crs_wkt).GetAngularUnits();
+  return [turn](double x, double other) {
+    const double turns = std::round((x - other) / turn);
+    return std::isfinite(turns) ? x - turns * turn : x;
+  };
+}
+
 MapWindow window_of(const std::vector<Vec3>& points, const std::string& crs_wkt) {
   MapWindow window{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  double turn = 0;  // 360 degrees, where x is a longitude
-  if (!crs_wkt.empty()) {
-    const GdalErrors errors;
-    const OGRSpatialReference srs = parse_plan(crs_wkt);
-    if (srs.IsGeographic() != 0) turn = 360 * degree / srs.GetAngularUnits();
-  }
+  const auto near = on_one_side(crs_wkt);
   for (const Vec3& p : points) {
-    const double first = points.front().x();
-    const double x = turn > 0 && std::isfinite(p.x() - first)
-                         ? first + std::remainder(p.x() - first, turn)
-                         : p.x();
+    const double x = near(p.x(), points.front().x());
     window.x_min = std::min(window.x_min, x);
     window.y_min = std::min(window.y_min, p.y());
     window.x_max = std::max(window.x_max, x);

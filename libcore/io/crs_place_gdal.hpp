@@ -6,6 +6,7 @@
 // refs:  Snyder (1987), Map projections (scale factors)
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -69,6 +70,9 @@ std::vector<std::string> check_place(const CrsExtent& place, const Where& where)
 /// ..."; empty: no reason.
 [[nodiscard]] std::string reason_to_replace(const std::string& own, const std::string& given,
                                             const MapWindow& extent);
+
+/// x, or the longitude that is the same as x in `crs_wkt` and less than 180 degrees from `other`.
+[[nodiscard]] std::function<double(double x, double other)> on_one_side(const std::string& crs_wkt);
 
 /// The smallest window that holds the points, which are in `crs_wkt`: longitudes count modulo 360
 /// degrees, so that it reaches beyond 180 degrees where the points lie on both sides.

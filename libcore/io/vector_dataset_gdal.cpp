@@ -217,7 +217,7 @@ std::string without_extension(const std::string& file) {
 
 // Shapes and rows belong together by their numbers alone: where one is lost, all behind it have the
 // values of others, and GDAL does not say so.
-void check_rows(GDALDataset& dataset, const SourcePath& path) {
+void check_rows(GDALDataset& dataset) {
   const std::string driver = dataset.GetDriverName();
   if (driver != "ESRI Shapefile" && driver != "MapInfo File") return;
   const CPLStringList files(dataset.GetFileList());
@@ -236,9 +236,10 @@ void check_rows(GDALDataset& dataset, const SourcePath& path) {
     throw InputError({part.second},
                      "the table has " + counted(n_rows, "row") + ", the file beside it " +
                          counted(n_shapes, "shape") + ": which row is of which shape is not known",
-                     "export the data again; their shapes alone, without the table: ogr2ogr "
-                     "-select '' shapes.gpkg " +
-                         command_words(path.source));
+                     std::string("export the data again from the program that they come from") +
+                         (extension_of(part.second) == ".dbf"
+                              ? "; a copy without the .dbf holds the shapes alone"
+                              : ""));
   }
 }
 
@@ -264,7 +265,7 @@ VectorDataset open_vectors(const SourcePath& path) {
   opened.dataset = GDALDatasetUniquePtr(
       GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR));
   if (opened.dataset) {
-    check_rows(*opened.dataset, path);
+    check_rows(*opened.dataset);
     return opened;
   }
   const std::string way_out = needs_permission(errors.failure());

@@ -97,6 +97,20 @@ Parts read_parts(const VectorQuery& query, const LayerChoice& choice, OpenLayer&
   return parts;
 }
 
+// Areas that GeoJSON cuts at 180 degrees meet there.
+void bring_to_one_side(const std::string& own, Parts& parts) {
+  if (parts.polygons.empty()) return;
+  for (const auto& polygon : parts.polygons)
+    for (const std::vector<Vec3>& ring : rings_of(*polygon))
+      if (is_beyond_degrees(own, ring)) return;
+  const auto near = on_one_side(own);
+  const double first = parts.polygons.front()->getExteriorRing()->getX(0);
+  for (const auto& polygon : parts.polygons)
+    for (OGRLinearRing* ring : *polygon)
+      for (int k = 0; k < ring->getNumPoints(); ++k)
+        ring->setPoint(k, near(ring->getX(k), first), ring->getY(k));
+}
+
 // Makes the polygons rings; for each ring, whether it is a hole.
 std::vector<bool> add_areas(Parts& parts, const Where& where, VectorShapes& found) {
   const Uniting uniting = unite_polygons(parts.polygons, where);
@@ -188,9 +202,10 @@ VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt) 
   static_cast<LayerReading&>(found) = reading_of(choice, source);
   found.shapes = std::move(parts.shapes);
   found.attributes = std::move(parts.attributes);
+  const std::string own = wkt_of(source.layer->GetSpatialRef());
+  bring_to_one_side(own, parts);
   const std::vector<bool> is_hole = add_areas(parts, where, found);
   check_finite(found.shapes, where);
-  const std::string own = wkt_of(source.layer->GetSpatialRef());
   check_unit(source, own.empty() ? crs_wkt : own, where);
   if (const std::string doubt = doubt_on_unit(source.dataset->GetDescription(), 0); !doubt.empty())
     found.warnings.push_back(query.path + ": " + doubt);

@@ -282,7 +282,8 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
   runner.file.passages_by_centroid = options.passages_by_centroid;
   runner.file.lines = runner.crossings.lines;
   runner.file.info.duration = options.duration;
-  runner.file.info.independent = !shares_world(scene);
+  // a lone block moves alone in any case: it belongs to the runs that it was asked for with
+  runner.file.info.independent = runner.file.info.independent || !shares_world(scene);
   return runner;
 }
 

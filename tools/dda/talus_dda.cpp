@@ -105,7 +105,8 @@ RunOptions run_options(const Site& site, const ScenePlan& plan, const Options& o
   return options;
 }
 
-RunFile new_file(Tool& tool, const Site& site, const DdaInputs& inputs, const ScenePlan& plan) {
+RunFile new_file(Tool& tool, const Site& site, const DdaInputs& inputs, const ScenePlan& plan,
+                 const Options& o) {
   RunFile file;
   RunInfo& info = file.info;
   info.run_id = tool.run_id();
@@ -119,6 +120,7 @@ RunFile new_file(Tool& tool, const Site& site, const DdaInputs& inputs, const Sc
   info.blocks_hash = inputs.parts.blocks.content_hash;
   info.law = site.solver.law;
   info.seed = site.solver.seed;
+  info.independent = o.independent;
   info.weights_are_frequencies = !inputs.parts.blocks.weight.empty();
   info.config = print_config(site);
   info.made_with = tool.made_with({"trn", "blocks"});  // which have digests of their own
@@ -323,7 +325,7 @@ int main(int argc, char** argv) {
     check_start(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
     cut_fragments(tool, site, inputs);
-    RunFile file = new_file(tool, site, inputs, plan);
+    RunFile file = new_file(tool, site, inputs, plan, o);
     const BlockSet blocks = inputs.parts.blocks;
     const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
     file.blocks = run_blocks(scene, blocks);

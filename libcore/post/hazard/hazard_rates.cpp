@@ -57,7 +57,7 @@ void check_run(const HazardClass& kind, const RunMember& run, const RunMember& f
     return of.info.independent ? "each block as if it were alone" : "its blocks together";
   };
   const std::string item = "hazard.class." + kind.name;
-  if (run.info.independent != first.info.independent)
+  if (run.n_blocks > 1 && run.info.independent != first.info.independent)
     throw InputError({where_of(run), 0, item},
                      std::string("the run moved ") + words(run) + ", " + where_of(first) +
                          " moved " + words(first),
@@ -83,14 +83,16 @@ HazardRuns hazard_runs(const HazardClass& kind, const std::vector<RunMember>& me
   HazardRuns runs{kind, {}, first, static_cast<int>(own.size())};
   std::vector<double> released, run_weight;
   bool single = true;
+  const auto first_of_several =
+      std::find_if(own.begin(), own.end(), [](const RunMember& run) { return run.n_blocks > 1; });
   for (const RunMember& run : own) {
-    check_run(kind, run, own[0]);
+    check_run(kind, run, first_of_several == own.end() ? run : *first_of_several);
     released.push_back(run.weight);
     run_weight.push_back(run.run_weight);
     single = single && run.n_blocks <= 1;
   }
-  runs.kind.of_rocks =
-      kind.kind == FrequencyKind::of_weights || (!own.empty() && own[0].info.independent);
+  runs.kind.of_rocks = kind.kind == FrequencyKind::of_weights ||
+                       (first_of_several != own.end() && first_of_several->info.independent);
   runs.basis = share_basis(released, single, failed_share, units_of(own));
   weigh_runs_of(runs.basis, run_weight);
   if (kind.kind == FrequencyKind::of_weights) {

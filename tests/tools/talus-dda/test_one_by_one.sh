@@ -94,7 +94,7 @@ assert sum(p['work_kj'] for p in rows) > 3 * 3000 and max(p['work_kj'] for p in 
 PY
 expect 0 fall net said.h5
 prints 'on fences, panels broken by 0 of 90 rocks'
-expect 0 talus-fence net.toml net.h5 --trn slope.tif -o fence.gpkg --json fence.json --no-db
+expect 0 talus-fence net.toml net.h5 --trn slope.tif -o fence.gpkg --json fence.json --no-db --overwrite
 python3 - <<'PY' || fail 'verdicts of a net that holds'
 import json
 fence, = [f for f in json.load(open('fence.json'))['fences'] if f['name'] == 'net']
@@ -110,7 +110,7 @@ PY
 net weak 600 wood
 expect 0 fall weak weak.h5 --json
 cp out weak.json
-expect 0 talus-fence weak.toml weak.h5 --trn slope.tif -o fence.gpkg --json fence.json --no-db
+expect 0 talus-fence weak.toml weak.h5 --trn slope.tif -o fence.gpkg --json fence.json --no-db --overwrite
 python3 - <<'PY' || fail 'a net that breaks for some rocks'
 import json
 run = json.load(open('weak.json'))

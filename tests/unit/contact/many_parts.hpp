@@ -70,7 +70,8 @@ struct Push {
 inline std::vector<Push> pushes(const Bodies& bodies) {
   PairState state;
   PairWork work;
-  (void)find_pair_contacts(bodies.hulls, bodies.placed, {}, {}, state, work);
+  PlacedHulls placed = bodies.placed;
+  (void)find_pair_contacts(bodies.hulls, placed, {}, {}, state, work);
   std::vector<Push> list;
   for (const PairManifold& m : work.manifolds)
     for (int k = m.point_begin; k < m.point_end; ++k) {

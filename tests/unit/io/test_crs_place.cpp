@@ -192,6 +192,8 @@ TEST(CrsPlace, AWideExtentInOneZoneIsWarnedOf) {
   EXPECT_EQ(outcome_at("EPSG:32719", -250000, 6000000).refusal, "");  // 8 degrees beside, in Chile
   EXPECT_TRUE(outcome_at("EPSG:25833", -600000, 6735100).says("lie outside the area"));  // 1.5 %
   EXPECT_TRUE(outcome_at("EPSG:32633", 500000, -1500000).says("lie outside the area"));
+  // a cone keeps its scale all around the Earth: the area decides
+  EXPECT_TRUE(outcome_at("EPSG:26943", 3000000, 600000).says("lie outside the area"));
 }
 
 // Northings of a zone go on beyond the equator, as satellite images have them.

@@ -73,6 +73,22 @@ std::string refusal(const VectorQuery& query) {
 
 }  // namespace
 
+// GeoJSON cuts areas at 180 degrees (RFC 7946, 3.1.9).
+TEST(ReadVectors, AreasThatAreCutAt180DegreesAreOne) {
+  const std::string path =
+      scratch("fiji.geojson",
+              geojson(R"({"type":"MultiPolygon","coordinates":[[[[179.9996,-16.8],[180,-16.8],)"
+                      R"([180,-16.799],[179.9996,-16.799],[179.9996,-16.8]]],[[[-180,-16.8],)"
+                      R"([-179.9995,-16.8],[-179.9995,-16.799],[-180,-16.799],[-180,-16.8]]]]})",
+                      "EPSG::4326"));
+  VectorQuery query;
+  query.path = path;
+  const VectorShapes found = read_vectors(query, crs_from_user("EPSG:3460", "--crs"));
+  ASSERT_EQ(found.shapes.size(), 1U);
+  EXPECT_NEAR(found.area_m2, 96.0 * 110.6, 0.01 * 96 * 110.6);  // 0.0009 by 0.001 degrees
+  EXPECT_TRUE(found.warnings.empty()) << found.warnings.front();
+}
+
 TEST(ReadVectors, RingsComeWithoutTheirLastPoint) {
   const std::string path = scratch(
       "area.geojson",

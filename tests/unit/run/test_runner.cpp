@@ -269,4 +269,15 @@ TEST(Runner, UnconvergedStepsAreLimited) {
   EXPECT_EQ(broken(), std::vector<std::string>{"steps accepted unconverged, share"});
 }
 
+// Runs of one rock and of many that were asked for with --independent belong together.
+TEST(Runner, ARunOfALoneBlockSaysWhatWasAskedFor) {
+  const Scene lone = scene_of(plane_trn(slope_frame(0, 0), 1, 20), {},
+                              {body_of(box(Vec3(0, 0, 1), Vec3(1, 1, 2)))}, {});
+  for (const bool asked : {false, true}) {
+    RunFile file = blocks_of(lone);
+    file.info.independent = asked;
+    EXPECT_EQ(begin_run(lone, options(0.1), {}, file).file.info.independent, asked);
+  }
+}
+
 }  // namespace
