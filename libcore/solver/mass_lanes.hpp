@@ -260,7 +260,7 @@ template <class V>
 // The impulse of a point at the velocities of now, and by how much it changed.
 template <class V>
 [[gnu::always_inline]] inline void solve_point(MassPoint& point, int lane, const BodyLanes<V>& a,
-                                               const BodyLanes<V>& b, V (&delta)[3], V& worst) {
+                                               const BodyLanes<V>& b, V (&delta)[3], V& sum) {
   V n[3], arm_a[3], arm_b[3], v[3], s[3], p[3], at_a[3], at_b[3];
   read_axis<V>(point.normal, lane, n);
   read_axis<V>(point.arm_a, lane, arm_a);
@@ -305,14 +305,13 @@ template <class V>
     lanes_at<V>(&point.impulse[k][lane]) = next;
     change += delta[k] * delta[k];
   }
-  change = change / (normal_step * normal_step);
-  worst = change > worst ? change : worst;
+  sum += change / (normal_step * normal_step);
 }
 
 // A sweep over a batch; `applies`: applies the impulses as they are.
 template <class V, bool applies>
 [[gnu::always_inline]] inline void sweep_lanes(const MassSweeps& sweeps, const MassBatch& batch,
-                                               int lane, V& worst) {
+                                               int lane, V& sum) {
   BodyLanes<V> a, b;
   a.read(sweeps, batch.a + lane);
   b.read(sweeps, batch.b + lane);
@@ -322,7 +321,7 @@ template <class V, bool applies>
     if constexpr (applies)
       read_axis<V>(point.impulse, lane, delta);
     else
-      solve_point<V>(point, lane, a, b, delta, worst);
+      solve_point<V>(point, lane, a, b, delta, sum);
     read_axis<V>(point.arm_a, lane, arm_a);
     read_axis<V>(point.arm_b, lane, arm_b);
     for (int k = 0; k < 3; ++k) back[k] = -delta[k];
@@ -335,7 +334,7 @@ template <class V, bool applies>
 
 template <class V>
 [[gnu::always_inline]] inline float run_in_lanes(const MassSweeps& sweeps, MassPass pass) {
-  V worst{};
+  alignas(32) float sums[mass_lanes]{};  // one after the other, whatever the width
   for (const MassBatch& batch : sweeps.batches)
     for (int lane = 0; lane < mass_lanes; lane += n_floats<V>) {
       switch (pass) {
@@ -343,19 +342,19 @@ template <class V>
           fill_lanes<V>(sweeps, batch, lane);
           break;
         case MassPass::apply:
-          sweep_lanes<V, true>(sweeps, batch, lane, worst);
+          sweep_lanes<V, true>(sweeps, batch, lane, lanes_at<V>(&sums[lane]));
           break;
         case MassPass::sweep:
-          sweep_lanes<V, false>(sweeps, batch, lane, worst);
+          sweep_lanes<V, false>(sweeps, batch, lane, lanes_at<V>(&sums[lane]));
           break;
         case MassPass::empty:
           empty_lanes<V>(sweeps, batch, lane);
           break;
       }
     }
-  float most = 0;
-  for (int i = 0; i < n_floats<V>; ++i) most = most < worst[i] ? worst[i] : most;
-  return most;
+  float sum = 0;
+  for (int i = 0; i < mass_lanes; ++i) sum += sums[i];
+  return sum;
 }
 
 }  // namespace

@@ -161,7 +161,8 @@ MassResult solve_mass(const MassSettings& settings, MassSystem& s, int width) {
   run(MassPass::apply);
   while (result.sweeps < settings.sweeps) {
     ++result.sweeps;
-    result.change = std::sqrt(static_cast<double>(run(MassPass::sweep)));
+    const auto sum = static_cast<double>(run(MassPass::sweep));
+    result.change = std::sqrt(sum / std::max<double>(1, static_cast<double>(s.rows.size())));
     sweep_turns(s);
     if (result.change <= settings.settled) break;
   }

@@ -90,14 +90,14 @@ struct alignas(32) MassPoint {
 
 struct MassSettings {
   int sweeps = 0;          ///< at most, > 0
-  double settled = 0;      ///< they end where none changes a velocity by more [m/s]
+  double settled = 0;      ///< they end where one changes velocities by less [m/s]
   double compliance = 0;   ///< > 0 [-]
   double shear_ratio = 0;  ///< > 0 [-]
 };
 
 struct MassResult {
   int sweeps = 0;     ///< beyond the one that applies the impulses of the last step
-  double change = 0;  ///< largest change of a row's velocity in the last of them [m/s]
+  double change = 0;  ///< of the rows' velocities in the last of them, root mean square [m/s]
   int n_colours = 0;
 };
 

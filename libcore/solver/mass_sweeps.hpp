@@ -25,7 +25,7 @@ struct MassSweeps {
   float shear_compliance;  ///< W_n D_t = 1 / shear_compliance
 };
 
-/// Squared largest change of a row's velocity in a sweep [m2/s2].
+/// Sum of the squared changes of the rows' velocities in a sweep [m2/s2].
 float run_by_four(const MassSweeps& sweeps, MassPass pass);
 /// The same where the processor has AVX2 (mass_solver_avx2.cpp).
 float run_by_eight(const MassSweeps& sweeps, MassPass pass);

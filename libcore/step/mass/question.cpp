@@ -68,6 +68,7 @@ bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& stat
   int n_in_mass = 0;
   if (!state.mass.empty()) {
     all.calm = calm_steps(scene);
+    all.unsettled = -mass::relief;
     for_each(members, state, [&](const MassShare& share) {
       if (!share.is_in_mass) return void(all.barred = std::max(all.barred, share.barred));
       ++n_in_mass;
@@ -88,6 +89,8 @@ bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& stat
     all.calm = 0;
   }
   if (all.unsettled >= mass::patience) ++all.doublings, all.unsettled = 0;
+  if (all.unsettled <= -mass::relief)
+    all.doublings = std::max(0, all.doublings - 1), all.unsettled = 0;
   all.is_in_mass = true;
   if (state.mass.empty()) state.mass.resize(state.motion.size());
   for_each(members, state, [&](MassShare& share) { share = all; });
@@ -103,9 +106,12 @@ int sweeps_of(const Scene& scene, const IslandMembers& members, const State& sta
 
 void note_solution(const Scene& scene, const IslandMembers& members, const MassResult& solved,
                    State& state, StepReport& report) {
-  const bool is_late = solved.change > mass::unsettled * scene.gravity.norm() * scene.settings.dt;
-  for_each(members, state,
-           [&](MassShare& share) { share.unsettled = is_late ? share.unsettled + 1 : 0; });
+  const double limit = mass::unsettled * scene.gravity.norm() * scene.settings.dt;
+  const bool is_late = solved.change > limit, is_early = solved.change < mass::well_settled * limit;
+  for_each(members, state, [&](MassShare& share) {
+    int& steps = share.unsettled;
+    steps = is_late ? std::max(steps, 0) + 1 : is_early ? std::min(steps, 0) - 1 : 0;
+  });
   if (!is_late || solved.sweeps < mass::most_sweeps) return;
   note_unconverged(members.blocks.front(), report);
   report.flags = report.flags | StepFlag::unconverged;

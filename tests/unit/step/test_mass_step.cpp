@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iostream>
 #include <numbers>
 #include <sstream>
 
@@ -334,21 +333,22 @@ TEST(MassStep, HandsOverWhatHasComeToRest) {
 
 // --- fences ------------------------------------------------------------------------------------
 
-// A lattice runs into a fence: what its panels take, how far they give way.
+// A layer of blocks runs into a fence: what its panel takes and how far it gives way, against the
+// exact step at 1 ms (at 5 ms that one takes 5 % less).
 TEST(MassStep, PushesAFenceAsTheExactStepDoes) {
-  const auto work_of = [](bool masses, double& deflection, int& steps) {
+  const auto work_of = [](bool masses, double& deflection, int& steps, double dt = 0.005) {
     Lattice lattice;
     lattice.along = lattice.across = 6;
     lattice.high = 1;
     lattice.velocity = Vec3(6, 0, 0);
     const SlopeFrame frame = slope_frame(0, 0);
     Scene scene = scene_of(plane_trn(frame, 4, 100), ground_of(10),
-                           cubes_of(lattice, frame, Vec3(-7, -3, 0)), with_masses(masses));
+                           cubes_of(lattice, frame, Vec3(-7, -3, 0)), with_masses(masses, dt));
     StandingFence fence;
     fence.posts = {Vec3(0.5, -10, 0), Vec3(0.5, 10, 0)};
     fence.depth = {0.5};
     fence.height = 6;
-    fence.capacity = 1e7;
+    fence.capacity = 2.1e6;
     fence.deflection = 3;
     add_fence(scene, fence);
     const Course course = run(scene, 2);
@@ -357,15 +357,15 @@ TEST(MassStep, PushesAFenceAsTheExactStepDoes) {
     EXPECT_LT(std::abs(course.imbalance), 1e-2) << masses;
     EXPECT_NEAR(course.state.ledger.fence, met_by(course.state.yielding, 0, 0).work, 1);
     EXPECT_GE(course.state.fence.hits.size(), 6u);
-    std::cout << met_by(course.state.yielding, 0, 0).work << " J " << deflection << " m\n";
     return met_by(course.state.yielding, 0, 0).work;
   };
   double far = 0, mass_far = 0;
   int steps = 0, mass_steps = 0;
-  const double exact = work_of(false, far, steps), mass = work_of(true, mass_far, mass_steps);
+  const double exact = work_of(false, far, steps, 0.001),
+               mass = work_of(true, mass_far, mass_steps);
   EXPECT_GT(mass_steps, 50);
   EXPECT_GT(exact, 1e4);
-  EXPECT_NEAR(mass, exact, 0.1 * exact);
+  EXPECT_NEAR(mass, exact, 0.03 * exact);
   EXPECT_NEAR(mass_far, far, 0.1 * far);
 }
 
