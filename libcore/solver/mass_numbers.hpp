@@ -1,4 +1,4 @@
-// libcore/solver/mass_numbers.hpp
+// libcore/solver/mass_numbers.hpp: public
 // The numbers of the mass step, as solver/law_numbers.hpp has those of the exact step. h is a step,
 // dt the nominal step, g gravity, m the mass that a contact feels, tau the time over which overlap
 // is pressed out (law::recovery_steps).

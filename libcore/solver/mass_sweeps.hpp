@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "solver/mass_solver.hpp"
+#include "solver/mass_rows.hpp"
 
 namespace talus {
 

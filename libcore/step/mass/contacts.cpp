@@ -5,7 +5,6 @@
 #include "scene/bonds.hpp"
 #include "scene/stems.hpp"
 #include "scene/yielding.hpp"
-#include "solver/impact_contacts.hpp"
 #include "solver/law_numbers.hpp"
 #include "solver/mass_numbers.hpp"
 #include "step/island/stems.hpp"
