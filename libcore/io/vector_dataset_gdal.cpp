@@ -236,7 +236,10 @@ void check_rows(GDALDataset& dataset) {
     throw InputError({part.second},
                      "the table has " + counted(n_rows, "row") + ", the file beside it " +
                          counted(n_shapes, "shape") + ": which row is of which shape is not known",
-                     "export the data again from where they come");
+                     std::string("export the data again from the program that they come from") +
+                         (extension_of(part.second) == ".dbf"
+                              ? "; a copy without the .dbf holds the shapes alone"
+                              : ""));
   }
 }
 

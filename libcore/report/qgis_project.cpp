@@ -71,13 +71,52 @@ std::string metadata_xml(const QgisProject& project, const QgisLayer& layer) {
 
 // --- layers --------------------------------------------------------------------------------------
 
-// What stands between <qgis ...> and </qgis> of a style file.
+// Where the tag that begins at `at` ends; npos: nowhere.
+std::size_t end_of_tag(const std::string& xml, std::size_t at) {
+  char quote = 0;
+  for (std::size_t i = at + 1; i < xml.size(); ++i) {
+    const char c = xml[i];
+    if (c == '<') return std::string::npos;
+    if (quote == 0 && c == '>') return i;
+    if (quote == 0 && (c == '"' || c == '\''))
+      quote = c;
+    else if (c == quote)
+      quote = 0;
+  }
+  return std::string::npos;
+}
+
+// Whether all elements that begin in a text end in it, and no others. Comments and orders to a
+// program count as none.
+bool is_whole_xml(const std::string& xml) {
+  std::vector<std::string> open;
+  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
+    const std::size_t end = end_of_tag(xml, at);
+    if (end == std::string::npos) return false;
+    const bool is_closing = xml[at + 1] == '/';
+    const std::size_t first = at + (is_closing ? 2 : 1);
+    const std::string name = xml.substr(first, xml.find_first_of(" \t\r\n/>", first) - first);
+    if (name.empty() || name[0] == '!' || name[0] == '?') return false;
+    if (is_closing) {
+      if (open.empty() || open.back() != name) return false;
+      open.pop_back();
+    } else if (xml[end - 1] != '/') {
+      open.push_back(name);
+    }
+    at = end;
+  }
+  return open.empty();
+}
+
+// What stands between <qgis ...> and </qgis> of a style file. It stands within the project then,
+// and a stranger's style must not end what stands around it: one that might is left out.
 std::string inner_of(const std::string& qml) {
   const std::size_t open = qml.find("<qgis");
   const std::size_t begin = open == std::string::npos ? open : qml.find('>', open);
   const std::size_t end = qml.rfind("</qgis>");
   if (begin == std::string::npos || end == std::string::npos || end <= begin) return "";
-  return qml.substr(begin + 1, end - begin - 1);
+  const std::string inner = qml.substr(begin + 1, end - begin - 1);
+  return is_whole_xml(inner) ? inner : "";
 }
 
 std::string line_symbol(const char* name, double width_mm, const char* colour) {

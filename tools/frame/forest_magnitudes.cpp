@@ -24,10 +24,15 @@ Spread spread_of(const std::vector<double>& values) {
   return {sorted.front().value, weighted_percentile(sorted, 0.5), sorted.back().value};
 }
 
+// Three digits, and all before the point.
+std::string words_of(double value) {
+  return value >= 100 ? text(std::round(value)) : text(value, 3);
+}
+
 // "35 (22 to 48)", or "35" where all are alike.
 std::string words_of(const Spread& spread) {
-  const std::string range = text(spread.low, 3) + " to " + text(spread.high, 3);
-  return text(spread.median, 3) + (spread.low == spread.high ? "" : " (" + range + ")");
+  const std::string range = words_of(spread.low) + " to " + words_of(spread.high);
+  return words_of(spread.median) + (spread.low == spread.high ? "" : " (" + range + ")");
 }
 
 // What in a median of implausible centimetres would be a stem, read in another unit.
@@ -53,8 +58,8 @@ void check_diameters(const ForestSection& s, const Spread& cm) {
   if (cm.median >= thin && cm.median <= thick) return;
   const std::string finding = "half of the stems are " +
                               std::string(cm.median < thin ? "thinner" : "thicker") + " than " +
-                              text(cm.median, 3) + " cm (" + text(cm.low, 3) + " to " +
-                              text(cm.high, 3) + ")" + in_another_unit(cm.median);
+                              words_of(cm.median) + " cm (" + words_of(cm.low) + " to " +
+                              words_of(cm.high) + ")" + in_another_unit(cm.median);
   if (cm.median < thinnest || cm.median > thickest)
     s.refuse(finding + ": that is no wood",
              said_by(s) + " holds diameters at breast height in centimetres: bring them to these");
@@ -81,15 +86,13 @@ void say_stems(const ForestSection& s, const std::vector<Stem>& stems) {
 void say_stocking(const ForestSection& s, const std::vector<StockedCell>& cells) {
   if (cells.empty()) return;
   std::vector<double> stems, percent;
-  double area = 0;
   for (const StockedCell& cell : cells) {
     stems.push_back(cell.stocking.stems_per_ha);
     percent.push_back(100 * cell.stocking.conifer_share);
-    area += cell.cell.size * cell.cell.size / 1e4;
   }
   const Spread per_ha = spread_of(stems), conifers = spread_of(percent);
-  s.tool.info(s.name() + ": " + words_of(per_ha) + " stems a hectare on " + text(area, 3) +
-              " ha, conifers " + words_of(conifers) + " %");
+  s.tool.info(s.name() + ": " + words_of(per_ha) + " stems a hectare, conifers " +
+              words_of(conifers) + " %");
   if (!s.forest.conif_percent_raster.empty() && conifers.high > 0 && conifers.high <= 1)
     s.refuse("has a conif_percent_raster of " + words_of(conifers) + " %, in no cell more than 1 %",
              "it holds per cent, 0 to 100: are these shares, 0 to 1? Multiply them by 100; for a "
@@ -98,7 +101,7 @@ void say_stocking(const ForestSection& s, const std::vector<StockedCell>& cells)
   const double as_cells = per_ha.median * 1e4 / (cells[0].cell.size * cells[0].cell.size);
   if (!s.forest.nrtrees_raster.empty() && per_ha.median < few && as_cells >= usual)
     s.warn("nrtrees_raster has " + words_of(per_ha) +
-           " stems a hectare: are they stems a cell? Then there are " + text(as_cells, 3) +
+           " stems a hectare: are they stems a cell? Then there are " + words_of(as_cells) +
            " a hectare, and the values are to be multiplied by " +
            text(as_cells / per_ha.median, 6));
 }

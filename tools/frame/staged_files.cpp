@@ -67,8 +67,11 @@ std::string temporary_name(const fs::path& path) {
   remove_leftovers(folder_of(path), begin);
   std::string folder = (folder_of(path) / (begin + std::to_string(getpid()) + "-XXXXXX")).string();
   if (mkdtemp(folder.data()) == nullptr)
-    throw InputError({path.string()},
-                     std::string("no folder can be made beside it: ") + std::strerror(errno));
+    throw InputError(
+        {path.string()},
+        std::string("cannot be written: no folder can be made beside it: ") + std::strerror(errno),
+        errno == ENOSPC || errno == EDQUOT ? "make room, or name an output elsewhere"
+                                           : "the folder takes no new files: name another output");
   return (fs::path(folder) / path.filename()).string();
 }
 

@@ -509,6 +509,14 @@ std::string sentence_on(talus::GroundDoubtKind kind, std::int64_t n, const talus
   }
 }
 
+// Areas before the steps around them: they are what was accepted.
+std::string places_to_tell(std::vector<talus::DoubtRow> rows) {
+  std::stable_partition(rows.begin(), rows.end(), [](const talus::DoubtRow& row) {
+    return row.what != name_of(talus::GroundDoubtKind::step);
+  });
+  return accepted_places(rows);
+}
+
 // Says what the ground's own neighbours do not bear out; refuses what no land is, unless the tool
 // that wrote the source has judged it.
 Json doubts_of(Tool& tool, const Options& o, Ground& ground) {
@@ -522,9 +530,9 @@ Json doubts_of(Tool& tool, const Options& o, Ground& ground) {
     rows.push_back(row_of(doubt, trn));
     rows.back().outcome = o.accept_doubts ? "accepted" : is_refused ? "refused" : "in doubt";
   }
-  if (const std::string places = accepted_places(rows); !places.empty())
-    ground.accepted += (ground.accepted.empty() ? "" : "; ") + places;
   talus::write_doubts(tool, o.doubts, trn.crs_wkt, rows);
+  if (const std::string places = places_to_tell(rows); !places.empty())
+    ground.accepted += (ground.accepted.empty() ? "" : "; ") + places;
   Json json = Json::object();
   for (const GroundDoubtKind kind : {GroundDoubtKind::below_land, GroundDoubtKind::level,
                                      GroundDoubtKind::rim, GroundDoubtKind::step}) {

@@ -14,10 +14,12 @@ for file in trn bed; do
 done
 grep -q '"accepted_places": "contour at' doubt/out/blocks.json || fail "blocks.json does not say it"
 
-# the same of an elevation model
+# the same of an elevation model with a tower
 site dem
 sed -i 's/^contours = .*/dem = "dem.tif"/' dem/site.toml
-gdal_translate -q -ot Float32 doubt/out/trn.tif dem/dem.tif
+gdal_translate -q -of AAIGrid -ot Float32 doubt/out/trn.tif whole.asc
+awk 'NR == 10 { $5 += 1000 } 1' whole.asc >tower.asc
+gdal_translate -q -a_srs EPSG:32633 tower.asc dem/dem.tif
 expect 2 make -C dem BIN= terrain
 flags=$(grep -o 'TRN_FLAGS=--accept-doubts' err | head -n 1)
 made dem maps "$flags" CHECK_FLAGS='--accept-doubts --probe-s 0'

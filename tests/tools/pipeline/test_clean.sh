@@ -78,7 +78,7 @@ cp other/data/contours.gpkg mine/given.gpkg
 rm mine/report.html
 expect 2 make -C other BIN= OUT=../mine CONTOURS=../mine/given.gpkg -n terrain
 says "../mine/given.gpkg: is an input and lies in ../mine"
-rmdir other/data/stages stages
+rm -r other/data/stages stages
 made other terrain
 made other clean
 [ "$(find other -type f | sort | tr '\n' ' ')" = "other/Makefile other/data/contours.gpkg other/site.toml " ] ||

@@ -164,7 +164,7 @@ expect 0 run list --overwrite
 says 'forest.wood: 2 stems, diameter 12.5 (12.5 to 60) cm, height 20 m'
 with_forest drawn "$polygon\nstems_per_ha = 1500\ndbh_mean_cm = 25\ndbh_std_cm = 0\nconifer_share = 0.5"
 expect 0 run drawn --overwrite
-says 'forest.wood: 1500 stems a hectare on 0.36 ha, conifers 50 %'
+says 'forest.wood: 1500 stems a hectare, conifers 50 %'
 says ' stems, diameter 25 cm, height 20 m'
 listed() {  # DIAMETER: nine stems, eight of them so thick
   printf 'x,y,dbh_cm\n500060,5000030,30\n'
@@ -207,5 +207,5 @@ if command -v gdal_translate >/dev/null; then
   done
   with_forest bytes 'nrtrees_raster = "nrtrees.tif"\ndbhmean_raster = "dbhmean.tif"\ndbhstd_raster = "dbhstd.tif"\nconif_percent_raster = "conif.tif"'
   expect 0 run bytes
-  says 'forest.wood: 100 stems a hectare on 0.8 ha, conifers 100 %'
+  says 'forest.wood: 100 stems a hectare, conifers 100 %'
 fi

@@ -43,6 +43,13 @@ for change in 'fewer 10' 'more 12' 'short 8'; do
   done
 done
 
+# the way out: a copy without the table has all shapes
+mkdir bare
+cp one/map.shp one/map.shx one/map.prj bare
+[ "$(ogrinfo -so bare map | grep 'Feature Count')" = 'Feature Count: 11' ] || fail "shapes were lost"
+expect 1 talus-tin bare/map.shp -o bad.ply --no-db
+if grep -q rows err; then fail "shapes without a table are taken for a table without rows"; fi
+
 # in a folder, in an archive, and where other files than contours are read
 python3 rows.py one/map.dbf fewer
 refused one one/map.dbf 10

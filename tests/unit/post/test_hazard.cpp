@@ -284,8 +284,10 @@ TEST(Hazard, OfSingleRocksCountsRocksHoweverManyARunHas) {
   const HazardClass points = class_named("V1", FrequencyKind::of_weights);
   const std::vector<double> each = rates_of(points, 8, 0.4 / 8);
   EXPECT_TRUE(std::isnan(each[8]));
-  for (std::size_t i = 0; i < each.size(); ++i)
-    if (i != 8) EXPECT_EQ(static_cast<float>(each[i]), static_cast<float>(few[i])) << i;
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    if (i == 8) continue;
+    EXPECT_EQ(static_cast<float>(each[i]), static_cast<float>(few[i])) << i;
+  }
 }
 
 TEST(Hazard, OfSingleRocksAsksOneQuestionOnce) {

@@ -20,8 +20,8 @@ TreeHitRow row_of(int stem, int block, double work, double left, int broken_by) 
 
 // Two runs of one stand: stem 3 is hit by two blocks of the first run, and in both; stem 1 breaks.
 TEST(TreeSummary, CountsRunsBlocksAndWhatIsLeft) {
-  RunTrees one{{{"wood", 50}}, {row_of(3, 0, 20, 30, -1), row_of(3, 1, 50, 30, -1)}};
-  RunTrees two{{{"wood", 50}}, {row_of(1, 7, 100, 0, 7), row_of(3, 7, 10, 90, -1)}};
+  RunTrees one{{{"wood", 50}}, {row_of(3, 0, 20, 30, -1), row_of(3, 1, 50, 30, -1)}, {}};
+  RunTrees two{{{"wood", 50}}, {row_of(1, 7, 100, 0, 7), row_of(3, 7, 10, 90, -1)}, {}};
   const TreeSummary sum = summary_of({one, two});
   ASSERT_EQ(sum.stems.size(), 2u);
   EXPECT_EQ(sum.stems[0].first.stem, 1);
@@ -42,7 +42,7 @@ TEST(TreeSummary, CountsRunsBlocksAndWhatIsLeft) {
 
 // Where each run draws its stand, equal numbers are other stems.
 TEST(TreeSummary, StemsOfTwoStandsAreNotOne) {
-  RunTrees one{{{"wood", 50}}, {row_of(3, 0, 20, 80, -1)}}, two = one;
+  RunTrees one{{{"wood", 50}}, {row_of(3, 0, 20, 80, -1)}, {}}, two = one;
   two.hits[0].foot += Vec3(0.5, 0, 0);
   EXPECT_EQ(summary_of({one, two}).stems.size(), 2u);
 }

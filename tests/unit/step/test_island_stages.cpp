@@ -103,7 +103,8 @@ TEST(CheckSubstep, ABondThatFailsIsBrokenByTheAcceptedSubstepAlone) {
   EXPECT_EQ(verdict.reason, SubstepCut::bond_broken);
   EXPECT_EQ(verdict.h, h);
   EXPECT_EQ(first.state.bonds[0].area, area);
-  first.w.tries.broken = {{.bond = 0}};
+  first.w.tries.broken.resize(1);
+  first.w.tries.broken[0].bond = 0;
   EXPECT_EQ(first.attempt(h).kind, SubstepVerdict::Kind::accept);
   EXPECT_EQ(first.state.bonds[0].area, area);
   for (const KeptContact& contact : first.w.system.contacts) EXPECT_LT(contact.bond, 0);

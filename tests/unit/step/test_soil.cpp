@@ -12,6 +12,7 @@
 #include "step/step.hpp"
 #include "step/substep.hpp"
 #include "tests/unit/step/rough_scene.hpp"
+#include "verify/cases/case_run.hpp"
 #include "verify/cases/closed_form.hpp"
 #include "verify/cases/closed_form_scenes.hpp"
 
