@@ -51,7 +51,7 @@ gdal_translate -q -ot Float64 -a_srs EPSG:26912 -a_ullr 450000 4400205 450205 44
 printf 'id,wkt\n1,"POINT Z (450102.5 4400102.5 %s)"\n' "$(awk 'BEGIN { printf "%.9f", 1051.25 * 3937 / 1200 }')" >points.csv
 rmse_is() { is_near "$(sed -n 's/.*"rmse_m": \([-0-9.e]*\).*/\1/p' report.json)" "$1" 1e-3; }
 ogr2ogr -q in_feet.gpkg points.csv -oo GEOM_POSSIBLE_NAMES=wkt -nlt POINTZ -a_srs EPSG:26912+6360
-expect 0 talus-trn utah.tif -o trn.tif --reference-points in_feet.gpkg --report report.json --overwrite --no-db
+expect 0 talus-trn utah.tif -o held.tif --reference-points in_feet.gpkg --report report.json --overwrite --no-db
 says "in_feet.gpkg: heights in EPSG:6360 (NAVD88 height (ftUS)), taken to metres"
 rmse_is 0
 ogr2ogr -q plan.gpkg points.csv -oo GEOM_POSSIBLE_NAMES=wkt -nlt POINTZ -s_srs EPSG:26912 -t_srs EPSG:3566
@@ -59,10 +59,10 @@ expect 1 talus-trn utah.tif -o bad.tif --reference-points plan.gpkg --no-db
 says "plan.gpkg: the plan is in units of 0.3048006096 m, and nothing says what unit the heights are in"
 sed -n 's/.*feet: \(ogr2ogr .*\); in metres: .*/\1/p' err >hint.sh
 sh -e hint.sh
-expect 0 talus-trn utah.tif -o trn.tif --reference-points named.gpkg --report report.json --overwrite --no-db
+expect 0 talus-trn utah.tif -o held.tif --reference-points named.gpkg --report report.json --overwrite --no-db
 rmse_is 0
 ogr2ogr -q -a_srs EPSG:3566+5703 named_m.gpkg plan.gpkg
-expect 0 talus-trn utah.tif -o trn.tif --reference-points named_m.gpkg --report report.json --overwrite --no-db
+expect 0 talus-trn utah.tif -o held.tif --reference-points named_m.gpkg --report report.json --overwrite --no-db
 rmse_is 2397.726  # feet taken for metres, as the system says
 
 # heights in feet, by the raster's unit and by its CRS alone: the hint's command makes metres of them
