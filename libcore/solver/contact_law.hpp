@@ -1,4 +1,4 @@
-// libcore/solver/contact_law.hpp: public
+// libcore/solver/contact_law.hpp
 // Law talus: the impulse of a contact as a function of the velocity of its point, once for a lone
 // block and an impact (V = double: solver/one_contact.hpp) and for an island (V = lanes of two or
 // four contacts: solver/row_lanes.hpp). in:    velocity of the point, and what the contact is
