@@ -85,6 +85,22 @@ constexpr std::array<std::array<double, 4>, 7> quadrature = [] {
                                                {b, b, 1 - 2 * b, wb}}};
 }();
 
+// A triangle of even strength, divided n times along each side.
+void add_triangle(const std::array<Vec2, 3>& corner, double strength, int n,
+                  std::vector<ShearPiece>& pieces) {
+  const Vec2 along = (corner[1] - corner[0]) / n, up = (corner[2] - corner[0]) / n;
+  const auto add = [&](const Vec2& p, const Vec2& q, const Vec2& r) {
+    for (const auto& [a, b, c, weight] : quadrature)
+      pieces.push_back({a * p + b * q + c * r, weight * strength / (n * n)});
+  };
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; i + k < n; ++k) {
+      const Vec2 p = corner[0] + i * along + k * up;
+      add(p, p + along, p + up);
+      if (i + k + 1 < n) add(p + along, p + along + up, p + up);
+    }
+}
+
 // Corners [begin, end) of `order` in the order of their angle about their mean.
 void order_ring(const PlaneFace& plane, std::vector<size_t>& ring) {
   Vec2 mean = Vec2::Zero();
@@ -98,8 +114,8 @@ void order_ring(const PlaneFace& plane, std::vector<size_t>& ring) {
 
 // The pieces of one convex part of the face: each corner has half of the two triangles that it
 // makes with the centre of area, over which its strength is even.
-void add_pieces(const BondFace& face, const PlaneFace& plane, std::vector<size_t>& ring,
-                std::vector<ShearPiece>& pieces) {
+void add_pieces(const BondFace& face, const PlaneFace& plane, int n_parts,
+                std::vector<size_t>& ring, std::vector<ShearPiece>& pieces) {
   const double pressure = std::max(0.0, plane.pressed) / plane.area;
   const auto strength = [&](const BondCorner& corner) {
     return (corner.cohesion + corner.friction * pressure) * corner.area;
@@ -124,15 +140,14 @@ void add_pieces(const BondFace& face, const PlaneFace& plane, std::vector<size_t
       pieces.push_back({at(i), all});
       continue;
     }
-    for (const auto& [a, b, c, weight] : quadrature) {
-      const double share = weight * all / (first + second);
-      pieces.push_back({a * centre + b * before + c * at(i), share * std::max(0.0, first)});
-      pieces.push_back({a * centre + b * at(i) + c * after, share * std::max(0.0, second)});
-    }
+    add_triangle({centre, before, at(i)}, all * std::max(0.0, first) / (first + second), n_parts,
+                 pieces);
+    add_triangle({centre, at(i), after}, all * std::max(0.0, second) / (first + second), n_parts,
+                 pieces);
   }
 }
 
-std::vector<ShearPiece> shear_pieces(const BondFace& face, const PlaneFace& plane) {
+std::vector<ShearPiece> shear_pieces(const BondFace& face, const PlaneFace& plane, int n_parts) {
   std::vector<ShearPiece> pieces;
   std::vector<size_t> left(face.corners.size()), ring;
   std::iota(left.begin(), left.end(), 0);
@@ -142,7 +157,7 @@ std::vector<ShearPiece> shear_pieces(const BondFace& face, const PlaneFace& plan
         left.begin(), left.end(), [&](size_t k) { return face.corners[k].polygon == polygon; });
     ring.assign(left.begin(), others);
     left.erase(left.begin(), others);
-    add_pieces(face, plane, ring, pieces);
+    add_pieces(face, plane, n_parts, ring, pieces);
   }
   return pieces;
 }
@@ -159,6 +174,9 @@ double speed_of(const ShearPiece& piece, const Vec3& motion) {
 // too large, and its motion shows that it fails where the load does more work.
 bool holds_shear_force(const BondFace& face, const PlaneFace& plane) {
   constexpr int most_rounds = 60;
+  // The speed has a kink where the face turns about a point inside a triangle, which a quadrature
+  // over the whole of it misses by up to 0.7 % of the strength; in these parts by 0.03 %.
+  constexpr int n_parts = 4;
   constexpr double least_speed = 1e-9;
   Vec3 load = Vec3::Zero();
   double all = 0;
@@ -167,9 +185,14 @@ bool holds_shear_force(const BondFace& face, const PlaneFace& plane) {
     all += plane.shear[k].norm();
   }
   if (!(all > 0)) return true;
-  std::vector<ShearPiece> pieces = shear_pieces(face, plane);
-  std::erase_if(pieces, [](const ShearPiece& piece) { return !(piece.strength > 0); });
-  std::vector<double> speed(pieces.size(), 1);
+  std::vector<ShearPiece> pieces;
+  std::vector<double> speed;
+  const auto divide = [&](int n) {
+    pieces = shear_pieces(face, plane, n);
+    std::erase_if(pieces, [](const ShearPiece& piece) { return !(piece.strength > 0); });
+    speed.assign(pieces.size(), 1);
+  };
+  divide(1);
   for (int round = 0; round < most_rounds; ++round) {
     Mat3 stiffness = Mat3::Zero();
     for (size_t i = 0; i < pieces.size(); ++i) {
@@ -192,6 +215,10 @@ bool holds_shear_force(const BondFace& face, const PlaneFace& plane) {
       speed[i] = now;
     }
     if (stressed <= 1) return !pieces.empty();
+    if (round == 0) {  // most faces hold by their elastic stresses
+      divide(n_parts);
+      continue;
+    }
     if (resists < load.dot(motion)) return false;
     for (double& s : speed) s = std::max(s, least_speed * fastest);
   }

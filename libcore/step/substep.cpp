@@ -202,9 +202,15 @@ Substep predict(const Scene& scene, int b, const BlockNumbers& c, const Motion& 
   s.h = h;
   s.start = start;
   s.free_acceleration = free_acceleration(scene, b, t, t + h);
-  s.free = fly(start, c.inertia, s.free_acceleration, h);
-  if (!scene.loads.empty())
-    s.free.angular_momentum += h * load_torque(scene, b, start.pose.attitude);
+  if (scene.loads.empty()) {
+    s.free = fly(start, c.inertia, s.free_acceleration, h);
+  } else {  // half of their torque's impulse before the flight, so that it turns the block too
+    const Vec3 half = h / 2 * load_torque(scene, b, start.pose.attitude);
+    Motion kicked = start;
+    kicked.angular_momentum += half;
+    s.free = fly(kicked, c.inertia, s.free_acceleration, h);
+    s.free.angular_momentum += half;
+  }
   s.R = s.free.pose.attitude.toRotationMatrix();
   s.R_start = start.pose.attitude.toRotationMatrix();
   s.spin_start = (s.R_start.transpose() * start.angular_momentum).cwiseProduct(c.per_inertia);

@@ -149,6 +149,7 @@ struct SubstepCheck {
         if (contact.b >= 0) radius = std::min(radius, members.of(contact.b).radius);
         face.opened |= contact.gap_start + normal.dot(path) > bonded_gap_ratio * radius;
       }
+      if (lane.state() != ContactState::open) corner.force = Vec3(lane.impulse()) / free.h;
       if (!hits.bond_impulse.empty()) corner.force += hits.bond_impulse[r] / free.h;
       corner.polygon = contact.pair;
       face.corners.push_back(corner);

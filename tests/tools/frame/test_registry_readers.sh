@@ -39,8 +39,6 @@ chmod u+w kept kept/* 'left ?#over' 'left ?#over'/*
 # the group's, like everything else that a tool writes
 mkdir office
 (umask 002 && frame-probe in.txt -o office/out.txt >out 2>err) || fail "$(cat err)"
-for file in out.txt runs.sqlite; do
-  [ "$(stat -c %a office/$file)" = 664 ] || fail "$file has rights $(stat -c %a office/$file)"
-done
+[ "$(stat -c %a office/runs.sqlite)" = 664 ] || fail "the registry has rights $(stat -c %a office/runs.sqlite)"
 (umask 077 && frame-probe in.txt -o office/own.txt --db office/own.sqlite >out 2>err) || fail "$(cat err)"
 [ "$(stat -c %a office/own.sqlite)" = 600 ] || fail "own.sqlite has rights $(stat -c %a office/own.sqlite)"

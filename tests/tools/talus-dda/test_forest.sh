@@ -188,7 +188,7 @@ listed 1.2 >feet.csv
 with_forest list 'stems_file = "feet.csv"'
 expect 0 run list --overwrite
 says 'warning: forest.wood: half of the stems are thinner than 1.2 cm'
-refused "$polygon\nstems_per_ha = 400\ndbh_mean_cm = 0.3\ndbh_std_cm = 0.05" 'read as metres it would be 3'
+refused "$polygon\nstems_per_ha = 400\ndbh_mean_cm = 0.3\ndbh_std_cm = 0.05" 'read as metres it would be 29.8 cm: that is no wood'
 refused "$polygon\nstems_per_ha = 400\nheight_m = 250" 'has trees of 250 m, expected up to 130'
 raster metres.asc 0.18 0.18
 refused 'nrtrees_raster = "nrtrees.asc"\ndbhmean_raster = "metres.asc"' 'dbhmean_raster metres.asc holds diameters at breast height in centimetres'
@@ -196,7 +196,7 @@ raster shares.asc 0.8 0
 refused "$rasters\nconif_percent_raster = \"shares.asc\"" 'has a conif_percent_raster of 0.8 %, in no cell more than 1 %'
 raster cells.asc 16 0
 with_forest cells 'nrtrees_raster = "cells.asc"'
-expect 0 run cells
+expect 0 run cells --json
 says 'nrtrees_raster has 16 stems a hectare: are they stems a cell? Then there are 400 a hectare'
 
 # whole numbers of 8 bits are stems, centimetres and per cent as others
@@ -206,6 +206,6 @@ if command -v gdal_translate >/dev/null; then
     gdal_translate -q -ot Byte -a_nodata none -a_srs EPSG:32632 $name.asc $name.tif
   done
   with_forest bytes 'nrtrees_raster = "nrtrees.tif"\ndbhmean_raster = "dbhmean.tif"\ndbhstd_raster = "dbhstd.tif"\nconif_percent_raster = "conif.tif"'
-  expect 0 run bytes
+  expect 0 run bytes --json
   says 'forest.wood: 100 stems a hectare, conifers 100 %'
 fi

@@ -40,9 +40,10 @@ assert a == b
 PY
 
 # pieces would count beside the block that they are part of
-runs broken 13 14 --set fragmentation.enabled=true --set fragmentation.energy_j_m2=1e4
-expect 0 search run_*.h5 broken_*.h5 -o broken.gpkg --json broken.json
+runs run_broken 13 14 --set fragmentation.enabled=true --set fragmentation.energy_j_m2=1e4
+expect 0 search run_*.h5 -o broken.gpkg --json broken.json
 says 'blocks broke in some runs: fences are not refined'
+rm run_broken_*.h5
 
 # it stands in other runs
 runs other 101 112 --add proposals/house-1.toml

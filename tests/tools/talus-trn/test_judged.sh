@@ -32,7 +32,7 @@ name = "t"
 crs = "EPSG:32632"
 [source]
 polygon = [[650100, 5200100], [650140, 5200100], [650140, 5200140], [650100, 5200140]]
-failure_surface = "depth"
+failure_surface = "vertical_depth"
 depth_m = 5
 [joints.a]
 dip_deg = 80
@@ -54,9 +54,9 @@ expect 0 talus-maps run.h5 --trn bed.tif -o maps --no-db
 
 # each rock mass has a ground of its own
 printf '[uncertainty]\nrock_masses = 3\nterrain_rmse_m = 0.5\n' >>site.toml
-expect 0 talus-blocks site.toml --trn t.tif -o mass.h5 --trn-out mass.tif --rock-mass 2 --no-db
+expect 0 talus-blocks site.toml --trn t.tif -o mass.h5 --trn-out mass.tif --sample 2 --no-db
 accepted mass.tif
-expect 0 talus-dda site.toml --trn mass.tif --blocks mass.h5 -o mass_run.h5 --rock-mass 2 --no-db
+expect 0 talus-dda site.toml --trn mass.tif --blocks mass.h5 -o mass_run.h5 --sample 2 --no-db
 
 # other programs: a copy has the same heights; a part, other heights and a claim alone have not
 blocks() { talus-blocks site.toml --trn "$1" -o other.h5 --no-db --overwrite; }
@@ -93,12 +93,12 @@ with open('wall.xml', 'w') as f:
     f.write('</Faces></Definition></Surface></Surfaces></LandXML>')
 PY
 expect 0 talus-trn wall.xml -o wall.tif --crs EPSG:32632 --cell-size-m 10 --no-db
-says "warning: 1 level area"
+says "warning: 2 level areas"
 expect 0 talus-blocks site.toml --trn wall.tif -o wall.h5 --trn-out wall_bed.tif --no-db
 expect 0 talus-dda site.toml --trn wall_bed.tif --blocks wall.h5 -o wall_run.h5 --no-db
 
 # points far below the sea, accepted by talus-tin: neither talus-trn nor another cell size asks again
-awk 'BEGIN { print "x,y,z"; for (j = 0; j < 9; j++) for (i = 0; i < 9; i++) print 650000 + 10 * i "," 5200000 + 10 * j "," -700 + 5 * j }' CONVFMT=%.9g OFMT=%.9g >sea.csv
+awk 'BEGIN { print "x,y,z"; for (j = 0; j < 9; j++) for (i = 0; i < 9; i++) printf "%d,%d,%d\n", 650000 + 10 * i, 5200000 + 10 * j, 5 * j - 700 }' >sea.csv
 expect 1 talus-tin sea.csv --points -o sea.ply --crs EPSG:32632 --no-db
 says "make TIN_FLAGS=--accept-doubts"
 expect 0 talus-tin sea.csv --points -o sea.ply --crs EPSG:32632 --accept-doubts --no-db

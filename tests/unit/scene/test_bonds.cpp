@@ -205,6 +205,16 @@ double strayed(const Scene& scene, const State& state) {
   return (now.position - then.position).norm() + now.attitude.angularDistance(then.attitude);
 }
 
+// The loads set in when the cube rests under its weight.
+State run_from_rest(const Scene& scene, double time) {
+  Scene unloaded = scene;
+  unloaded.loads.clear();
+  State state = start(unloaded);
+  Work work = make_work(scene);
+  while (state.time < time - 1e-9) step(scene, state, work);
+  return state;
+}
+
 class LoadedFace : public testing::TestWithParam<std::tuple<bool, int>> {};
 INSTANTIATE_TEST_SUITE_P(
     Bonds, LoadedFace,
@@ -215,8 +225,8 @@ TEST_P(LoadedFace, HoldsUpToItsClosedForm) {
   const FaceLoad& load = face_loads[i];
   const Scene below = loaded_cube(on_ground, load, 0.98),
               above = loaded_cube(on_ground, load, 1.02);
-  EXPECT_LT(strayed(below, run(below, 0.5)), 1e-3) << load.name;
-  EXPECT_GT(strayed(above, run(above, 0.5)), 0.01) << load.name;
+  EXPECT_LT(strayed(below, run_from_rest(below, 0.5)), 1e-3) << load.name;
+  EXPECT_GT(strayed(above, run_from_rest(above, 0.5)), 0.01) << load.name;
 }
 
 // A bond without tensile strength that is lifted off and lands again is gone, on the ground as

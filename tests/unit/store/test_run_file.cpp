@@ -55,7 +55,7 @@ RunFile sample(int n_frames, int n_rows) {
   run.info.origin = {500000, 5000000, 0};
   run.info.law = "talus";
   run.info.seed = 17;
-  run.info.independent = run.info.weights_are_frequencies = true;
+  run.info.weights_are_frequencies = true;
   run.info.status = "done";
   run.info.duration = 20;
   run.info.time = 20;
@@ -127,7 +127,6 @@ TEST(RunFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.info.config, run.info.config);
   EXPECT_EQ(back.info.origin, run.info.origin);
   EXPECT_EQ(back.info.seed, 17);
-  EXPECT_TRUE(back.info.independent);
   EXPECT_TRUE(back.info.weights_are_frequencies);
   EXPECT_EQ(back.blocks.mass, run.blocks.mass);
   EXPECT_EQ(back.blocks.vertices, run.blocks.vertices);
@@ -202,7 +201,8 @@ TEST(RunFile, IsReadInParts) {
   const RunFile head = talus::read_run_head(file.path);
   EXPECT_EQ(head.info.site, run.info.site);
   EXPECT_EQ(head.info.trn_sha256, run.info.trn_sha256);
-  EXPECT_TRUE(head.info.config.empty());
+  EXPECT_EQ(head.info.config, run.info.config);
+  EXPECT_TRUE(head.info.plan.empty());
   EXPECT_EQ(head.grid.n_cols, run.grid.n_cols);
   EXPECT_EQ(n_blocks(head), 0);
 
