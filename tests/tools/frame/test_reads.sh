@@ -6,11 +6,12 @@ if readelf -Ws "$(command -v talus-dda)" 2>/dev/null | grep -q '__[at]san_init';
 fi
 cc -shared -fPIC -O1 -o log_reads.so "$source_dir/tests/tools/log_reads.c" -ldl
 
-# opens COMMAND...: what it opened, without what the C library and HDF5 ask of the machine
+# opens COMMAND...: what it opened, without what the C library and HDF5 ask of the machine and
+# the empty file that PROJ reads in place of proj.ini
 opens() {
   : >log
   LD_PRELOAD=$work/log_reads.so LOG_READS=$work/log expect 0 "$@"
-  grep -vE '^(/proc/|/sys/|/dev/urandom$|\.$)' log | sed "s|^$work/||; s|^\./||" | sort -u >opened || true
+  grep -vE '^(/proc/|/sys/|/dev/urandom$|/dev/null$|\.$)' log | sed "s|^$work/||; s|^\./||" | sort -u >opened || true
 }
 
 for tool in site source tin trn blocks dda maps runout fence report verify runs; do

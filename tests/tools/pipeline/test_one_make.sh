@@ -10,6 +10,7 @@ long='--time-step-s 0.00001'
 
 # begin ARGUMENTS: a make that goes on for long, as $process
 begin() {
+  : >log  # the log of the last make would say that this one has come to its run
   make -C slope BIN= WITHOUT=no RUNS=2 "$@" >log 2>&1 &
   process=$!
   n=0

@@ -25,7 +25,19 @@ prints "10000 runs to make"
 # shellcheck disable=SC2086
 made slope -n $many SHARDS=300 submit
 prints "--array=1-300 "
-(cd slope/out/runs && seq -f 'run_%.0f.h5' 10000 | while read -r name; do echo run >"$name"; done)
+# stands_for_runs CASE N OPTIONS...: files of N runs, and the note that they have the settings of now
+stands_for_runs() {
+  case=$1 n=$2
+  shift 2
+  key=$(make -C slope BIN="$PWD/tools/" WITHOUT=no RUNS=1 "$@" -pnq runs 2>/dev/null | sed -n "s/^key_$case := //p")
+  [ -n "$key" ] || fail "make has no key for the runs"
+  mkdir -p slope/out/stages/made
+  seq -f "out/runs/run_${case:+${case}_}%.0f.h5" "$n" | while read -r name; do
+    echo run >"slope/$name"
+    echo "$key run $name"
+  done >>slope/out/stages/made/runs
+}
+stands_for_runs '' 10000
 # shellcheck disable=SC2086
 expect 0 make -C slope BIN="$PWD/tools/" $many maps
 [ "$(cat slope/out/maps/reach.tif)" = "10000 runs" ] || fail "talus-maps was given $(cat slope/out/maps/reach.tif)"
@@ -47,7 +59,7 @@ done
 printf '[hazard.class.V%s]\nfrequency_per_a = 0.01\n' 1 2 >>slope/site.toml
 many="RUNS=5000 WITHOUT=no CASES=V1\\ V2"
 eval "made slope $many prepare"
-(cd slope/out/runs && for case in V1 V2; do seq -f "run_${case}_%.0f.h5" 5000; done | while read -r name; do echo run >"$name"; done)
+for case in V1 V2; do stands_for_runs $case 5000 CASES='V1 V2'; done
 eval "expect 0 make -C slope BIN=\"\$PWD/tools/\" $many hazard trace"
 for file in hazard.json trace.gpkg; do
   [ "$(cat slope/out/$file)" = " V1 5000 V2 5000" ] || fail "$file was made from $(cat slope/out/$file)"

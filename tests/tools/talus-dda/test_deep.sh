@@ -18,7 +18,7 @@ answer = json.load(open("deep.json"))
 deep = answer["deep_blocks"]
 assert deep and all(row["depth_m"] > 0.1 * row["thickness_m"] for row in deep), deep
 assert all(abs(row["position_m"][0] - 500000) < 1000 for row in deep), deep
-share = next(c["value"] for c in answer["health"] if c["check"].startswith("mass of blocks"))
+share = next(c["value"] for c in answer["health"] if c["check"].startswith("mass of blocks in by"))
 assert abs(sum(row["mass_share"] for row in deep) - share) < 1e-12, share
 END
 

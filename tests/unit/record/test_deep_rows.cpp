@@ -91,6 +91,7 @@ TEST(DeepRows, BrokenLimitsNameABlock) {
   shallow.state.mishaps.deepest = {3, 4, 0.02, 1.5, Vec3(1, 2, 3)};
   shallow.state.mishaps.left_domain = {5, -1, 0, 2, Vec3(1, 2, 3)};
   shallow.state.counters.left_domain = 1;
+  shallow.state.phase[5] = Phase::left_domain;
   shallow.file.health.push_back({});
   shallow.file.health.back().largest_penetration = 0.02;
   int n = 0;

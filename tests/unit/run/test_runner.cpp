@@ -269,6 +269,29 @@ TEST(Runner, UnconvergedStepsAreLimited) {
   EXPECT_EQ(broken(), std::vector<std::string>{"steps accepted unconverged, share"});
 }
 
+// One block of three is a third of the number, and here 0.17 % of the mass.
+TEST(Runner, BlocksThatLeftTheTerrainCountByTheirMass) {
+  Scene scene = bouncing_scene();
+  scene.blocks.mass = {1000, 997, 3.4};
+  RunOptions wanted = options(0.1);
+  wanted.limits = RunLimits{};
+  Runner runner = begin_run(scene, wanted, lines(), blocks_of(scene));
+  const auto lost = [&] {
+    for (const HealthCheck& check : health_checks(runner))
+      if (check.name.find("left the terrain") != std::string::npos) return check;
+    return HealthCheck{};
+  };
+  EXPECT_EQ(lost().value, 0);
+  leave_domain(runner.state, 2);
+  ++runner.state.counters.left_domain;
+  EXPECT_NEAR(lost().value, 0.0017, 1e-5);
+  EXPECT_TRUE(lost().pass);
+  leave_domain(runner.state, 1);
+  ++runner.state.counters.left_domain;
+  EXPECT_NEAR(lost().value, 0.5, 1e-3);
+  EXPECT_FALSE(lost().pass);
+}
+
 // Runs of one rock and of many that were asked for with --independent belong together.
 TEST(Runner, ARunOfALoneBlockSaysWhatWasAskedFor) {
   const Scene lone = scene_of(plane_trn(slope_frame(0, 0), 1, 20), {},
