@@ -41,8 +41,7 @@ struct EnergyLedger {
 struct MassShare {
   bool is_in_mass = false;  ///< by the mass step
   int calm = 0;             ///< steps in a row in which few of its blocks moved
-  int doublings = 0;        ///< of the sweeps
-  int unsettled = 0;        ///< steps in a row whose last sweep changed too much, < 0: little
+  int unsettled = 0;        ///< steps in a row whose last sweep changed too much
   int barred = 0;           ///< steps for which it is no mass, since its forces were not found
 };
 

@@ -257,10 +257,10 @@ template <class V>
   }
 }
 
-// The impulse of a point at the velocities of now, and by how much it changed.
+// The impulse of a point at the velocities of now; `delta`: by how much it changed.
 template <class V>
 [[gnu::always_inline]] inline void solve_point(MassPoint& point, int lane, const BodyLanes<V>& a,
-                                               const BodyLanes<V>& b, V (&delta)[3], V& sum) {
+                                               const BodyLanes<V>& b, V (&delta)[3]) {
   V n[3], arm_a[3], arm_b[3], v[3], s[3], p[3], at_a[3], at_b[3];
   read_axis<V>(point.normal, lane, n);
   read_axis<V>(point.arm_a, lane, arm_a);
@@ -294,7 +294,7 @@ template <class V>
   along = along > 0 ? along * shear_step : V{};
   along = size > cap ? along : V{};
   for (int k = 0; k < 3; ++k) trial[k] -= along * s[k];
-  V length, change{};
+  V length;
   dot_of(trial, trial, length);
   square_root_of<V>(length, length);
   const V tiny = V{} + 1e-20F;
@@ -303,15 +303,13 @@ template <class V>
     const V next = next_n * n[k] + share * trial[k];
     delta[k] = next - p[k];
     lanes_at<V>(&point.impulse[k][lane]) = next;
-    change += delta[k] * delta[k];
   }
-  sum += change / (normal_step * normal_step);
 }
 
 // A sweep over a batch; `applies`: applies the impulses as they are.
 template <class V, bool applies>
 [[gnu::always_inline]] inline void sweep_lanes(const MassSweeps& sweeps, const MassBatch& batch,
-                                               int lane, V& sum) {
+                                               int lane) {
   BodyLanes<V> a, b;
   a.read(sweeps, batch.a + lane);
   b.read(sweeps, batch.b + lane);
@@ -321,7 +319,7 @@ template <class V, bool applies>
     if constexpr (applies)
       read_axis<V>(point.impulse, lane, delta);
     else
-      solve_point<V>(point, lane, a, b, delta, sum);
+      solve_point<V>(point, lane, a, b, delta);
     read_axis<V>(point.arm_a, lane, arm_a);
     read_axis<V>(point.arm_b, lane, arm_b);
     for (int k = 0; k < 3; ++k) back[k] = -delta[k];
@@ -333,8 +331,7 @@ template <class V, bool applies>
 }
 
 template <class V>
-[[gnu::always_inline]] inline float run_in_lanes(const MassSweeps& sweeps, MassPass pass) {
-  alignas(32) float sums[mass_lanes]{};  // one after the other, whatever the width
+[[gnu::always_inline]] inline void run_in_lanes(const MassSweeps& sweeps, MassPass pass) {
   for (const MassBatch& batch : sweeps.batches)
     for (int lane = 0; lane < mass_lanes; lane += n_floats<V>) {
       switch (pass) {
@@ -342,19 +339,16 @@ template <class V>
           fill_lanes<V>(sweeps, batch, lane);
           break;
         case MassPass::apply:
-          sweep_lanes<V, true>(sweeps, batch, lane, lanes_at<V>(&sums[lane]));
+          sweep_lanes<V, true>(sweeps, batch, lane);
           break;
         case MassPass::sweep:
-          sweep_lanes<V, false>(sweeps, batch, lane, lanes_at<V>(&sums[lane]));
+          sweep_lanes<V, false>(sweeps, batch, lane);
           break;
         case MassPass::empty:
           empty_lanes<V>(sweeps, batch, lane);
           break;
       }
     }
-  float sum = 0;
-  for (int i = 0; i < mass_lanes; ++i) sum += sums[i];
-  return sum;
 }
 
 }  // namespace

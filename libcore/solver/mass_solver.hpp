@@ -17,6 +17,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/types.hpp"
@@ -42,15 +43,17 @@ struct MassTurn {
 };
 
 struct MassSettings {
-  int sweeps = 0;          ///< at most, > 0
-  double settled = 0;      ///< they end where one changes velocities by less [m/s]
+  int sweeps = 0;          ///< at least, > 0; they double ...
+  int most_sweeps = 0;     ///< ... up to this ...
+  double settled = 0;      ///< ... while the last one changes velocities by more [m/s]
   double compliance = 0;   ///< > 0 [-]
   double shear_ratio = 0;  ///< > 0 [-]
 };
 
 struct MassResult {
   int sweeps = 0;     ///< beyond the one that applies the impulses of the last step
-  double change = 0;  ///< of the rows' velocities in the last of them, root mean square [m/s]
+  double change = 0;  ///< of velocities in the last of them: of a part mass::looked_at of all mass,
+                      ///< the largest, turning included [m/s]
   int n_colours = 0;
 };
 
@@ -64,6 +67,8 @@ struct MassSystem {  // clang-format off
   // scratch
   std::vector<MassBody> change;             ///< of bodies, and of those that are not: ...
   std::vector<MassInertia> inertias;        ///< ... one for each lane and side
+  std::vector<MassBody> before;             ///< the last sweep                          (n_bodies)
+  std::vector<std::pair<float, float>> changed;  ///< squared change and mass            (n_bodies)
   std::vector<std::uint64_t> used;          ///< colours of the pairs of a body          (n_bodies)
   std::vector<int> colour, order, bucket;
   std::vector<MassBatch> batches;

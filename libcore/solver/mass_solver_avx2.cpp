@@ -19,8 +19,8 @@ bool has_eight_mass_lanes() {
   return has;
 }
 
-[[gnu::flatten]] float run_by_eight(const MassSweeps& sweeps, MassPass pass) {
-  return run_in_lanes<EightFloats>(sweeps, pass);
+[[gnu::flatten]] void run_by_eight(const MassSweeps& sweeps, MassPass pass) {
+  run_in_lanes<EightFloats>(sweeps, pass);
 }
 
 }  // namespace talus
@@ -28,7 +28,7 @@ bool has_eight_mass_lanes() {
 namespace talus {
 
 bool has_eight_mass_lanes() { return false; }
-float run_by_eight(const MassSweeps& sweeps, MassPass pass) { return run_by_four(sweeps, pass); }
+void run_by_eight(const MassSweeps& sweeps, MassPass pass) { run_by_four(sweeps, pass); }
 
 }  // namespace talus
 #endif

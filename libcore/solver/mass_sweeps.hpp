@@ -25,10 +25,9 @@ struct MassSweeps {
   float shear_compliance;  ///< W_n D_t = 1 / shear_compliance
 };
 
-/// Sum of the squared changes of the rows' velocities in a sweep [m2/s2].
-float run_by_four(const MassSweeps& sweeps, MassPass pass);
+void run_by_four(const MassSweeps& sweeps, MassPass pass);
 /// The same where the processor has AVX2 (mass_solver_avx2.cpp).
-float run_by_eight(const MassSweeps& sweeps, MassPass pass);
+void run_by_eight(const MassSweeps& sweeps, MassPass pass);
 [[nodiscard]] bool has_eight_mass_lanes();
 
 }  // namespace talus

@@ -29,7 +29,7 @@ static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(L
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
 static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
               sizeof(Mishaps) == 5 * 48);
-static_assert(sizeof(MassShare) == 20);
+static_assert(sizeof(MassShare) == 16);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
 template <class Archive>
@@ -119,7 +119,7 @@ void fields(Fields<Archive>& archive, SlidWay& slid) {
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, MassShare& share) {
-  archive(share.is_in_mass, share.calm, share.doublings, share.unsettled, share.barred);
+  archive(share.is_in_mass, share.calm, share.unsettled, share.barred);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, RunCounters& counters) {

@@ -73,9 +73,9 @@ struct MassMaker {
     w.members.push_back(m);
     const Mat3& P = turn.per_inertia;
     const auto single = [](double x) { return static_cast<float>(x); };
-    w.system.inertia.push_back({single(P(0, 0)), single(P(1, 1)), single(P(2, 2)), single(P(0, 1)),
-                                single(P(0, 2)), single(P(1, 2)),
-                                single(members.numbers[k].per_mass)});
+    w.system.inertia.push_back(
+        {single(P(0, 0)), single(P(1, 1)), single(P(2, 2)), single(P(0, 1)), single(P(0, 2)),
+         single(P(1, 2)), single(members.numbers[k].per_mass), single(members.numbers[k].radius)});
   }
 
   void open_pair(int a, int b) {

@@ -38,12 +38,6 @@ int calm_steps(const Scene& scene) {
   return static_cast<int>(std::ceil(mass::calm_time / scene.settings.dt));
 }
 
-int most_doublings() {
-  int doublings = 0;
-  while (mass::sweeps << (doublings + 1) <= mass::most_sweeps) ++doublings;
-  return doublings;
-}
-
 template <class Visit>
 void for_each(const IslandMembers& members, State& state, const Visit& visit) {
   for (const int b : members.blocks) visit(state.mass[static_cast<size_t>(b)]);
@@ -68,51 +62,54 @@ bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& stat
   int n_in_mass = 0;
   if (!state.mass.empty()) {
     all.calm = calm_steps(scene);
-    all.unsettled = -mass::relief;
     for_each(members, state, [&](const MassShare& share) {
       if (!share.is_in_mass) return void(all.barred = std::max(all.barred, share.barred));
       ++n_in_mass;
       all.calm = std::min(all.calm, share.calm);
-      all.doublings = std::max(all.doublings, share.doublings);
       all.unsettled = std::max(all.unsettled, share.unsettled);
     });
   }
   if (2 * n_in_mass > static_cast<int>(members.size())) {
     const bool is_calm = faster_than(members, state, by_gravity) <= mass::most_restless;
     all.calm = is_calm ? all.calm + 1 : 0;
-    if (all.calm >= calm_steps(scene)) return leave(0);
-    if (all.unsettled >= mass::patience && all.doublings >= most_doublings())
+    // contacts that grow soft sag at first: that does not make it a mass again
+    if (all.calm >= calm_steps(scene) || all.unsettled >= mass::patience)
       return leave(calm_steps(scene));
   } else {
     if (all.barred > 0) return leave(all.barred - 1);
     if (faster_than(members, state, law::slow * by_gravity) <= mass::most_moving) return leave(0);
     all.calm = 0;
   }
-  if (all.unsettled >= mass::patience) ++all.doublings, all.unsettled = 0;
-  if (all.unsettled <= -mass::relief)
-    all.doublings = std::max(0, all.doublings - 1), all.unsettled = 0;
   all.is_in_mass = true;
   if (state.mass.empty()) state.mass.resize(state.motion.size());
   for_each(members, state, [&](MassShare& share) { share = all; });
   return true;
 }
 
-int sweeps_of(const Scene& scene, const IslandMembers& members, const State& state) {
-  const MassShare& share = state.mass[members.block(0)];
-  const double by_accuracy = mass::sweeps * default_accuracy / scene.settings.accuracy;
-  const int sweeps = std::max(1, static_cast<int>(std::lround(by_accuracy))) << share.doublings;
-  return std::clamp(sweeps, 1, mass::most_sweeps);
+bool begins_as_mass(const Scene& scene, std::span<const Vec6> velocity) {
+  if (!scene.settings.masses || scene.settings.normal_stiffness > 0) return false;
+  const double limit = law::slow * scene.gravity.norm() * scene.settings.dt;
+  return std::count_if(velocity.begin(), velocity.end(), [&](const Vec6& v) {
+           return v.head<3>().norm() > limit;
+         }) > mass::most_moving;
 }
 
-void note_solution(const Scene& scene, const IslandMembers& members, const MassResult& solved,
-                   State& state, StepReport& report) {
-  const double limit = mass::unsettled * scene.gravity.norm() * scene.settings.dt;
-  const bool is_late = solved.change > limit, is_early = solved.change < mass::well_settled * limit;
-  for_each(members, state, [&](MassShare& share) {
-    int& steps = share.unsettled;
-    steps = is_late ? std::max(steps, 0) + 1 : is_early ? std::min(steps, 0) - 1 : 0;
-  });
-  if (!is_late || solved.sweeps < mass::most_sweeps) return;
+int mass_sweeps(double accuracy) {
+  return std::max(1, static_cast<int>(std::lround(mass::sweeps * default_accuracy / accuracy)));
+}
+
+double mass_compliance(const Scene& scene, const MassShare& share) {
+  constexpr double in_island = 1 / (law::stiffest_in_island * law::recovery_steps);
+  const double calm = static_cast<double>(share.calm) / calm_steps(scene);
+  return mass::compliance * std::pow(in_island / mass::compliance, calm);
+}
+
+void note_solution(const Scene& scene, const IslandMembers& members, double h,
+                   const MassResult& solved, State& state, StepReport& report) {
+  const bool is_settled = solved.change <= mass::settled * scene.gravity.norm() * h;
+  for_each(members, state,
+           [&](MassShare& share) { share.unsettled = is_settled ? 0 : share.unsettled + 1; });
+  if (is_settled) return;
   note_unconverged(members.blocks.front(), report);
   report.flags = report.flags | StepFlag::unconverged;
 }

@@ -12,12 +12,12 @@
 namespace talus {
 namespace {
 
-MassSettings settings_of(const Scene& scene, const IslandMembers& members, const State& state,
-                         double h) {
+MassSettings settings_of(const Scene& scene, const MassShare& share, double h) {
   MassSettings settings;
-  settings.sweeps = sweeps_of(scene, members, state);
+  settings.sweeps = mass_sweeps(scene.settings.accuracy);
+  settings.most_sweeps = std::max(settings.sweeps, mass::most_sweeps);
   settings.settled = mass::settled * scene.gravity.norm() * h;
-  settings.compliance = mass::compliance;
+  settings.compliance = mass_compliance(scene, share);
   settings.shear_ratio = scene.settings.shear_ratio;
   return settings;
 }
@@ -41,7 +41,7 @@ bool make_mass_substep(const Scene& scene, double t, double h, State& state, Wor
                               island.system.outsider))
         return false;
     }
-    const MassSettings settings = settings_of(scene, island.members, state, h);
+    const MassSettings settings = settings_of(scene, state.mass[island.members.block(0)], h);
     {
       const StageTimer timer(island.clock, IslandStage::solve);
       w.solved = solve_mass(settings, w.system, widest_mass_lanes());
@@ -56,7 +56,7 @@ bool make_mass_substep(const Scene& scene, double t, double h, State& state, Wor
       continue;
     }
     accept_mass(scene, island.members, island.free, w, state, work.segments, work.deep, report);
-    note_solution(scene, island.members, w.solved, state, report);
+    note_solution(scene, island.members, h, w.solved, state, report);
     return true;
   }
 }

@@ -14,7 +14,8 @@ using talus::MassRow;
 using talus::MassSystem;
 using talus::Vec3;
 
-const talus::MassSettings usual{.sweeps = 12, .settled = 0, .compliance = 1e-3, .shear_ratio = 0.4};
+const talus::MassSettings usual{
+    .sweeps = 12, .most_sweeps = 12, .settled = 0, .compliance = 1e-3, .shear_ratio = 0.4};
 
 Vec3 of_floats(const float (&from)[3]) { return {from[0], from[1], from[2]}; }
 
@@ -110,7 +111,7 @@ TEST(MassSolver, HasTheSameBitsAtAnyWidth) {
 TEST(MassSolver, FulfilsTheLawOfContact) {
   MassSystem system = random_mass(200, 1, 1);
   talus::MassSettings settings = usual;
-  settings.sweeps = 3000;
+  settings.sweeps = settings.most_sweeps = 3000;
   solve_mass(settings, system, talus::widest_mass_lanes());
   const std::vector<Vec3> dv = changes(system);
   int n_stick = 0, n_slip = 0, n_open = 0;
@@ -158,7 +159,7 @@ TEST(MassSolver, SolvesABodyOnAHundredOthers) {
     system.pairs.push_back({n, k, first, first + 1});
   }
   talus::MassSettings settings = usual;
-  settings.sweeps = 96;
+  settings.sweeps = settings.most_sweeps = 96;
   settings.compliance = 1e-5;
   solve_mass(settings, system, talus::widest_mass_lanes());
   double on_ground = 0, on_small = 0;

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iostream>
 #include <numbers>
 #include <sstream>
 
+#include "base/random.hpp"
+#include "contact/shapes.hpp"
 #include "scene/fence.hpp"
 #include "scene/stems.hpp"
 #include "scene/worlds.hpp"
@@ -16,6 +19,7 @@
 #include "verify/cases/cases.hpp"
 #include "verify/study/ensemble.hpp"
 
+#define SEE(x) std::cerr << __LINE__ << ' ' << #x << ' ' << (x) << '\n'
 namespace {
 
 using namespace talus;
@@ -33,6 +37,7 @@ Settings with_masses(bool masses, double dt = 0.005) {
 /// Cubes of 1 m that touch on all sides, on a plane.
 struct Lattice {
   int along = 4, across = 4, high = 4;
+  double thick = 1;  ///< [m]
   double dip_deg = 40, friction_deg = 25, restitution = 0.3;
   double above = 0;              ///< the plane [m]
   Vec3 velocity = Vec3::Zero();  ///< in the axes of the slope [m/s]
@@ -43,9 +48,9 @@ std::vector<Body> cubes_of(const Lattice& lattice, const SlopeFrame& frame, cons
   for (int k = 0; k < lattice.high; ++k)
     for (int j = 0; j < lattice.across; ++j)
       for (int i = 0; i < lattice.along; ++i) {
-        const Vec3 low = at + Vec3(i, j, k + lattice.above);
+        const Vec3 low = at + Vec3(i, j, k * lattice.thick + lattice.above);
         const Vec3& v = lattice.velocity;
-        bodies.push_back(body_of(box_in(frame, Vec3::Zero(), low, low + Vec3::Ones()),
+        bodies.push_back(body_of(box_in(frame, Vec3::Zero(), low, low + Vec3(1, 1, lattice.thick)),
                                  v.x() * frame.dip + v.y() * frame.strike + v.z() * frame.normal));
       }
   return bodies;
@@ -163,7 +168,8 @@ TEST(MassStep, SlidesAsOneBlockDoes) {
     EXPECT_GE(course.steps_in_mass, 2 / dt - 5);
     const double a = g * (std::sin(40 * degree) - std::tan(25 * degree) * std::cos(40 * degree));
     const Place place = place_of(scene_of_lattice(lattice, with_masses(true, dt)), course.state);
-    EXPECT_NEAR(place.way, a * 2 * 2 / 2, 1e-3 * a * 2) << dt;
+    SEE(place.way / (a * 2) - 1);
+    EXPECT_NEAR(place.way, a * 2 * 2 / 2, 1e-5 * a * 2) << dt;
     EXPECT_LT(std::abs(course.imbalance), 1e-3) << dt;
   }
 }
@@ -182,7 +188,10 @@ TEST(MassStep, ReboundsWithTheRestitution) {
   const double hit = (speed - 2) / g, later = hit + 0.06;
   const Course course = run(scene, std::ceil(later / 0.005) * 0.005);
   const double expected = 0.5 * speed - g * (course.state.time - hit);
-  for (const Motion& m : course.state.motion) EXPECT_NEAR(m.velocity.z(), expected, 0.02 * speed);
+  for (const Motion& m : course.state.motion) {
+    if (&m == &course.state.motion[0]) SEE((m.velocity.z() - expected) / speed);
+    EXPECT_NEAR(m.velocity.z(), expected, 0.01 * speed);
+  }
   const double impact = 0.5 * 36 * 2500 * speed * speed * (1 - 0.25);
   EXPECT_NEAR(course.state.ledger.impact, impact, 0.02 * impact);
 }
@@ -228,19 +237,31 @@ TEST(MassStep, LosesEnergyAndBooksIt) {
 
 // --- against the exact step --------------------------------------------------------------------
 
-// 39 blocks of all shapes on a valley's side of 2,240 triangles.
+// 39 blocks of all shapes on a valley's side of 2,240 triangles, from two starts, against the
+// exact step at 1 ms.
 TEST(MassStep, SlidesAsTheExactStepDoes) {
   const SlideData data = read_slide(text_of("terrain_F.asc"), text_of("blocks_39.obj"));
-  const Scene exact = slide_scene(data, with_masses(false), 0);
-  const Scene mass = slide_scene(data, with_masses(true), 0);
-  const Course a = run(exact, 3), b = run(mass, 3);
-  EXPECT_GE(b.steps_in_mass, 200);
-  const Place by_exact = place_of(exact, a.state), by_mass = place_of(mass, b.state);
-  EXPECT_NEAR(by_mass.way, by_exact.way, 0.01 * by_exact.way);
-  EXPECT_NEAR(by_mass.spread, by_exact.spread, 0.05 * by_exact.spread);
-  EXPECT_NEAR(b.lost, a.lost, 0.03 * a.lost);
-  EXPECT_LT(std::abs(b.imbalance), 5e-3);
-  EXPECT_LT(b.largest_gain, 1e-3);
+  constexpr int n_seeds = 2;
+  Place exact, mass;
+  double lost_by_exact = 0, lost_by_mass = 0;
+  for (int seed = 0; seed < n_seeds; ++seed) {
+    for (const bool masses : {false, true}) {
+      const Scene scene = slide_scene(data, with_masses(masses, masses ? 0.005 : 0.001),
+                                      static_cast<std::uint64_t>(seed));
+      const Course course = run(scene, 3);
+      EXPECT_EQ(course.steps_in_mass >= 200, masses);
+      EXPECT_LT(std::abs(course.imbalance), 5e-3);
+      EXPECT_LT(course.largest_gain, 1e-3);
+      const Place place = place_of(scene, course.state);
+      SEE(masses); SEE(place.way); SEE(place.spread); SEE(course.lost); SEE(course.imbalance); SEE(course.largest_gain); SEE(course.deepest);
+      (masses ? mass : exact).way += place.way / n_seeds;
+      (masses ? mass : exact).spread += place.spread / n_seeds;
+      (masses ? lost_by_mass : lost_by_exact) += course.lost / n_seeds;
+    }
+  }
+  EXPECT_NEAR(mass.way, exact.way, 3e-3 * exact.way);
+  EXPECT_NEAR(mass.spread, exact.spread, 0.03 * exact.spread);
+  EXPECT_NEAR(lost_by_mass, lost_by_exact, 0.01 * lost_by_exact);
 }
 
 // What ground does besides, and a base that moves: a layer of blocks goes as far as by the exact
@@ -284,12 +305,14 @@ TEST_P(MassOnGround, GoesAsFarAsByTheExactStep) {
     GetParam().change(ground, scene);
     const Course course = run(scene, 1.5);
     EXPECT_EQ(course.steps_in_mass > 100, masses);
-    EXPECT_LT(std::abs(course.imbalance), 1e-2);
+    SEE(course.imbalance);
+    EXPECT_LT(std::abs(course.imbalance), 5e-3);
     way[masses] = place_of(scene, course.state).way;
     booked_of[masses] = course.state.ledger.friction;
   }
-  EXPECT_NEAR(way[1], way[0], 0.01 * way[0]);
-  EXPECT_NEAR(booked_of[1], booked_of[0], 0.03 * booked_of[0]);
+  SEE(way[1] / way[0] - 1); SEE(booked_of[1] / booked_of[0] - 1);
+  EXPECT_NEAR(way[1], way[0], 3e-3 * way[0]);
+  EXPECT_NEAR(booked_of[1], booked_of[0], 0.01 * booked_of[0]);
 }
 
 // --- hand-over ---------------------------------------------------------------------------------
@@ -297,12 +320,13 @@ TEST_P(MassOnGround, GoesAsFarAsByTheExactStep) {
 // A lattice that slides to rest on a slope less steep than its friction: nothing is thrown, and
 // nothing moves on once the exact step has it.
 TEST(MassStep, HandsOverWhatHasComeToRest) {
-  for (const double dip : {0.0, 10.0}) {
+  for (const double dip : {0.0, 20.0, 25.0}) {
     Lattice lattice;
     lattice.along = lattice.across = 5;
     lattice.high = 2;
+    lattice.thick = 0.5;
     lattice.dip_deg = dip;
-    lattice.friction_deg = 20;
+    lattice.friction_deg = 30;
     lattice.velocity = Vec3(2, 0.5, 0);
     const Scene scene = scene_of_lattice(lattice, with_masses(true));
     State state = start(scene);
@@ -324,6 +348,7 @@ TEST(MassStep, HandsOverWhatHasComeToRest) {
         farthest = std::max(farthest, (state.motion[b].pose.position - place[b]).norm());
       }
     }
+    SEE(exact_from); SEE(farthest); SEE(fastest);
     ASSERT_GT(exact_from, 0) << dip;
     EXPECT_LT(exact_from, 500) << dip;
     EXPECT_LT(farthest, 1e-3) << dip;
@@ -333,10 +358,15 @@ TEST(MassStep, HandsOverWhatHasComeToRest) {
 
 // --- fences ------------------------------------------------------------------------------------
 
-// A layer of blocks runs into a fence: what its panel takes and how far it gives way, against the
-// exact step at 1 ms (at 5 ms that one takes 5 % less).
+// A layer of blocks runs into a fence, soft or stiff: what its panel takes and how far it gives
+// way, against the exact step at 0.2 ms. (At 5 ms that one takes 6 % less of the soft fence, and 56
+// % less of the stiff one, which stops a block within a step.)
 TEST(MassStep, PushesAFenceAsTheExactStepDoes) {
-  const auto work_of = [](bool masses, double& deflection, int& steps, double dt = 0.005) {
+  struct Met {
+    double work = 0, deflection = 0;
+    int steps_in_mass = 0;
+  };
+  const auto meet = [](double capacity, bool masses, double dt) {
     Lattice lattice;
     lattice.along = lattice.across = 6;
     lattice.high = 1;
@@ -348,25 +378,26 @@ TEST(MassStep, PushesAFenceAsTheExactStepDoes) {
     fence.posts = {Vec3(0.5, -10, 0), Vec3(0.5, 10, 0)};
     fence.depth = {0.5};
     fence.height = 6;
-    fence.capacity = 2.1e6;
+    fence.capacity = capacity;
     fence.deflection = 3;
     add_fence(scene, fence);
-    const Course course = run(scene, 2);
-    deflection = -met_by(course.state.yielding, 0, 0).deflection;
-    steps = course.steps_in_mass;
-    EXPECT_LT(std::abs(course.imbalance), 1e-2) << masses;
-    EXPECT_NEAR(course.state.ledger.fence, met_by(course.state.yielding, 0, 0).work, 1);
+    const Course course = run(scene, 0.6);
+    const Met met{met_by(course.state.yielding, 0, 0).work,
+                  -met_by(course.state.yielding, 0, 0).deflection, course.steps_in_mass};
+    SEE(capacity); SEE(masses); SEE(dt); SEE(met.work); SEE(met.deflection); SEE(course.imbalance);
+    SEE(course.state.ledger.impact); SEE(course.state.ledger.contact); SEE(course.state.ledger.friction); SEE(course.lost);
+    EXPECT_LT(std::abs(course.imbalance), 5e-3) << masses;
+    EXPECT_NEAR(course.state.ledger.fence, met.work, 1);
     EXPECT_GE(course.state.fence.hits.size(), 6u);
-    return met_by(course.state.yielding, 0, 0).work;
+    return met;
   };
-  double far = 0, mass_far = 0;
-  int steps = 0, mass_steps = 0;
-  const double exact = work_of(false, far, steps, 0.001),
-               mass = work_of(true, mass_far, mass_steps);
-  EXPECT_GT(mass_steps, 50);
-  EXPECT_GT(exact, 1e4);
-  EXPECT_NEAR(mass, exact, 0.03 * exact);
-  EXPECT_NEAR(mass_far, far, 0.1 * far);
+  for (const double capacity : {2.1e6, 1e7}) {
+    const Met exact = meet(capacity, false, 0.0002), mass = meet(capacity, true, 0.005);
+    EXPECT_GT(mass.steps_in_mass, 50);
+    EXPECT_GT(exact.work, 1e4);
+    EXPECT_NEAR(mass.work, exact.work, 0.01 * exact.work);
+    EXPECT_NEAR(mass.deflection, exact.deflection, 0.02 * exact.deflection);
+  }
 }
 
 // A layer of blocks runs through a row of stems, which it breaks.
@@ -396,14 +427,216 @@ TEST(MassStep, BreaksStemsAsTheExactStepDoes) {
     add_forest(scene, stems, {bark});
     const Course course = run(scene, 0.6);
     EXPECT_EQ(course.steps_in_mass > 20, masses);
-    EXPECT_LT(std::abs(course.imbalance), 1e-2);
+    SEE(course.imbalance);
+    EXPECT_LT(std::abs(course.imbalance), 5e-3);
     lost[masses] = course.state.ledger.fence;
     n_hit[masses] = course.state.stem_hits.size();
   }
+  SEE(lost[1] / lost[0] - 1); SEE(n_hit[0]); SEE(n_hit[1]);
   EXPECT_GT(lost[0], 1e5);
   EXPECT_NEAR(lost[1], lost[0], 0.05 * lost[0]);
   EXPECT_GE(n_hit[1], 5u);
   EXPECT_GE(n_hit[0], 5u);
+}
+
+// --- a mass arrives at what stands ---------------------------------------------------------------
+
+// A wall of bricks stands; a mass arrives at one end of it, and all of it is in the mass. The other
+// end moves by no more than by the exact step, to 1 mm. (That one lets it sag by 1.5 to 4 mm.)
+TEST(MassStep, LeavesInPlaceWhatItDoesNotReach) {
+  constexpr int n_long = 30, n_high = 5;
+  const SlopeFrame frame = slope_frame(0, 0);
+  std::vector<Body> bodies;
+  for (int k = 0; k < n_high; ++k)
+    for (int i = 0; i < n_long; ++i) {
+      const Vec3 low(-0.5, 2 * i + k % 2, k);
+      bodies.push_back(body_of(box_in(frame, Vec3::Zero(), low, low + Vec3(1, 2, 1))));
+    }
+  Lattice arriving;
+  arriving.along = arriving.across = 4, arriving.high = 3;
+  arriving.velocity = Vec3(6, 0, 0);
+  for (Body& body : cubes_of(arriving, frame, Vec3(-7, -0.4, 0))) bodies.push_back(std::move(body));
+  std::vector<double> moved[2];
+  for (const bool masses : {false, true}) {
+    const Scene scene =
+        scene_of(plane_trn(frame, 4, 200), ground_of(25, 0.3), bodies, with_masses(masses));
+    const Course course = run(scene, 1.5);
+    EXPECT_EQ(course.steps_in_mass > 100, masses);
+    for (int b = 0; b < n_long * n_high; ++b)
+      moved[masses].push_back(
+          (course.state.motion[b].pose.position - scene.blocks.rest[b].position).norm());
+  }
+  for (int b = 0; b < n_long * n_high; ++b)
+    if (b % n_long >= 20) EXPECT_LT(moved[1][b], moved[0][b] + 1e-3) << b;
+  EXPECT_GT(*std::max_element(moved[1].begin(), moved[1].end()), 1);
+}
+
+// --- one large among many small ------------------------------------------------------------------
+
+// A block 10,000 times as heavy as each of the 400 that bear it slides with them, as one.
+TEST(MassStep, ALayerOfSmallBlocksBearsALargeOne) {
+  const SlopeFrame frame = slope_frame(30, 25);
+  std::vector<Body> bodies;
+  constexpr double small = 0.2, large = 4.309;
+  for (int i = 0; i < 20; ++i)
+    for (int j = 0; j < 20; ++j) {
+      const Vec3 low(0.21 * i, 0.21 * j, 0);
+      bodies.push_back(
+          body_of(box_in(frame, Vec3::Zero(), low, low + Vec3::Constant(small))));
+    }
+  bodies.push_back(
+      body_of(box_in(frame, Vec3::Zero(), Vec3(0, 0, small), Vec3(large, large, small + large))));
+  Scene scene = scene_of(plane_trn(frame, 2, 40), ground_of(20), bodies, with_masses(true));
+  scene.joint = ground_of(35);  // what slides on the ground sticks together
+  EXPECT_NEAR(scene.blocks.mass[400] / scene.blocks.mass[0], 1e4, 10);
+  const Course course = run(scene, 1);
+  const double a = g * (std::sin(30 * degree) - std::tan(20 * degree) * std::cos(30 * degree));
+  const auto way = [&](int b) {
+    return (course.state.motion[b].pose.position - scene.blocks.rest[b].position).norm();
+  };
+  SEE(way(400) / (0.5 * a) - 1);
+  SEE(course.steps_in_mass); SEE(course.deepest); SEE(course.imbalance); SEE(course.state.counters.unconverged); SEE(course.state.counters.passes);
+  double worst = 0;
+  for (int b = 0; b < 400; ++b) worst = std::max(worst, std::abs(way(b) / (0.5 * a) - 1));
+  SEE(worst);
+  EXPECT_GE(course.steps_in_mass, 190);
+  EXPECT_NEAR(way(400), 0.5 * a, 3e-3 * 0.5 * a);
+  EXPECT_LT(course.deepest, 0.05 * small);
+  EXPECT_EQ(course.state.counters.unconverged, 0);
+}
+
+/// A box of 0.42 x 0.38 x 0.34 m, turned at random, with its centre at `at`.
+Body rock_at(const Vec3& at, Random& random) {
+  const Quat turn(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
+                  random.uniform(-1, 1));
+  const Vec3 half(0.21, 0.19, 0.17);
+  return body_of(moved(box_in(slope_frame(0, 0), Vec3::Zero(), -half, half),
+                       turn.normalized().toRotationMatrix(), Vec3::Zero(), at));
+}
+
+double lowest_corner(const Scene& scene, const State& state) {
+  double lowest = 1e9;
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const Pose& pose = state.motion[b].pose;
+    for (const Vec3& v : vertices_of(scene.blocks.shapes, b))
+      lowest = std::min(lowest, (pose.position + pose.attitude * v).z());
+  }
+  return lowest;
+}
+
+// A block of 4 m falls on 196 rocks that have just been dropped: none goes into the ground, and no
+// energy comes from nowhere.
+TEST(MassStep, ABlockFallsOnManySmallOnes) {
+  Random random(1, "rocks");
+  std::vector<Body> bodies;
+  for (int i = 0; i < 14; ++i)
+    for (int j = 0; j < 14; ++j)
+      bodies.push_back(rock_at(Vec3(0.6 * (i - 6.5), 0.6 * (j - 6.5), 0.35), random));
+  bodies.push_back(body_of(
+      box_in(slope_frame(0, 0), Vec3::Zero(), Vec3(-2, -2, 2.7), Vec3(2, 2, 6.7))));
+  const Scene scene =
+      scene_of(plane_trn(slope_frame(0, 0), 2, 40), ground_of(30, 0.2), bodies, with_masses(true));
+  State state = start(scene);
+  Work work = make_work(scene);
+  double lowest = 0, last = mechanical(scene, state), gain = 0;
+  const double before = last;
+  int in_mass = 0;
+  while (state.time < 2.5) {
+    step(scene, state, work);
+    lowest = std::min(lowest, lowest_corner(scene, state));
+    gain = std::max(gain, mechanical(scene, state) - last);
+    last = mechanical(scene, state);
+    in_mass += n_in_mass(state) > 150;
+  }
+  SEE(lowest); SEE(gain / before); SEE(in_mass); SEE((before - last) / before); SEE((before - last - booked(state.ledger)) / (before - last)); SEE(state.counters.unconverged);
+  EXPECT_GT(in_mass, 20);
+  EXPECT_GT(lowest, -0.03);
+  EXPECT_LT(gain, 1e-3 * (before - last));
+  EXPECT_NEAR(booked(state.ledger), before - last, 5e-3 * (before - last));
+}
+
+// 200 rocks are poured into a pit: they fill it, come to rest, and lie in each other by less than a
+// twentieth of their thickness.
+TEST(MassStep, RocksArePouredIntoAPit) {
+  Random random(2, "rocks");
+  std::vector<Body> bodies;
+  for (int k = 0; k < 8; ++k)
+    for (int i = 0; i < 5; ++i)
+      for (int j = 0; j < 5; ++j)
+        bodies.push_back(rock_at(
+            Vec3(0.6 * (i - 2) + 0.05 * (k % 2), 0.6 * (j - 2), 0.4 + 0.6 * k), random));
+  const auto height = [](double x, double y) {
+    return std::max(0.0, 3 * (std::hypot(x, y) - 1.5));
+  };
+  const Scene scene = scene_of(make_trn(height, 0.25, 12), ground_of(30, 0.3), bodies,
+                               with_masses(true));
+  const Course course = run(scene, 4);
+  double fastest = 0, highest = 0;
+  for (const Motion& m : course.state.motion) {
+    fastest = std::max(fastest, m.velocity.norm());
+    highest = std::max(highest, m.pose.position.z());
+  }
+  SEE(course.steps_in_mass); SEE(course.deepest); SEE(course.imbalance); SEE(course.largest_gain); SEE(fastest); SEE(highest); SEE(lowest_corner(scene, course.state)); SEE(course.state.counters.unconverged);
+  EXPECT_GT(course.steps_in_mass, 100);
+  EXPECT_LT(std::abs(course.imbalance), 5e-3);
+  EXPECT_LT(course.largest_gain, 1e-3);
+  EXPECT_LT(course.deepest, 0.05 * 0.34);
+  EXPECT_GT(lowest_corner(scene, course.state), -0.02);
+}
+
+// --- several parts a body ------------------------------------------------------------------------
+
+// Angles of two boxes each, of which some lie in others' arms, go as far as by the exact step.
+TEST(MassStep, MovesBodiesOfSeveralParts) {
+  double way[2];
+  for (const bool masses : {false, true}) {
+    const SlopeFrame frame = slope_frame(30, 30);
+    std::vector<Body> bodies;
+    for (int i = 0; i < 36; ++i) {
+      const Vec3 at(1.7 * (i % 6), 1.1 * (i / 6 % 6), 0.01);
+      Body body = body_of(box_in(frame, at, Vec3(0, 0, 0), Vec3(1.5, 1, 0.5)), 3 * frame.dip);
+      body.parts.push_back(box_in(frame, at, Vec3(0, 0, 0.5), Vec3(0.5, 1, 1.5)));
+      bodies.push_back(body);
+      bodies.push_back(
+          body_of(box_in(frame, at, Vec3(0.5, 0.1, 0.5), Vec3(1.4, 0.9, 1.2)), 3 * frame.dip));
+    }
+    const Scene scene =
+        scene_of(plane_trn(frame, 4, 100), ground_of(20, 0.3), bodies, with_masses(masses));
+    const Course course = run(scene, 1.5);
+    EXPECT_EQ(course.steps_in_mass > 200, masses);
+    SEE(course.steps_in_mass); SEE(course.deepest); SEE(course.imbalance);
+    EXPECT_LT(std::abs(course.imbalance), 5e-3);
+    way[masses] = place_of(scene, course.state).way;
+  }
+  SEE(way[1] / way[0] - 1);
+  EXPECT_NEAR(way[1], way[0], 3e-3 * way[0]);
+}
+
+// --- what is given away --------------------------------------------------------------------------
+
+// Columns of four cubes that touch, dropped: hit by hit they lose nearly all of their energy; in a
+// mass e acts once, and they rebound as one.
+TEST(MassStep, ReboundsOnceWhereHitsInTurnLoseAll) {
+  double kept[2];
+  for (const bool masses : {false, true}) {
+    Lattice lattice;
+    lattice.dip_deg = 0;
+    lattice.restitution = 0.7;
+    lattice.velocity = Vec3(0, 0, -10);
+    lattice.above = 0.2;
+    Scene scene = scene_of_lattice(lattice, with_masses(masses));
+    scene.gravity *= 1e-4;
+    scene.joint = scene.ground.classes[0];
+    const State first = start(scene);
+    const double before = energies(scene, first).translation;
+    const Course course = run(scene, 0.6, first);
+    const Energies e = energies(scene, course.state);
+    kept[masses] = (e.translation + e.rotation) / before;
+    SEE(course.steps_in_mass); SEE(course.imbalance);
+  }
+  SEE(kept[0]); SEE(kept[1]);
+  EXPECT_LT(kept[0], 0.1);
+  EXPECT_NEAR(kept[1], 0.7 * 0.7, 0.05);
 }
 
 }  // namespace

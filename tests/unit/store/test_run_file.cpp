@@ -377,7 +377,7 @@ talus::Checkpoint sample_checkpoint() {
   state.memory[1][2].key.feature_a = 42;
   state.memory[1][2].normal_force = 1e-300;
   state.mass.resize(2);
-  state.mass[1] = {.is_in_mass = true, .calm = 3, .doublings = 2, .unsettled = 4, .barred = 5};
+  state.mass[1] = {.is_in_mass = true, .calm = 3, .unsettled = 4, .barred = 5};
   state.counters.impacts = 99;
   checkpoint.trackers.resize(2);
   checkpoint.trackers[0].covered = {5, 6, 7};
