@@ -135,6 +135,7 @@ void advance_talus(const Scene& scene, State& state, Work& work, StepReport& rep
       if (may_sleep) put_island_to_sleep(scene, k, state, work);
       continue;
     }
+    if (!state.mass.empty()) state.mass[i] = {};
     if (does_not_move(state.phase[i])) continue;
     if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end && scene.settings.flight) {
       ++state.counters.flight_skips;
