@@ -82,8 +82,8 @@ void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s,
 void hold(const GroundClass& face, double recovery_time, ContactRow& row);
 
 /// The corner of a bonded face of class `face` at a contact that carries `impulse` [N s] over a
-/// substep of h [s]. The impulses of a substep balance its loads as closely as it is solved; forces
-/// of springs, found from where the blocks end, would magnify its error by the stiffness.
+/// substep of h [s]. What balances load and inertia judges a face; springs lag behind (theory,
+/// "Bonds").
 [[nodiscard]] BondCorner corner_of(const KeptContact& contact, const GroundClass& face,
                                    const Vec3& impulse, double h);
 
