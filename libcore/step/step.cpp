@@ -116,9 +116,7 @@ Work make_work(const Scene& scene, Workers* workers) {
   work.rows.reserve(8 * (most_vertices + expected_contacts));
   work.unbonded.reserve(expected_contacts);
   reserve_impacts(work.contacts.capacity(), work.impact);
-  // Of many blocks few take more than one substep in the same step.
-  const auto n = static_cast<size_t>(n_blocks(scene));
-  work.segments.reserve(2 * n + 8 * std::min(n, size_t{1024}) + 64);
+  work.segments.reserve(8 * static_cast<size_t>(n_blocks(scene)) + 64);
   return work;
 }
 
