@@ -13,19 +13,47 @@
 namespace talus {
 namespace {
 
-// Pairs of parts of different bodies whose boxes come closer than `distance`.
-std::vector<std::array<int, 2>> close_parts(const Hulls& hulls, const PlacedHulls& placed,
-                                            double distance) {
+// The box of each part, wider by `margin` all around.
+std::vector<Box> boxes_of(const Hulls& hulls, const PlacedHulls& placed, double margin) {
   std::vector<Box> boxes;
   for (int p = 0; p < n_parts(hulls); ++p) {
     Box box = box_of_part(hulls, placed, p);
-    box.low.array() -= distance / 2;
-    box.high.array() += distance / 2;
+    box.low.array() -= margin;
+    box.high.array() += margin;
     boxes.push_back(box);
   }
+  return boxes;
+}
+
+// Pairs of parts of different bodies whose boxes come closer than `distance`.
+std::vector<std::array<int, 2>> close_parts(const Hulls& hulls, const PlacedHulls& placed,
+                                            double distance) {
+  const std::vector<Box> boxes = boxes_of(hulls, placed, distance / 2);
   OverlapScratch scratch;
   std::vector<std::array<int, 2>> pairs;
   find_overlaps(boxes, hulls.body, {}, scratch, pairs);
+  return pairs;
+}
+
+// Pairs of a part of a body below number `n_moving` and one that stands, whose boxes overlap. What
+// moves may lie in one place by the thousand, so that its pairs must not be looked at.
+std::vector<std::array<int, 2>> close_to_standing(const Hulls& hulls, const PlacedHulls& placed,
+                                                  int n_moving) {
+  const std::vector<Box> boxes = boxes_of(hulls, placed, 0);
+  const auto first = static_cast<std::size_t>(
+      std::lower_bound(hulls.body.begin(), hulls.body.end(), n_moving) - hulls.body.begin());
+  std::vector<std::array<int, 2>> pairs;
+  if (first == boxes.size()) return pairs;
+  Box reach = boxes[first];
+  for (std::size_t s = first; s < boxes.size(); ++s) {
+    reach.low = reach.low.cwiseMin(boxes[s].low);
+    reach.high = reach.high.cwiseMax(boxes[s].high);
+  }
+  for (std::size_t m = 0; m < first; ++m) {
+    if (!overlap(boxes[m], reach)) continue;
+    for (std::size_t s = first; s < boxes.size(); ++s)
+      if (overlap(boxes[m], boxes[s])) pairs.push_back({static_cast<int>(m), static_cast<int>(s)});
+  }
   return pairs;
 }
 
@@ -75,11 +103,12 @@ std::vector<JointContact> joint_contacts(const Hulls& hulls, const PlacedHulls& 
 }
 
 std::vector<BlockOverlap> block_overlaps(const Hulls& hulls, const PlacedHulls& placed,
-                                         double tolerance, int n_moving) {
+                                         double tolerance, int n_moving, bool among_moving) {
   std::vector<BlockOverlap> overlaps;
   std::map<std::pair<int, int>, std::size_t> place_of;  // of a pair in the list
   AxisScratch scratch;
-  for (const auto& [a, b] : close_parts(hulls, placed, 0)) {
+  for (const auto& [a, b] :
+       among_moving ? close_parts(hulls, placed, 0) : close_to_standing(hulls, placed, n_moving)) {
     if (hulls.body[a] >= n_moving && hulls.body[b] >= n_moving) continue;
     const AxisChoice axis = find_axis(hulls, placed, a, b, -tolerance, {}, scratch);
     if (!axis.touches) continue;

@@ -38,10 +38,11 @@ struct BlockOverlap {
 };
 
 /// All pairs of blocks that overlap by more than `tolerance` [m], deepest first. Bodies from
-/// number `n_moving` on stand still: their pairs among themselves are left out.
+/// number `n_moving` on stand still: their pairs among themselves are left out. So are, without
+/// `among_moving`, those of the others.
 [[nodiscard]] std::vector<BlockOverlap> block_overlaps(
     const Hulls& hulls, const PlacedHulls& placed, double tolerance,
-    int n_moving = std::numeric_limits<int>::max());
+    int n_moving = std::numeric_limits<int>::max(), bool among_moving = true);
 
 /// Part p where it is now, as a polyhedron; tags are the joint sets.
 [[nodiscard]] Polyhedron placed_part(const Hulls& hulls, const PlacedHulls& placed, int p);

@@ -292,7 +292,7 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
 Runner begin_run(const Scene& scene, const RunOptions& options, std::vector<RecordLine> lines,
                  RunFile file) {
   Runner runner = make_runner(scene, options, std::move(lines), std::move(file));
-  runner.state = start(scene);
+  runner.state = start(scene, runner.work);
   runner.energy_start = mechanical(energies(scene, runner.state));
   for (int b = 0; b < n_blocks(scene); ++b) {
     const Motion& motion = runner.state.motion[b];

@@ -26,8 +26,7 @@ struct BondCorner {
   int polygon = 0;            ///< corners of one convex part of the face have the same number
 };
 
-/// A bonded face at the end of a substep: elastic forces, not those of damping, which would break a
-/// bond that is loaded suddenly at less than its strength.
+/// A bonded face and what it carries over a substep.
 struct BondFace {
   int bond = -1;               ///< index into State::bonds; -1: with the ground
   int block = -1;              ///< A

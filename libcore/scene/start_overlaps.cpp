@@ -53,6 +53,7 @@ void add_ways(const BlockOverlap& overlap, const std::vector<double>& risen,
 std::vector<StartOverlap> start_overlaps(const BlockSet& blocks,
                                          const std::vector<StandingFence>& fences,
                                          bool among_blocks, double tolerance) {
+  if (!among_blocks && fences.empty()) return {};
   std::vector<Pose> poses = poses_of(blocks);
   Hulls hulls = make_hulls(blocks, poses);
   for (const StandingFence& fence : fences)
@@ -64,9 +65,8 @@ std::vector<StartOverlap> start_overlaps(const BlockSet& blocks,
   place_hulls(hulls, poses, {}, {}, placed);
   std::vector<StartOverlap> found;
   const int n = n_blocks(blocks);
-  for (const BlockOverlap& overlap : block_overlaps(hulls, placed, tolerance, n)) {
+  for (const BlockOverlap& overlap : block_overlaps(hulls, placed, tolerance, n, among_blocks)) {
     const bool with_panel = overlap.block_b >= n;
-    if (overlap.block_a >= n || (!with_panel && !among_blocks)) continue;
     StartOverlap start{overlap, 0, false};
     start.limit = most_relaxed * std::min(thickness_of(hulls, overlap.block_a),
                                           thickness_of(hulls, overlap.block_b));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "motion/displacement.hpp"
 #include "motion/rotation.hpp"
@@ -54,7 +53,7 @@ bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0
 
 }  // namespace
 
-State start(const Scene& scene) {
+State start(const Scene& scene, Work& work) {
   const auto n = static_cast<size_t>(n_blocks(scene));
   State state;
   static_cast<BlockLives&>(state) = start_lives(scene.blocks.rest);
@@ -90,14 +89,17 @@ State start(const Scene& scene) {
   const bool is_paper = scene.settings.law == Law::paper;
   if (is_paper) state.paper.rebound.assign(n, Vec3::Zero());
   if (scene.settings.trn_contacts && (is_paper || scene.settings.static_start)) {
-    std::optional<Work> work;  // none where all blocks are above the ground
     for (size_t b = 0; b < n; ++b) {
       if (!is_released(scene, b) || spins(scene, b) || is_above_ground(scene, b)) continue;
-      if (!work) work = make_work(scene);
-      (is_paper ? bond_block : settle_block)(scene, static_cast<int>(b), state, *work);
+      (is_paper ? bond_block : settle_block)(scene, static_cast<int>(b), state, work);
     }
   }
   return state;
+}
+
+State start(const Scene& scene) {
+  Work work = make_work(scene);
+  return start(scene, work);
 }
 
 Work make_work(const Scene& scene, Workers* workers) {

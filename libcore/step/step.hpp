@@ -15,7 +15,8 @@ namespace talus {
 
 /// State at time 0. With law talus and Settings::static_start, a block at rest that touches the
 /// ground is let down into equilibrium with it (its weight over the contact stiffness,
-/// micrometres).
+/// micrometres), with `work` of make_work().
+[[nodiscard]] State start(const Scene& scene, Work& work);
 [[nodiscard]] State start(const Scene& scene);
 
 /// Buffers for `scene`, large enough that step() does not allocate. `workers` share its loops and

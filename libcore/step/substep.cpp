@@ -341,18 +341,15 @@ void hold(const GroundClass& face, double recovery_time, ContactRow& row) {
   row.bias = (row.gap_start + row.offset) / recovery_time;
 }
 
-BondCorner corner_of(const KeptContact& contact, const GroundClass& face, double k_n, double k_s,
-                     const Vec3& normal, const Vec3& path) {
+BondCorner corner_of(const KeptContact& contact, const GroundClass& face, const Vec3& impulse,
+                     double h) {
   BondCorner corner;
   corner.point = contact.arm;
+  corner.force = impulse / h;
   corner.area = contact.bond_area;
   corner.cohesion = face.cohesion;
   corner.tension = face.tension;
   corner.friction = face.friction;
-  const double along = normal.dot(path);
-  double N = -k_n * (contact.gap_start + contact.offset + along);
-  if (!(face.tension > 0)) N = std::max(N, 0.0);
-  corner.force = N * normal - k_s * (contact.shear + path - along * normal);
   return corner;
 }
 

@@ -81,11 +81,11 @@ void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s,
 /// strength of its face afterwards.
 void hold(const GroundClass& face, double recovery_time, ContactRow& row);
 
-/// The corner of a bonded face of class `face` at a closed contact whose points moved by `path`
-/// within the substep: springs of stiffness k_n and k_s [N/m] as they end. Where there is no
-/// tensile strength nothing pulls.
-[[nodiscard]] BondCorner corner_of(const KeptContact& contact, const GroundClass& face, double k_n,
-                                   double k_s, const Vec3& normal, const Vec3& path);
+/// The corner of a bonded face of class `face` at a contact that carries `impulse` [N s] over a
+/// substep of h [s]. What balances load and inertia judges a face; springs lag behind (theory,
+/// "Bonds").
+[[nodiscard]] BondCorner corner_of(const KeptContact& contact, const GroundClass& face,
+                                   const Vec3& impulse, double h);
 
 /// Makes the `rows` of `contacts`, which the search found between block b and the ground, in the
 /// body axes of s.R. `memory`: what the block remembers.

@@ -211,7 +211,7 @@ def interrupted_tries(bench, job, n, number):
 def part_kill(bench):
     """kill -9 at random moments, tool by tool; then the pipeline, twice in a row."""
     for job in bench.jobs:
-        tried, losses, _ = interrupted_tries(bench, job, bench.times(2, 25), signal.SIGKILL)
+        tried, losses, _ = interrupted_tries(bench, job, bench.times(1, 25), signal.SIGKILL)
         bench.row(f"kill -9, {job.name}", tried, losses)
     kill_when_placed(bench)
     kill_resumed_run(bench)
@@ -269,7 +269,7 @@ def kill_resumed_run(bench):
     """A slide of touching blocks that is killed again and again, each time going on where it was."""
     job = next(j for j in bench.jobs if j.name == "talus-dda")
     losses, kills, n_resumed = [], 0, 0
-    for _ in range(bench.times(2, 12)):
+    for _ in range(bench.times(1, 12)):
         folder = bench.fresh(bench.work / "tries/resumed")
         pause, was_killed = bench.wall_s[job.name] / 3, False
         while True:
@@ -292,7 +292,7 @@ def kill_resumed_run(bench):
         if wrong:
             losses.append(f"resumed slide: {wrong}")
     bench.row("kill -9, one slide several times, --resume", kills, losses,
-              f"{bench.times(2, 12)} slides of 39 blocks in contact, {n_resumed} times from a checkpoint")
+              f"{bench.times(1, 12)} slides of 39 blocks in contact, {n_resumed} times from a checkpoint")
 
 
 def pipeline_folder(bench, name):
@@ -407,7 +407,7 @@ def part_limit(bench):
                 yield f"files up to {size} bytes", {"preexec_fn": limited(resource.RLIMIT_FSIZE, size)}
 
     def files(job):
-        for n in bench.times((8, 16), (4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20)):
+        for n in bench.times((8,), (4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20)):
             yield f"{n} open files", {"preexec_fn": limited(resource.RLIMIT_NOFILE, n)}
 
     def no_proj(job):
@@ -461,7 +461,7 @@ def part_memory(bench):
 
     def sizes(job):
         least = loads_at_mb(bench, job)
-        for more in bench.times((16, 64), (2, 4, 8, 12, 16, 24, 32, 40, 48, 64, 96, 128, 256)):
+        for more in bench.times((16,), (2, 4, 8, 12, 16, 24, 32, 40, 48, 64, 96, 128, 256)):
             yield f"{least + more} MB", memory_limit(bench, least + more)
     sweep(bench, "little memory (ulimit -v)", bench.jobs, sizes)
     stated_memory(bench)

@@ -3,12 +3,15 @@
 // docs/tools/talus-check.md
 #include <algorithm>
 
+#include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "base/write_bytes.hpp"
 #include "post/hazard/frequency.hpp"
+#include "post/hazard/recipe.hpp"
 #include "tools/check/look.hpp"
 #include "tools/check/page.hpp"
 #include "tools/check/words.hpp"
+#include "tools/frame/hazard_recipe.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/frame/site_crs.hpp"
@@ -98,7 +101,12 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     const Site& site = site_options.load();
     check_site_crs(site);
-    static_cast<void>(hazard_classes(site));  // refused now, not after the runs
+    // refused now, not after the runs
+    static_cast<void>(hazard_classes(site));
+    if (const auto file = recipe_file(site)) {
+      tool.read_also("recipe", *file);
+      static_cast<void>(parse_recipe(read_file(*file), *file));
+    }
     Look look = look_at(tool, site, o.files);
     find_doubts(look);
     probe_look(tool, probe_duration(o, look), look);

@@ -1,17 +1,15 @@
 #include "tools/hazard/inputs.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "post/reduce.hpp"
+#include "tools/frame/hazard_recipe.hpp"
 #include "tools/frame/shipped_data.hpp"
 
 namespace talus {
 namespace {
-
-const std::vector<std::string> shipped_recipes = {"switzerland_ti"};
 
 const RunParts only_passages{.crossings = false,
                              .checkpoint = false,
@@ -43,24 +41,11 @@ void take_rows_of_parts(const RunInputs& runs, std::size_t first_part, const Map
 }  // namespace
 
 Recipe read_recipe(Tool& tool, const Site& site) {
-  const std::string& name = site.hazard.recipe;
-  const Where where = where_of(site, "hazard.recipe");
-  Recipe recipe;
-  if (std::find(shipped_recipes.begin(), shipped_recipes.end(), name) != shipped_recipes.end()) {
-    const auto data = shipped_data("hazard/" + name + ".toml");
-    recipe = parse_recipe(std::string(data), "share/hazard/" + name + ".toml");
-  } else {
-    const std::string path = resolved(site, name);
-    if (!std::filesystem::exists(path)) {
-      std::string known;
-      for (const std::string& other : shipped_recipes) known += (known.empty() ? "" : ", ") + other;
-      throw InputError(where, "recipe is \"" + name + "\", which is neither known nor a file",
-                       "known: " + known + "; or the path of a file like share/hazard/" +
-                           shipped_recipes[0] + ".toml");
-    }
-    tool.read_also("recipe", path);
-    recipe = parse_recipe(read_file(path), path);
-  }
+  const std::optional<std::string> file = recipe_file(site);
+  const std::string shipped = "hazard/" + site.hazard.recipe + ".toml";
+  if (file) tool.read_also("recipe", *file);
+  Recipe recipe = file ? parse_recipe(read_file(*file), *file)
+                       : parse_recipe(std::string(shipped_data(shipped)), "share/" + shipped);
   if (!site.hazard.split.empty()) recipe.side = site.hazard.split == "b";
   return recipe;
 }

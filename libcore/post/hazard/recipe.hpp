@@ -1,4 +1,4 @@
-// libcore/post/hazard/recipe.hpp
+// libcore/post/hazard/recipe.hpp: public
 // How an authority makes hazard classes: numbers that change from place to place, so they are data.
 // in:    a file as those of share/hazard (TOML)
 // out:   intensities, return periods, the matrix of classes, the rule for masses, colours

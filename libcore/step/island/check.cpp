@@ -138,19 +138,17 @@ struct SubstepCheck {
       const KeptContact& contact = system.contacts[r];
       if (contact.bond_area == 0 || contact.hit >= 0) continue;
       const RowIn<const RowGroup> lane = lane_of(system, r);
-      const Vec3 normal = lane.normal(), path = path_of_contact(system, end, r);
-      const double per_h = 1 / (free.h * members.of(contact.a).recovery_time);
+      const Vec3 normal = lane.normal();
       BondFace& face = face_of(contact.bond, contact.a, normal, end.bond_faces);
-      BondCorner corner = corner_of(contact, bond_class(contact), per_h * lane.normal_damping(),
-                                    per_h * lane.shear_damping(), normal, path);
+      Vec3 impulse = lane.impulse();
+      if (!hits.bond_impulse.empty()) impulse += hits.bond_impulse[r];
+      BondCorner corner = corner_of(contact, bond_class(contact), impulse, free.h);
       if (lane.state() == ContactState::open) {
-        corner.force.setZero();
         double radius = members.of(contact.a).radius;
         if (contact.b >= 0) radius = std::min(radius, members.of(contact.b).radius);
-        face.opened |= contact.gap_start + normal.dot(path) > bonded_gap_ratio * radius;
+        const double gap_end = contact.gap_start + normal.dot(path_of_contact(system, end, r));
+        face.opened |= gap_end > bonded_gap_ratio * radius;
       }
-      if (lane.state() != ContactState::open) corner.force = Vec3(lane.impulse()) / free.h;
-      if (!hits.bond_impulse.empty()) corner.force += hits.bond_impulse[r] / free.h;
       corner.polygon = contact.pair;
       face.corners.push_back(corner);
     }

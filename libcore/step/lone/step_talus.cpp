@@ -327,17 +327,14 @@ struct Advance {
   template <int Dof>
   void load_bonds(const Substep& s, const Solved<Dof>& solved) {
     work.bond_faces.clear();
-    const double per_h = 1 / (s.h * c.recovery_time);
     for (const ContactRow& row : work.rows) {
       if (!(row.bond_area > 0)) continue;
-      const Vec3 path = row.free_move + solved.moved(row.arm, s.h);
       BondFace& face = face_of(-1, b, row.normal, work.bond_faces);
-      BondCorner& corner = face.corners.emplace_back(
-          corner_of(row, scene.ground.classes[static_cast<size_t>(row.ground_class)],
-                    per_h * row.normal_damping, per_h * row.shear_damping, row.normal, path));
+      face.corners.push_back(corner_of(
+          row, scene.ground.classes[static_cast<size_t>(row.ground_class)], row.impulse, s.h));
       if (row.state != ContactState::open) continue;
-      corner.force.setZero();
-      face.opened |= row.gap_start + row.normal.dot(path) > bonded_gap_ratio * c.radius;
+      const double along = row.normal.dot(row.free_move + solved.moved(row.arm, s.h));
+      face.opened |= row.gap_start + along > bonded_gap_ratio * c.radius;
     }
     std::erase_if(work.bond_faces, [](const BondFace& face) { return holds(face); });
   }

@@ -10,9 +10,9 @@ drawn() {
   state=$(((state * 1103515245 + 12345) % 2147483648))
   drawn=$((state / 65536 % $1))
 }
-few='RUNS=4'
+few='RUNS=3'
 site whole
-sed -i 's/^duration_s = .*/duration_s = 2/' whole/site.toml
+sed -i 's/^duration_s = .*/duration_s = 1/' whole/site.toml
 begun=$(date +%s%3N)
 made whole $few -j2
 whole_ms=$(($(date +%s%3N) - begun))
@@ -21,7 +21,7 @@ site killed
 cp whole/site.toml killed
 n_killed=0 groups=
 # What a make that is gone had begun goes on beside the next one.
-for _ in 1 2 3 4 5 6; do
+for _ in 1 2 3 4; do
   setsid make -C killed BIN= $few -j2 >log 2>&1 &
   group=$!
   drawn $((whole_ms / 2))
@@ -43,9 +43,9 @@ for _ in 1 2 3 4 5 6; do
   groups="$groups $group"
   # the last attempts have something to do, too
   drawn 4
-  [ ! -s killed/out/report.html ] || rm -f "killed/out/runs/run_$((drawn + 1)).h5" "killed/out/trn.tif"
+  [ ! -s killed/out/report.html ] || rm -f "killed/out/runs/run_$((drawn % 3 + 1)).h5" "killed/out/trn.tif"
 done
-[ $n_killed -ge 2 ] || fail "only $n_killed attempts were killed"
+[ $n_killed -ge 1 ] || fail "only $n_killed attempts were killed"
 made killed $few -j2
 for group in $groups; do
   n=0
@@ -58,7 +58,7 @@ done
 same whole killed
 
 # and of a shard that makes a run and its part
-for _ in 1 2 3; do
+for _ in 1 2; do
   rm -f killed/out/runs/run_1.h5
   setsid make -C killed BIN= $few SHARD=1 SHARDS=2 runs-shard >log 2>&1 &
   group=$!

@@ -1,6 +1,6 @@
 # One make at a time works on one folder of results; the lock goes with the make, however that ends.
 . "$source_dir/tests/tools/pipeline/common.sh"
-command -v flock >/dev/null || skip "needs flock"
+for program in flock setsid pgrep; do command -v $program >/dev/null || skip "needs $program"; done
 site slope
 made slope RUNS=2 prepare
 mkdir beside
@@ -8,13 +8,12 @@ cp slope/site.toml slope/contours.gpkg slope/Makefile beside
 ln -s ../slope/out beside/out
 long='--time-step-s 0.00001'
 
-# begin ARGUMENTS: a make that goes on for long, as $process
+# begin ARGUMENTS: a make that goes on for long, as $process, whose run has begun, as $run_of_make
 begin() {
-  : >log  # the log of the last make would say that this one has come to its run
-  make -C slope BIN= WITHOUT=no RUNS=2 "$@" >log 2>&1 &
+  setsid make -C slope BIN= WITHOUT=no RUNS=2 "$@" >log 2>&1 &
   process=$!
   n=0
-  until grep -q 'dda: run_' log; do
+  until run_of_make=$(pgrep -g "$process" talus-dda); do
     n=$((n + 1))
     [ $n -lt 600 ] || { cat log >&2; fail "make does not come to its run"; }
     sleep 0.1
@@ -43,11 +42,10 @@ made slope terrain
 
 # killed without a chance to tidy up
 begin DDA_FLAGS="$long" runs
-runs_of_make=$(pgrep -P "$process")
 kill -9 "$process"
 wait "$process" 2>/dev/null || true
 made slope terrain
-kill -9 $runs_of_make 2>/dev/null || true
+kill -9 $run_of_make
 
 # Shards share the folder with one another alone. A make in a recipe of the one that has the lock works.
 begin DDA_FLAGS="$long" SHARD=1 SHARDS=2 runs-shard

@@ -9,7 +9,7 @@ cut() { blocks --trn-out bed.tif --overwrite -q "$@"; }
 look() {
   cut "$@" || return
   talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o check.html --report check.json \
-    --overwrite --no-db "$@"
+    --probe-s 1.5 --overwrite --no-db "$@"
 }
 
 # A hollow with a step at its foot: it stands in part, and the look says on what it leans.
@@ -38,7 +38,7 @@ holds "$(value check.json duration_asked_for_s) >= 10"
 mv check.html first.html
 expect 0 look
 cmp -s check.html first.html || fail "another page"
-expect 0 talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o check.html --overwrite --no-db --runs 40
+expect 0 talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o check.html --probe-s 1.5 --overwrite --no-db --runs 40
 cmp -s check.html first.html || fail "the count of runs changed the page"
 prints "40 runs about"
 
@@ -106,7 +106,18 @@ grep -q "cannot be meant" check.html || fail "the page does not say what is refu
 expect 0 deep --accept-doubts
 prints "REFUSED: source.depth_m"
 
-# Faults that the engine would find late
+# Faults that the engine would find late, and that talus-hazard would find after all runs
+cp site.toml no_recipe.toml
+printf '[hazard]\nrecipe = "switzerland_zh"\n' >>site.toml
+expect 1 look
+says 'recipe is "switzerland_zh", which is neither known nor a file'
+sed -i 's/switzerland_zh/holes.toml/' site.toml
+printf 'name = "holes"\n' >holes.toml
+expect 1 look
+says "holes.toml"
+cp "$source_dir/share/hazard/switzerland_ti.toml" holes.toml
+expect 0 look
+mv no_recipe.toml site.toml
 expect 1 look --set solver.duration_s=0.001
 says "less than a time step"
 expect 1 talus-check site.toml --trn trn.tif --bed trn.tif --blocks blocks.h5 --no-db

@@ -73,6 +73,9 @@ TEST(BlockOverlaps, GiveDepthVolumeAndPlaceDeepestFirst) {
   ASSERT_EQ(with_first.size(), 2u);  // bodies 1 and 2 stand still
   EXPECT_EQ(with_first[0].block_a, 0);
   EXPECT_EQ(with_first[1].block_a, 0);
+  EXPECT_EQ(block_overlaps(bodies.hulls, bodies.placed, 1e-6, 1, false).size(), 2u);
+  EXPECT_EQ(block_overlaps(bodies.hulls, bodies.placed, 1e-6, 2, false).size(), 2u);  // not 0 and 1
+  EXPECT_TRUE(block_overlaps(bodies.hulls, bodies.placed, 1e-6, 3, false).empty());
 }
 
 // The common volume of random bodies against counting points of a fine lattice.

@@ -218,7 +218,7 @@ std::vector<Segment> cut(const Scene& scene, const std::vector<Segment>& path, i
 
 TEST(Passages, CentroidPassesTheCellsOfDenseSampling) {
   talus::Random random(3, "passages");
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < 4; ++trial) {
     const Scene scene = rough_scene(random, {1, 1.4, 2});
     const std::vector<Segment> path = mixed_path(scene, random, 8);
     PassageRecorder recorder = recorded(scene, path, true);

@@ -59,6 +59,18 @@ TEST(StartOverlaps, OfABlockWithAFenceAreNeverSmall) {
   EXPECT_FALSE(found[0].is_small);
 }
 
+// Rocks that fall one by one are released in one place by the thousand: eight million pairs that
+// nobody asks for.
+TEST(StartOverlaps, OfRocksThatDoNotMeetAreSoughtWithFencesAlone) {
+  StandingFence fence;
+  fence.posts = {Vec3(-5, 1.05, 0), Vec3(5, 1.05, 0)};
+  fence.depth = {0.5};
+  fence.height = 3;
+  std::vector<Vec3> lows(4000, Vec3::Zero());
+  lows.push_back({3, -4, 0});
+  EXPECT_EQ(start_overlaps(cubes_at(lows), {fence}, false, 1e-3).size(), 4000u);
+}
+
 Trn flat_ground() {
   Trn trn;
   trn.n_rows = trn.n_cols = 11;

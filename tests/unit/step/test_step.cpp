@@ -424,6 +424,9 @@ TEST(Step, PointLoadPushesAndTurns) {
   EXPECT_NEAR(state.motion[0].velocity.y(), state.time, 1e-6);
   const double torque = 0.5 * mass;  // about z, while the block has hardly turned
   EXPECT_NEAR(state.motion[0].angular_momentum.z() / (torque * state.time), 1, 1e-2);
+  const double angle = torque * state.time * state.time / 2 / (mass / 6);
+  EXPECT_NEAR(state.motion[0].pose.attitude.angularDistance(scene.blocks.rest[0].attitude) / angle,
+              1, 2e-3);
 }
 
 }  // namespace
