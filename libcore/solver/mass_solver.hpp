@@ -17,7 +17,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "base/types.hpp"
@@ -43,17 +42,18 @@ struct MassTurn {
 };
 
 struct MassSettings {
-  int sweeps = 0;          ///< at least, > 0; they double ...
-  int most_sweeps = 0;     ///< ... up to this ...
-  double settled = 0;      ///< ... while the last one changes velocities by more [m/s]
-  double compliance = 0;   ///< > 0 [-]
-  double shear_ratio = 0;  ///< > 0 [-]
+  int sweeps = 0;       ///< at least, > 0; they double ...
+  int most_sweeps = 0;  ///< ... up to this ...
+  double settled = 0;   ///< ... while the last one changes velocities by more, of what the contacts
+                        ///< change them by in the step [-] ...
+  double least_change = 0;  ///< ... which counts as this at least, > 0 [m/s]
+  double compliance = 0;    ///< > 0 [-]
+  double shear_ratio = 0;   ///< > 0 [-]
 };
 
 struct MassResult {
   int sweeps = 0;     ///< beyond the one that applies the impulses of the last step
-  double change = 0;  ///< of velocities in the last of them: of a part mass::looked_at of all mass,
-                      ///< the largest, turning included [m/s]
+  double change = 0;  ///< of velocities in the last of them, of what contacts change [-]
   int n_colours = 0;
 };
 
@@ -68,7 +68,6 @@ struct MassSystem {  // clang-format off
   std::vector<MassBody> change;             ///< of bodies, and of those that are not: ...
   std::vector<MassInertia> inertias;        ///< ... one for each lane and side
   std::vector<MassBody> before;             ///< the last sweep                          (n_bodies)
-  std::vector<std::pair<float, float>> changed;  ///< squared change and mass            (n_bodies)
   std::vector<std::uint64_t> used;          ///< colours of the pairs of a body          (n_bodies)
   std::vector<int> colour, order, bucket;
   std::vector<MassBatch> batches;

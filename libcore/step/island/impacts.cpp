@@ -4,7 +4,6 @@
 #include "solver/law_numbers.hpp"
 #include "step/island/island_soil.hpp"
 #include "step/island/stages.hpp"
-#include "step/mass/stages.hpp"
 
 namespace talus {
 namespace {
@@ -92,13 +91,10 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
   };
   for (int round = 0; round < most_closing_rounds; ++round) {
     if (!solve_on(round > 0)) return;
-    // at the start nobody knows what contacts bear; once they do not sag, a mass that leaves needs
-    // not know either
+    // at the start nobody knows what contacts bear
     const int settlings = round == 0 && free.t == 0 ? law::most_settlings : 0;
-    for (int i = 0; i < settlings && stiffen_to_load(members, free.h, system); ++i) {
+    for (int i = 0; i < settlings && stiffen_to_load(members, free.h, system); ++i)
       if (!solve_on(true)) return;
-      if (begins_as_mass(scene, system.island.velocity)) break;
-    }
     if (round == 0 && renew_friction(scene, state, members, free, hits, system) && !solve_on(true))
       return;
     const StageTimer timer(clock, IslandStage::find_hits);

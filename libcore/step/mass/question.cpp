@@ -43,7 +43,17 @@ void for_each(const IslandMembers& members, State& state, const Visit& visit) {
   for (const int b : members.blocks) visit(state.mass[static_cast<size_t>(b)]);
 }
 
+void become_mass(const IslandMembers& members, const MassShare& share, State& state) {
+  if (state.mass.empty()) state.mass.resize(state.motion.size());
+  for_each(members, state, [&](MassShare& of_member) { of_member = share; });
+}
+
 }  // namespace
+
+bool may_be_mass(const Scene& scene, const IslandMembers& members, const State& state) {
+  return scene.settings.masses && !(scene.settings.normal_stiffness > 0) &&
+         static_cast<int>(members.size()) >= mass::least_size && !has_bonds(members, state);
+}
 
 bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& state) {
   const double by_gravity = scene.gravity.norm() * scene.settings.dt;
@@ -55,9 +65,7 @@ bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& stat
       });
     return false;
   };
-  if (!scene.settings.masses || scene.settings.normal_stiffness > 0 ||
-      static_cast<int>(members.size()) < mass::least_size || has_bonds(members, state))
-    return leave(0);
+  if (!may_be_mass(scene, members, state)) return leave(0);
   MassShare all;  // what the members say together
   int n_in_mass = 0;
   if (!state.mass.empty()) {
@@ -81,17 +89,21 @@ bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& stat
     all.calm = 0;
   }
   all.is_in_mass = true;
-  if (state.mass.empty()) state.mass.resize(state.motion.size());
-  for_each(members, state, [&](MassShare& share) { share = all; });
+  become_mass(members, all, state);
   return true;
 }
 
-bool begins_as_mass(const Scene& scene, std::span<const Vec6> velocity) {
-  if (!scene.settings.masses || scene.settings.normal_stiffness > 0) return false;
-  const double limit = law::slow * scene.gravity.norm() * scene.settings.dt;
-  return std::count_if(velocity.begin(), velocity.end(), [&](const Vec6& v) {
-           return v.head<3>().norm() > limit;
-         }) > mass::most_moving;
+bool leaves_as_mass(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
+                    const MassScratch& w, State& state) {
+  const double limit = law::slow * scene.gravity.norm() * free.h;
+  int n_moving = 0;
+  for (size_t k = 0; k < members.size(); ++k)
+    n_moving += (free.substeps[k].free.velocity + w.changes[k].velocity).norm() > limit;
+  if (w.solved.change > mass::settled || n_moving <= mass::most_moving) return false;
+  MassShare share;
+  share.is_in_mass = true;
+  become_mass(members, share, state);
+  return true;
 }
 
 int mass_sweeps(double accuracy) {
@@ -104,9 +116,9 @@ double mass_compliance(const Scene& scene, const MassShare& share) {
   return mass::compliance * std::pow(in_island / mass::compliance, calm);
 }
 
-void note_solution(const Scene& scene, const IslandMembers& members, double h,
-                   const MassResult& solved, State& state, StepReport& report) {
-  const bool is_settled = solved.change <= mass::settled * scene.gravity.norm() * h;
+void note_solution(const IslandMembers& members, const MassResult& solved, State& state,
+                   StepReport& report) {
+  const bool is_settled = solved.change <= mass::settled;
   for_each(members, state,
            [&](MassShare& share) { share.unsettled = is_settled ? 0 : share.unsettled + 1; });
   if (is_settled) return;

@@ -29,17 +29,23 @@ namespace talus {
 /// mass step has not found its forces with most sweeps. Exact always: intact bonds, a stiffness
 /// that the scene sets. Fills State::mass of the members.
 [[nodiscard]] bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& state);
-/// Whether so many blocks end their first step with these velocities that the next is a mass step.
-[[nodiscard]] bool begins_as_mass(const Scene& scene, std::span<const Vec6> velocity);
+/// Whether an island is one that a mass step can advance at all.
+[[nodiscard]] bool may_be_mass(const Scene& scene, const IslandMembers& members,
+                               const State& state);
+/// The question at the start of a run, when nothing has moved yet: whether an attempt at the first
+/// step settled and left more than mass::most_moving blocks faster than law::slow g h. Then fills
+/// State::mass of the members.
+[[nodiscard]] bool leaves_as_mass(const Scene& scene, const IslandMembers& members,
+                                  const FreeMotions& free, const MassScratch& w, State& state);
 /// Sweeps at least, at an accuracy [-].
 [[nodiscard]] int mass_sweeps(double accuracy);
 /// [-] What a contact gives, of the mobility of its point: while the mass grows calm, step by step
 /// as much as in the exact step, so that nothing sags once that one has it.
 [[nodiscard]] double mass_compliance(const Scene& scene, const MassShare& share);
-/// Takes into State::mass how the substep of `h` was solved. What most sweeps do not settle counts
-/// in the report as not converged.
-void note_solution(const Scene& scene, const IslandMembers& members, double h,
-                   const MassResult& solved, State& state, StepReport& report);
+/// Takes into State::mass how a substep was solved. What most sweeps do not settle counts in the
+/// report as not converged.
+void note_solution(const IslandMembers& members, const MassResult& solved, State& state,
+                   StepReport& report);
 
 // --- 1 predict: as for the exact step (step/island/predict.cpp)
 // -------------------------------------

@@ -16,10 +16,36 @@ MassSettings settings_of(const Scene& scene, const MassShare& share, double h) {
   MassSettings settings;
   settings.sweeps = mass_sweeps(scene.settings.accuracy);
   settings.most_sweeps = std::max(settings.sweeps, mass::most_sweeps);
-  settings.settled = mass::settled * scene.gravity.norm() * h;
+  settings.settled = mass::settled;
+  settings.least_change = scene.gravity.norm() * h;
   settings.compliance = mass_compliance(scene, share);
   settings.shear_ratio = scene.settings.shear_ratio;
   return settings;
+}
+
+// Stages 1 to 4. False: a member is off the known ground.
+bool attempt(const Scene& scene, double t, double h, const MassSettings& settings,
+             const State& state, Work& work) {
+  IslandScratch& island = work.island;
+  MassScratch& w = work.mass;
+  {
+    const StageTimer timer(island.clock, IslandStage::predict);
+    predict_free(scene, state, island.members, t, h, island.free);
+  }
+  {
+    const StageTimer timer(island.clock, IslandStage::make_contacts);
+    if (!make_mass_contacts(scene, state, work.search, island.manifolds, island.members,
+                            island.free, work.near_ground, island.making, w,
+                            island.system.outsider))
+      return false;
+  }
+  {
+    const StageTimer timer(island.clock, IslandStage::solve);
+    w.solved = solve_mass(settings, w.system, widest_mass_lanes());
+  }
+  const StageTimer timer(island.clock, IslandStage::accept);
+  find_mass_changes(scene, state, work.search, island.members, island.free, w);
+  return true;
 }
 
 }  // namespace
@@ -30,25 +56,10 @@ bool make_mass_substep(const Scene& scene, double t, double h, State& state, Wor
   MassScratch& w = work.mass;
   island.system.outsider = -1;
   for (int cuts = 0;; ++cuts) {
-    {
-      const StageTimer timer(island.clock, IslandStage::predict);
-      predict_free(scene, state, island.members, t, h, island.free);
-    }
-    {
-      const StageTimer timer(island.clock, IslandStage::make_contacts);
-      if (!make_mass_contacts(scene, state, work.search, island.manifolds, island.members,
-                              island.free, work.near_ground, island.making, w,
-                              island.system.outsider))
-        return false;
-    }
-    const MassSettings settings = settings_of(scene, state.mass[island.members.block(0)], h);
-    {
-      const StageTimer timer(island.clock, IslandStage::solve);
-      w.solved = solve_mass(settings, w.system, widest_mass_lanes());
-      report.passes += w.solved.sweeps;
-    }
+    const MassShare& share = state.mass[island.members.block(0)];
+    if (!attempt(scene, t, h, settings_of(scene, share, h), state, work)) return false;
+    report.passes += w.solved.sweeps;
     const StageTimer timer(island.clock, IslandStage::accept);
-    find_mass_changes(scene, state, work.search, island.members, island.free, w);
     const double used_up = time_to_first_break(scene, state.yielding, w.pushes, h);
     if (used_up < h && cuts < law::most_used_up_cuts) {
       ++report.cuts[static_cast<std::size_t>(SubstepCut::yielding_used_up)];
@@ -56,9 +67,18 @@ bool make_mass_substep(const Scene& scene, double t, double h, State& state, Wor
       continue;
     }
     accept_mass(scene, island.members, island.free, w, state, work.segments, work.deep, report);
-    note_solution(scene, island.members, h, w.solved, state, report);
+    note_solution(island.members, w.solved, state, report);
     return true;
   }
+}
+
+bool begins_as_mass(const Scene& scene, double h, State& state, Work& work) {
+  const IslandMembers& members = work.island.members;
+  if (!may_be_mass(scene, members, state)) return false;
+  MassSettings settings = settings_of(scene, {}, h);
+  settings.sweeps = settings.most_sweeps;
+  return attempt(scene, state.time, h, settings, state, work) &&
+         leaves_as_mass(scene, members, work.island.free, work.mass, state);
 }
 
 }  // namespace talus

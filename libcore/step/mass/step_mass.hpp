@@ -15,4 +15,8 @@ namespace talus {
 bool make_mass_substep(const Scene& scene, double t, double h, State& state, Work& work,
                        StepReport& report);
 
+/// At the start of a run: makes the first substep of `h` with most sweeps, for leaves_as_mass().
+/// Nothing of the substep is kept.
+[[nodiscard]] bool begins_as_mass(const Scene& scene, double h, State& state, Work& work);
+
 }  // namespace talus
