@@ -125,25 +125,25 @@ void sweep_turns(MassSystem& s) {
   }
 }
 
-// What the last sweep changed of the velocities since `before`, of what the contacts change them by
-// in the step, `least` [m/s] at least: roots of mean squares, weighed by mass. A block that is hit
-// at 5 m/s need not be known to the same mm/s as one that rests.
-double change_since_before(const MassSystem& s, double least) {
-  double last = 0, all = 0;
+// What the last sweep changed of the velocities since `before` [m/s]: root of the mean square over
+// the bodies or over the mass, whichever is larger. So a heavy block does not hide many light ones,
+// nor do they hide it.
+double change_since_before(const MassSystem& s) {
+  double sum = 0, sum_of_mass = 0, mass = 0;
   for (size_t k = 0; k < s.inertia.size(); ++k) {
-    const float* now = s.change[k].velocity;
-    const float* then = s.before[k].velocity;
-    double by_sweep = 0, by_contacts = 0;
+    double squared = 0;
     for (int i = 0; i < 3; ++i) {
-      const double step = static_cast<double>(now[i]) - static_cast<double>(then[i]);
-      by_sweep += step * step;
-      by_contacts += static_cast<double>(now[i]) * static_cast<double>(now[i]);
+      const double step = static_cast<double>(s.change[k].velocity[i]) -
+                          static_cast<double>(s.before[k].velocity[i]);
+      squared += step * step;
     }
-    const double mass = 1 / static_cast<double>(s.inertia[k].per_mass);
-    last += mass * by_sweep;
-    all += mass * std::max(by_contacts, least * least);
+    const double m = 1 / static_cast<double>(s.inertia[k].per_mass);
+    sum += squared;
+    sum_of_mass += m * squared;
+    mass += m;
   }
-  return std::sqrt(last / all);
+  const auto n = static_cast<double>(s.inertia.size());
+  return std::sqrt(std::max(sum / n, sum_of_mass / mass));
 }
 
 }  // namespace
@@ -186,7 +186,7 @@ MassResult solve_mass(const MassSettings& settings, MassSystem& s, int width) {
       run(MassPass::sweep);
       sweep_turns(s);
     }
-    result.change = change_since_before(s, settings.least_change);
+    result.change = change_since_before(s);
     if (result.change <= settings.settled || planned >= settings.most_sweeps) break;
   }
   run(MassPass::empty);

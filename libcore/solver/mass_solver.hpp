@@ -42,18 +42,17 @@ struct MassTurn {
 };
 
 struct MassSettings {
-  int sweeps = 0;       ///< at least, > 0; they double ...
-  int most_sweeps = 0;  ///< ... up to this ...
-  double settled = 0;   ///< ... while the last one changes velocities by more, of what the contacts
-                        ///< change them by in the step [-] ...
-  double least_change = 0;  ///< ... which counts as this at least, > 0 [m/s]
-  double compliance = 0;    ///< > 0 [-]
-  double shear_ratio = 0;   ///< > 0 [-]
+  int sweeps = 0;          ///< at least, > 0; they double ...
+  int most_sweeps = 0;     ///< ... up to this ...
+  double settled = 0;      ///< ... while the last one changes velocities by more [m/s]
+  double compliance = 0;   ///< > 0 [-]
+  double shear_ratio = 0;  ///< > 0 [-]
 };
 
 struct MassResult {
   int sweeps = 0;     ///< beyond the one that applies the impulses of the last step
-  double change = 0;  ///< of velocities in the last of them, of what contacts change [-]
+  double change = 0;  ///< of velocities in the last of them: root of the mean square over the
+                      ///< bodies or over the mass, whichever is larger [m/s]
   int n_colours = 0;
 };
 

@@ -42,10 +42,10 @@ namespace talus {
 /// [-] What a contact gives, of the mobility of its point: while the mass grows calm, step by step
 /// as much as in the exact step, so that nothing sags once that one has it.
 [[nodiscard]] double mass_compliance(const Scene& scene, const MassShare& share);
-/// Takes into State::mass how a substep was solved. What most sweeps do not settle counts in the
-/// report as not converged.
-void note_solution(const IslandMembers& members, const MassResult& solved, State& state,
-                   StepReport& report);
+/// Takes into State::mass how the substep of `h` was solved. What most sweeps do not settle counts
+/// in the report as not converged.
+void note_solution(const Scene& scene, const IslandMembers& members, double h,
+                   const MassResult& solved, State& state, StepReport& report);
 
 // --- 1 predict: as for the exact step (step/island/predict.cpp)
 // -------------------------------------

@@ -12,12 +12,12 @@
 namespace talus {
 namespace {
 
-MassSettings settings_of(const Scene& scene, const MassShare& share, double h) {
+MassSettings settings_of(const Scene& scene, const MassShare& share, double t, double h) {
   MassSettings settings;
   settings.sweeps = mass_sweeps(scene.settings.accuracy);
   settings.most_sweeps = std::max(settings.sweeps, mass::most_sweeps);
-  settings.settled = mass::settled;
-  settings.least_change = scene.gravity.norm() * h;
+  if (t == 0) settings.sweeps = settings.most_sweeps = mass::first_sweeps;
+  settings.settled = mass::settled * scene.gravity.norm() * h;
   settings.compliance = mass_compliance(scene, share);
   settings.shear_ratio = scene.settings.shear_ratio;
   return settings;
@@ -57,7 +57,7 @@ bool make_mass_substep(const Scene& scene, double t, double h, State& state, Wor
   island.system.outsider = -1;
   for (int cuts = 0;; ++cuts) {
     const MassShare& share = state.mass[island.members.block(0)];
-    if (!attempt(scene, t, h, settings_of(scene, share, h), state, work)) return false;
+    if (!attempt(scene, t, h, settings_of(scene, share, t, h), state, work)) return false;
     report.passes += w.solved.sweeps;
     const StageTimer timer(island.clock, IslandStage::accept);
     const double used_up = time_to_first_break(scene, state.yielding, w.pushes, h);
@@ -67,7 +67,7 @@ bool make_mass_substep(const Scene& scene, double t, double h, State& state, Wor
       continue;
     }
     accept_mass(scene, island.members, island.free, w, state, work.segments, work.deep, report);
-    note_solution(island.members, w.solved, state, report);
+    note_solution(scene, island.members, h, w.solved, state, report);
     return true;
   }
 }
@@ -75,9 +75,7 @@ bool make_mass_substep(const Scene& scene, double t, double h, State& state, Wor
 bool begins_as_mass(const Scene& scene, double h, State& state, Work& work) {
   const IslandMembers& members = work.island.members;
   if (!may_be_mass(scene, members, state)) return false;
-  MassSettings settings = settings_of(scene, {}, h);
-  settings.sweeps = settings.most_sweeps;
-  return attempt(scene, state.time, h, settings, state, work) &&
+  return attempt(scene, 0, h, settings_of(scene, {}, 0, h), state, work) &&
          leaves_as_mass(scene, members, work.island.free, work.mass, state);
 }
 
