@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/mass_lanes.hpp"
 #include "solver/mass_sweeps.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 using std::size_t;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int n_colour_bits = 64;
 constexpr int alone = n_colour_bits - 1;  // pairs of it share bodies: each has a batch to itself
 constexpr int most_rows = 16;             // pairs with more count as this when they are sorted
@@ -180,13 +182,20 @@ MassResult solve_mass(const MassSettings& settings, MassSystem& s, int width) {
   };
   run(MassPass::fill);
   run(MassPass::apply);
+  double last = 0;  // how much doubling the sweeps changed
   for (int planned = settings.sweeps;; planned = std::min(2 * planned, settings.most_sweeps)) {
+    if (settings.from_rest) s.before = s.change;
     for (; result.sweeps < planned; ++result.sweeps) {
-      if (result.sweeps + 1 == planned) s.before = s.change;
+      if (!settings.from_rest && result.sweeps + 1 == planned) s.before = s.change;
       run(MassPass::sweep);
       sweep_turns(s);
     }
     result.change = change_since_before(s);
+    if (settings.from_rest) {
+      const double now = result.change;
+      result.change = now < last ? now * now / (last - now) : infinity;
+      if (planned > settings.sweeps) last = now;
+    }
     if (result.change <= settings.settled || planned >= settings.most_sweeps) break;
   }
   run(MassPass::empty);

@@ -45,14 +45,18 @@ struct MassSettings {
   int sweeps = 0;          ///< at least, > 0; they double ...
   int most_sweeps = 0;     ///< ... up to this ...
   double settled = 0;      ///< ... while the last one changes velocities by more [m/s]
+  bool from_rest = false;  ///< no row knows its impulse: see MassResult::change
   double compliance = 0;   ///< > 0 [-]
   double shear_ratio = 0;  ///< > 0 [-]
 };
 
 struct MassResult {
-  int sweeps = 0;     ///< beyond the one that applies the impulses of the last step
-  double change = 0;  ///< of velocities in the last of them: root of the mean square over the
-                      ///< bodies or over the mass, whichever is larger [m/s]
+  int sweeps = 0;  ///< beyond the one that applies the impulses of the last step
+  /// Of velocities in the last of them: root of the mean square over the bodies or over the mass,
+  /// whichever is larger [m/s]. From rest: what is still to come, by geometric series, after
+  /// doubling the sweeps has changed them by d_1 and then by d_2: d_2^2 / (d_1 - d_2), and infinite
+  /// where d_2 >= d_1, as in a high column, through which support rises slowly.
+  double change = 0;
   int n_colours = 0;
 };
 

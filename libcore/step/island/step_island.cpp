@@ -174,12 +174,13 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
   w.tries.last_h = t_end - state.time;
   w.tries.longest = no_normal_limit;
   double t = state.time, ahead = t_end - t;
-  bool is_mass = moves_as_mass(scene, w.members, state);
+  bool is_mass = t > 0 && moves_as_mass(scene, w.members, state);
   while (t < t_end && !w.members.blocks.empty()) {
     const double longest = prepare_substep(scene, k, is_mass, t, ahead, state, work);
-    if (t == 0 && !is_mass) is_mass = begins_as_mass(scene, longest, state, work);
+    const bool is_tried = t == 0 && begins_as_mass(scene, longest, state, work);
+    if (is_tried) is_mass = true;
     if (is_mass)
-      make_mass_substep(scene, t, longest, state, work, report);
+      make_mass_substep(scene, t, longest, is_tried, state, work, report);
     else
       make_substep(scene, t, std::min(longest, w.tries.longest), state, work, report);
     t = state.local_time[w.members.block(0)];

@@ -43,16 +43,16 @@ void for_each(const IslandMembers& members, State& state, const Visit& visit) {
   for (const int b : members.blocks) visit(state.mass[static_cast<size_t>(b)]);
 }
 
-bool has_settled(const Scene& scene, double h, const MassResult& solved) {
-  return solved.change <= mass::settled * scene.gravity.norm() * h;
-}
-
 void become_mass(const IslandMembers& members, const MassShare& share, State& state) {
   if (state.mass.empty()) state.mass.resize(state.motion.size());
   for_each(members, state, [&](MassShare& of_member) { of_member = share; });
 }
 
 }  // namespace
+
+bool has_settled(const Scene& scene, double h, double change) {
+  return change <= mass::settled * scene.gravity.norm() * h;
+}
 
 bool may_be_mass(const Scene& scene, const IslandMembers& members, const State& state) {
   return scene.settings.masses && !(scene.settings.normal_stiffness > 0) &&
@@ -103,7 +103,7 @@ bool leaves_as_mass(const Scene& scene, const IslandMembers& members, const Free
   int n_moving = 0;
   for (size_t k = 0; k < members.size(); ++k)
     n_moving += (free.substeps[k].free.velocity + w.changes[k].velocity).norm() > limit;
-  if (!has_settled(scene, free.h, w.solved) || n_moving <= mass::most_moving) return false;
+  if (n_moving <= mass::most_moving) return false;
   MassShare share;
   share.is_in_mass = true;
   become_mass(members, share, state);
@@ -122,7 +122,7 @@ double mass_compliance(const Scene& scene, const MassShare& share) {
 
 void note_solution(const Scene& scene, const IslandMembers& members, double h,
                    const MassResult& solved, State& state, StepReport& report) {
-  const bool is_settled = has_settled(scene, h, solved);
+  const bool is_settled = has_settled(scene, h, solved.change);
   for_each(members, state,
            [&](MassShare& share) { share.unsettled = is_settled ? 0 : share.unsettled + 1; });
   if (is_settled) return;

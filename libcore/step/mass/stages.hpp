@@ -32,9 +32,10 @@ namespace talus {
 /// Whether an island is one that a mass step can advance at all.
 [[nodiscard]] bool may_be_mass(const Scene& scene, const IslandMembers& members,
                                const State& state);
-/// The question at the start of a run, when nothing has moved yet: whether an attempt at the first
-/// step settled and left more than mass::most_moving blocks faster than law::slow g h. Then fills
-/// State::mass of the members.
+/// Whether velocities that differ by `change` [m/s] in a substep of `h` differ too little to count.
+[[nodiscard]] bool has_settled(const Scene& scene, double h, double change);
+/// Whether a first substep would leave more than mass::most_moving blocks faster than law::slow g
+/// h. Then fills State::mass of the members.
 [[nodiscard]] bool leaves_as_mass(const Scene& scene, const IslandMembers& members,
                                   const FreeMotions& free, const MassScratch& w, State& state);
 /// Sweeps at least, at an accuracy [-].

@@ -12,11 +12,10 @@
 namespace talus {
 namespace {
 
-MassSettings settings_of(const Scene& scene, const MassShare& share, double t, double h) {
+MassSettings settings_of(const Scene& scene, const MassShare& share, double h) {
   MassSettings settings;
   settings.sweeps = mass_sweeps(scene.settings.accuracy);
   settings.most_sweeps = std::max(settings.sweeps, mass::most_sweeps);
-  if (t == 0) settings.sweeps = settings.most_sweeps = mass::first_sweeps;
   settings.settled = mass::settled * scene.gravity.norm() * h;
   settings.compliance = mass_compliance(scene, share);
   settings.shear_ratio = scene.settings.shear_ratio;
@@ -50,14 +49,16 @@ bool attempt(const Scene& scene, double t, double h, const MassSettings& setting
 
 }  // namespace
 
-bool make_mass_substep(const Scene& scene, double t, double h, State& state, Work& work,
-                       StepReport& report) {
+bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, State& state,
+                       Work& work, StepReport& report) {
   IslandScratch& island = work.island;
   MassScratch& w = work.mass;
   island.system.outsider = -1;
   for (int cuts = 0;; ++cuts) {
     const MassShare& share = state.mass[island.members.block(0)];
-    if (!attempt(scene, t, h, settings_of(scene, share, t, h), state, work)) return false;
+    if (!(is_tried && cuts == 0) &&
+        !attempt(scene, t, h, settings_of(scene, share, h), state, work))
+      return false;
     report.passes += w.solved.sweeps;
     const StageTimer timer(island.clock, IslandStage::accept);
     const double used_up = time_to_first_break(scene, state.yielding, w.pushes, h);
@@ -74,9 +75,14 @@ bool make_mass_substep(const Scene& scene, double t, double h, State& state, Wor
 
 bool begins_as_mass(const Scene& scene, double h, State& state, Work& work) {
   const IslandMembers& members = work.island.members;
-  if (!may_be_mass(scene, members, state)) return false;
-  return attempt(scene, 0, h, settings_of(scene, {}, 0, h), state, work) &&
-         leaves_as_mass(scene, members, work.island.free, work.mass, state);
+  MassScratch& w = work.mass;
+  MassSettings settings = settings_of(scene, {}, h);
+  settings.sweeps = mass::first_sweeps;
+  settings.most_sweeps = mass::most_first_sweeps;
+  settings.from_rest = true;
+  return may_be_mass(scene, members, state) && attempt(scene, 0, h, settings, state, work) &&
+         has_settled(scene, h, w.solved.change) &&
+         leaves_as_mass(scene, members, work.island.free, w, state);
 }
 
 }  // namespace talus

@@ -11,12 +11,13 @@ namespace talus {
 
 /// Makes a substep of at most `h` from `t`; pairs are those of work.search, manifolds and members
 /// those of work.island. False: nothing was done, a member is off the known ground
-/// (IslandSystem::outsider).
-bool make_mass_substep(const Scene& scene, double t, double h, State& state, Work& work,
-                       StepReport& report);
+/// (IslandSystem::outsider). `is_tried`: begins_as_mass() has just tried it over the same `h`.
+bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, State& state,
+                       Work& work, StepReport& report);
 
-/// At the start of a run: makes the first substep of `h` with most sweeps, for leaves_as_mass().
-/// Nothing of the substep is kept.
+/// Whether an island is a mass from the start of a run, when nothing moves yet and no contact knows
+/// what it carries: tries the first substep, of `h`, from rest. Where that settles it asks
+/// leaves_as_mass(); else the run begins exact.
 [[nodiscard]] bool begins_as_mass(const Scene& scene, double h, State& state, Work& work);
 
 }  // namespace talus
