@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "solver/mass_lanes.hpp"
 #include "solver/mass_sweeps.hpp"
@@ -17,7 +17,6 @@ namespace {
 
 using std::size_t;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int n_colour_bits = 64;
 constexpr int alone = n_colour_bits - 1;  // pairs of it share bodies: each has a batch to itself
 constexpr int most_rows = 16;             // pairs with more count as this when they are sorted
@@ -158,6 +157,26 @@ void clear(MassSystem& system) {
   system.arms.clear();
 }
 
+int layers_on_ground(const MassSystem& system) {
+  std::vector<int> layer(system.inertia.size(), 0);  // 0: not reached
+  int n_layers = 0;
+  for (bool any = true; any;) {
+    any = false;
+    for (const MassPair& pair : system.pairs) {
+      const int below = pair.b < 0 ? 0 : layer[pair.b];
+      for (const auto& [body, other] :
+           {std::pair(pair.a, below), std::pair(pair.b, layer[pair.a])}) {
+        if (body < 0 || (other == 0 && pair.b >= 0)) continue;
+        if (layer[body] != 0 && layer[body] <= other + 1) continue;
+        layer[body] = other + 1;
+        any = true;
+      }
+    }
+  }
+  for (const int k : layer) n_layers = std::max(n_layers, k);
+  return n_layers;
+}
+
 int widest_mass_lanes() { return has_eight_mass_lanes() ? 8 : 4; }
 
 MassResult solve_mass(const MassSettings& settings, MassSystem& s, int width) {
@@ -182,20 +201,13 @@ MassResult solve_mass(const MassSettings& settings, MassSystem& s, int width) {
   };
   run(MassPass::fill);
   run(MassPass::apply);
-  double last = 0;  // how much doubling the sweeps changed
   for (int planned = settings.sweeps;; planned = std::min(2 * planned, settings.most_sweeps)) {
-    if (settings.from_rest) s.before = s.change;
     for (; result.sweeps < planned; ++result.sweeps) {
-      if (!settings.from_rest && result.sweeps + 1 == planned) s.before = s.change;
+      if (result.sweeps + 1 == planned) s.before = s.change;
       run(MassPass::sweep);
       sweep_turns(s);
     }
     result.change = change_since_before(s);
-    if (settings.from_rest) {
-      const double now = result.change;
-      result.change = now < last ? now * now / (last - now) : infinity;
-      if (planned > settings.sweeps) last = now;
-    }
     if (result.change <= settings.settled || planned >= settings.most_sweeps) break;
   }
   run(MassPass::empty);

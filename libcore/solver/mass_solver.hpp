@@ -45,18 +45,14 @@ struct MassSettings {
   int sweeps = 0;          ///< at least, > 0; they double ...
   int most_sweeps = 0;     ///< ... up to this ...
   double settled = 0;      ///< ... while the last one changes velocities by more [m/s]
-  bool from_rest = false;  ///< no row knows its impulse: see MassResult::change
   double compliance = 0;   ///< > 0 [-]
   double shear_ratio = 0;  ///< > 0 [-]
 };
 
 struct MassResult {
-  int sweeps = 0;  ///< beyond the one that applies the impulses of the last step
-  /// Of velocities in the last of them: root of the mean square over the bodies or over the mass,
-  /// whichever is larger [m/s]. From rest: what is still to come, by geometric series, after
-  /// doubling the sweeps has changed them by d_1 and then by d_2: d_2^2 / (d_1 - d_2), and infinite
-  /// where d_2 >= d_1, as in a high column, through which support rises slowly.
-  double change = 0;
+  int sweeps = 0;     ///< beyond the one that applies the impulses of the last step
+  double change = 0;  ///< of velocities in the last of them: root of the mean square over the
+                      ///< bodies or over the mass, whichever is larger [m/s]
   int n_colours = 0;
 };
 
@@ -80,6 +76,9 @@ struct MassSystem {  // clang-format off
 
 /// Empties bodies, pairs and rows.
 void clear(MassSystem& system);
+
+/// Bodies, one on the other, from the ground to the body that is the most of them away from it.
+[[nodiscard]] int layers_on_ground(const MassSystem& system);
 
 /// Fills the impulses of rows and turns. `width`: lanes computed at a time, 4 or 8; the same bits.
 MassResult solve_mass(const MassSettings& settings, MassSystem& system, int width);

@@ -22,29 +22,30 @@ MassSettings settings_of(const Scene& scene, const MassShare& share, double h) {
   return settings;
 }
 
-// Stages 1 to 4. False: a member is off the known ground.
-bool attempt(const Scene& scene, double t, double h, const MassSettings& settings,
-             const State& state, Work& work) {
+// Stages 1 and 2. False: a member is off the known ground.
+bool predict_contacts(const Scene& scene, double t, double h, const State& state, Work& work) {
   IslandScratch& island = work.island;
-  MassScratch& w = work.mass;
   {
     const StageTimer timer(island.clock, IslandStage::predict);
     predict_free(scene, state, island.members, t, h, island.free);
   }
-  {
-    const StageTimer timer(island.clock, IslandStage::make_contacts);
-    if (!make_mass_contacts(scene, state, work.search, island.manifolds, island.members,
-                            island.free, work.near_ground, island.making, w,
-                            island.system.outsider))
-      return false;
-  }
+  const StageTimer timer(island.clock, IslandStage::make_contacts);
+  return make_mass_contacts(scene, state, work.search, island.manifolds, island.members,
+                            island.free, work.near_ground, island.making, work.mass,
+                            island.system.outsider);
+}
+
+// Stages 3 and 4.
+void solve_contacts(const Scene& scene, const MassSettings& settings, const State& state,
+                    Work& work) {
+  IslandScratch& island = work.island;
+  MassScratch& w = work.mass;
   {
     const StageTimer timer(island.clock, IslandStage::solve);
     w.solved = solve_mass(settings, w.system, widest_mass_lanes());
   }
   const StageTimer timer(island.clock, IslandStage::accept);
   find_mass_changes(scene, state, work.search, island.members, island.free, w);
-  return true;
 }
 
 }  // namespace
@@ -56,9 +57,10 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
   island.system.outsider = -1;
   for (int cuts = 0;; ++cuts) {
     const MassShare& share = state.mass[island.members.block(0)];
-    if (!(is_tried && cuts == 0) &&
-        !attempt(scene, t, h, settings_of(scene, share, h), state, work))
-      return false;
+    if (!is_tried || cuts > 0) {
+      if (!predict_contacts(scene, t, h, state, work)) return false;
+      solve_contacts(scene, settings_of(scene, share, h), state, work);
+    }
     report.passes += w.solved.sweeps;
     const StageTimer timer(island.clock, IslandStage::accept);
     const double used_up = time_to_first_break(scene, state.yielding, w.pushes, h);
@@ -76,12 +78,15 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
 bool begins_as_mass(const Scene& scene, double h, State& state, Work& work) {
   const IslandMembers& members = work.island.members;
   MassScratch& w = work.mass;
+  if (!may_be_mass(scene, members, state) || !predict_contacts(scene, 0, h, state, work))
+    return false;
+  const int layers = layers_on_ground(w.system);
   MassSettings settings = settings_of(scene, {}, h);
-  settings.sweeps = mass::first_sweeps;
   settings.most_sweeps = mass::most_first_sweeps;
-  settings.from_rest = true;
-  return may_be_mass(scene, members, state) && attempt(scene, 0, h, settings, state, work) &&
-         has_settled(scene, h, w.solved.change) &&
+  settings.sweeps = std::max(mass::most_sweeps, mass::sweeps_per_square_layer * layers * layers);
+  if (settings.sweeps > settings.most_sweeps) return false;
+  solve_contacts(scene, settings, state, work);
+  return has_settled(scene, h, w.solved.change) &&
          leaves_as_mass(scene, members, work.island.free, w, state);
 }
 

@@ -16,8 +16,9 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
                        Work& work, StepReport& report);
 
 /// Whether an island is a mass from the start of a run, when nothing moves yet and no contact knows
-/// what it carries: tries the first substep, of `h`, from rest. Where that settles it asks
-/// leaves_as_mass(); else the run begins exact.
+/// what it carries: tries the first substep, of `h`, with as many sweeps as let support rise
+/// through all layers of blocks. Where that settles it asks leaves_as_mass(); else the run begins
+/// exact.
 [[nodiscard]] bool begins_as_mass(const Scene& scene, double h, State& state, Work& work);
 
 }  // namespace talus
