@@ -40,7 +40,7 @@ struct Settings {
   bool flight = true;           ///< law talus: no search while nothing can be hit; same motion
   bool block_contacts = true;   ///< blocks touch each other; off, each moves as if alone
   bool trn_contacts = true;  ///< law talus: blocks touch the TRN; off, fixed bodies are the slope
-  bool masses = false;       ///< law talus: many moving blocks take the mass step
+  bool masses = true;        ///< law talus: many moving blocks take the mass step
   bool sleep = true;         ///< law talus: blocks at rest are left out
   PaperSettings paper;
 };

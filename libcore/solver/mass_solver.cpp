@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <limits>
 
 #include "solver/mass_lanes.hpp"
 #include "solver/mass_sweeps.hpp"
@@ -158,22 +158,22 @@ void clear(MassSystem& system) {
 }
 
 int layers_on_ground(const MassSystem& system) {
-  std::vector<int> layer(system.inertia.size(), 0);  // 0: not reached
-  int n_layers = 0;
+  constexpr int unreached = std::numeric_limits<int>::max() - 1;
+  std::vector<int> layer(system.inertia.size(), unreached);
+  const auto put_on = [&](int body, int layer_below) {
+    const bool is_nearer = layer_below + 1 < layer[body];
+    if (is_nearer) layer[body] = layer_below + 1;
+    return is_nearer;
+  };
   for (bool any = true; any;) {
     any = false;
     for (const MassPair& pair : system.pairs) {
-      const int below = pair.b < 0 ? 0 : layer[pair.b];
-      for (const auto& [body, other] :
-           {std::pair(pair.a, below), std::pair(pair.b, layer[pair.a])}) {
-        if (body < 0 || (other == 0 && pair.b >= 0)) continue;
-        if (layer[body] != 0 && layer[body] <= other + 1) continue;
-        layer[body] = other + 1;
-        any = true;
-      }
+      any |= put_on(pair.a, pair.b < 0 ? 0 : layer[pair.b]);
+      if (pair.b >= 0) any |= put_on(pair.b, layer[pair.a]);
     }
   }
-  for (const int k : layer) n_layers = std::max(n_layers, k);
+  int n_layers = 0;
+  for (const int k : layer) n_layers = std::max(n_layers, k == unreached ? 0 : k);
   return n_layers;
 }
 
@@ -202,8 +202,9 @@ MassResult solve_mass(const MassSettings& settings, MassSystem& s, int width) {
   run(MassPass::fill);
   run(MassPass::apply);
   for (int planned = settings.sweeps;; planned = std::min(2 * planned, settings.most_sweeps)) {
+    const int measured_from = settings.from_rest ? result.sweeps : planned - 1;
     for (; result.sweeps < planned; ++result.sweeps) {
-      if (result.sweeps + 1 == planned) s.before = s.change;
+      if (result.sweeps == measured_from) s.before = s.change;
       run(MassPass::sweep);
       sweep_turns(s);
     }

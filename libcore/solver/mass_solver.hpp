@@ -45,14 +45,16 @@ struct MassSettings {
   int sweeps = 0;          ///< at least, > 0; they double ...
   int most_sweeps = 0;     ///< ... up to this ...
   double settled = 0;      ///< ... while the last one changes velocities by more [m/s]
+  bool from_rest = false;  ///< no row knows its impulse: ... while all since the last doubling do
   double compliance = 0;   ///< > 0 [-]
   double shear_ratio = 0;  ///< > 0 [-]
 };
 
 struct MassResult {
   int sweeps = 0;     ///< beyond the one that applies the impulses of the last step
-  double change = 0;  ///< of velocities in the last of them: root of the mean square over the
-                      ///< bodies or over the mass, whichever is larger [m/s]
+  double change = 0;  ///< of velocities in the last of them, or in the last half of them where the
+                      ///< mass is from rest: root of the mean square over the bodies or over the
+                      ///< mass, whichever is larger [m/s]
   int n_colours = 0;
 };
 

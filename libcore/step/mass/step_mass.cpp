@@ -82,8 +82,9 @@ bool begins_as_mass(const Scene& scene, double h, State& state, Work& work) {
     return false;
   const int layers = layers_on_ground(w.system);
   MassSettings settings = settings_of(scene, {}, h);
-  settings.most_sweeps = mass::most_first_sweeps;
   settings.sweeps = std::max(mass::most_sweeps, mass::sweeps_per_square_layer * layers * layers);
+  settings.most_sweeps = mass::most_first_sweeps;
+  settings.from_rest = true;
   if (settings.sweeps > settings.most_sweeps) return false;
   solve_contacts(scene, settings, state, work);
   return has_settled(scene, h, w.solved.change) &&

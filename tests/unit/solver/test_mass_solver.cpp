@@ -202,4 +202,20 @@ TEST(MassSolver, ResistsRolling) {
   }
 }
 
+// Two columns on the ground, the second held up by the first too; a body that touches nothing.
+TEST(MassSolver, LayersAreCountedFromTheGround) {
+  MassSystem system;
+  for (int k = 0; k < 8; ++k) add_body(1, system);
+  const auto touch = [&](int a, int b) { system.pairs.push_back({.a = a, .b = b}); };
+  EXPECT_EQ(talus::layers_on_ground(system), 0);
+  touch(3, 2), touch(1, 2), touch(1, 0), touch(0, -1);
+  EXPECT_EQ(talus::layers_on_ground(system), 4);
+  touch(4, -1), touch(4, 5), touch(6, 5);
+  EXPECT_EQ(talus::layers_on_ground(system), 4);
+  touch(6, 3);
+  EXPECT_EQ(talus::layers_on_ground(system), 4);
+  touch(3, -1);
+  EXPECT_EQ(talus::layers_on_ground(system), 2);
+}
+
 }  // namespace

@@ -154,6 +154,23 @@ TEST(MassStep, IsAskedForWhereManyBlocksMove) {
   EXPECT_EQ(run(scene_of_lattice(resting, with_masses(true)), 0.2).steps_in_mass, 0);
 }
 
+// At the start nothing moves and no contact knows what it carries.
+TEST(MassStep, BeginsWhereManyBlocksLeave) {
+  const auto in_first_step = [](const Lattice& lattice) {
+    const Scene scene = scene_of_lattice(lattice, with_masses(true));
+    return n_in_mass(run(scene, 0.005).state);
+  };
+  EXPECT_EQ(in_first_step({}), 64);
+  Lattice columns;
+  columns.across = 1;
+  columns.dip_deg = 0;
+  for (const int high : {6, 10, 20, 30}) {  // that stand
+    columns.along = 180 / high;
+    columns.high = high;
+    EXPECT_EQ(in_first_step(columns), 0) << high;
+  }
+}
+
 // --- closed forms ------------------------------------------------------------------------------
 
 // A lattice that slides as one: g (sin - mu cos).
