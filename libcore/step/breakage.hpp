@@ -10,6 +10,8 @@
 // angular momentum and energy stay. G A and the energy that drives them apart come out of E.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "contact/contact.hpp"
@@ -29,6 +31,22 @@ inline void add_hit_loss(int b, double loss, State& state) {
 /// `dissipated`.
 void add_ground_hit_loss(const Scene& scene, int b, const Motion& before, const Motion& after,
                          std::span<const Contact> contacts, double dissipated, State& state);
+
+/// Adds what hits take; for_each(take) calls take(block a, block b, loss) for each. The ground and
+/// fixed bodies (b < 0) have no part in it; two blocks have half of it each. Where a hit is passed
+/// on through a block, one contact takes what another gives back (loss < 0): all together have what
+/// the hits of the substep took, so that breaking takes no more.
+template <class ForEach>
+void add_hit_losses(const ForEach& for_each, State& state) {
+  double taken = 0, given = 0;
+  for_each([&](int, int, double loss) { (loss > 0 ? taken : given) += std::abs(loss); });
+  if (taken <= given) return;
+  for_each([&](int a, int b, double found) {
+    const double loss = std::max(0.0, found) * (1 - given / taken);
+    add_hit_loss(a, b < 0 ? loss : loss / 2, state);
+    add_hit_loss(b, loss / 2, state);
+  });
+}
 
 /// That a section breaks on which `loss` was lost and that takes `work` [J]: 1 - 2^-(loss/work)^k.
 [[nodiscard]] double chance_of_breaking(double loss, double work, double spread);

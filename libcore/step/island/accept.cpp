@@ -61,21 +61,6 @@ struct SubstepAcceptance {
     return -lane.normal().dot(lane.impulse()) * lane.normal().dot(path);
   }
 
-  // What hits take, the ground and fixed bodies have no part in; two blocks have half of it each.
-  // Where a hit is passed on through a block, one contact takes what another gives back: all
-  // together have what the hits of the substep took, so that breaking takes no more.
-  void add_hit_losses() {
-    double taken = 0, given = 0;
-    const auto sum = [&](int, int, double loss) { (loss > 0 ? taken : given) += std::abs(loss); };
-    for_each_hit_loss(sum);
-    if (taken <= given) return;
-    for_each_hit_loss([&](int a, int b, double found) {
-      const double loss = std::max(0.0, found) * (1 - given / taken);
-      add_hit_loss(a, b < 0 ? loss : loss / 2, state);
-      add_hit_loss(b, loss / 2, state);
-    });
-  }
-
   // Calls take(block a, block b, loss) for every contact that was hit, and where hits were stopped.
   template <class Take>
   void for_each_hit_loss(const Take& take) const {
@@ -189,7 +174,8 @@ struct SubstepAcceptance {
       if (pair.b < 0 && !gives_way(system, r)) end.ground_impulse[pair.a] += lane.impulse();
       remember_contact(r, path, overlap);
     }
-    if (!state.hit_loss.empty()) add_hit_losses();
+    if (!state.hit_loss.empty())
+      add_hit_losses([&](const auto& take) { for_each_hit_loss(take); }, state);
     if (!state.load.empty()) add_hit_loads();
   }
 

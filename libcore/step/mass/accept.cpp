@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/make_room.hpp"
-#include "motion/rotation.hpp"
+#include "motion/free_rotation.hpp"
 #include "scene/fence.hpp"
 #include "scene/stems.hpp"
 #include "scene/yielding.hpp"
@@ -47,14 +47,14 @@ struct MassEnd {
   const FreeMotions& free;
   const MassScratch& w;
 
-  // Velocity of the points of `row` relative to each other: `share` 0 without contact, 1 with, at
-  // the end of the step.
+  // Velocity of the points of `row` relative to each other: `share` 0 without contact, 1 with; of
+  // the centroids at the end of the step, of turning in its middle.
   [[nodiscard]] Vec3 velocity(const MassPair& pair, const PressedRow& row, double share) const {
     const auto at = [&](int k, const Vec3& arm) -> Vec3 {
       const MassMember& m = w.members[k];
       const MassChange& change = w.changes[k];
       return m.velocity_end + share * change.velocity +
-             (m.spin_end + share * change.spin).cross(arm);
+             (m.spin + share * change.spin).cross(arm);
     };
     return pair.b < 0 ? at(pair.a, row.arm_a) : Vec3(at(pair.a, row.arm_a) - at(pair.b, row.arm_b));
   }
@@ -117,7 +117,7 @@ void sum_impulses(const MassEnd& end, std::vector<MassChange>& changes) {
     changes[w.system.pairs[turn.pair].a].couple += turn.couple;
   for (size_t k = 0; k < changes.size(); ++k) {
     changes[k].velocity = end.members.numbers[k].per_mass * changes[k].impulse;
-    changes[k].spin = end.free.turns[k].per_inertia * changes[k].couple;
+    changes[k].spin = w.members[k].per_inertia * changes[k].couple;
   }
 }
 
@@ -171,10 +171,18 @@ struct MassAcceptance : MassEnd {
       add_load(scene, contact.a, row.normal, row.p_n, row.impulse, state);
       add_load(scene, contact.b, row.normal, row.p_n, -row.impulse, state);
     }
-    if (!state.hit_loss.empty() && contact.is_hit && loss > 0) {
-      add_hit_loss(contact.a, contact.b < 0 ? loss : loss / 2, state);
-      add_hit_loss(contact.b, loss / 2, state);
-    }
+  }
+
+  void add_losses_of_hits() {
+    add_hit_losses(
+        [&](const auto& take) {
+          for_each_pressed([&](size_t r, const MassPair& pair, const PressedRow& row) {
+            const MassContact& contact = w.contacts[r];
+            if (contact.is_hit)
+              take(contact.a, contact.b, -row.p_n * row.normal.dot(path(pair, row)));
+          });
+        },
+        state);
   }
 
   // What the exact step would remember of the contact, had it pressed so: it goes on with the same
@@ -212,6 +220,7 @@ struct MassAcceptance : MassEnd {
       account(contact, pair, row);
       remember(r, row, gap);
     });
+    if (!state.hit_loss.empty()) add_losses_of_hits();
     for (const MassTurn& turn : w.system.turns) {
       const MassChange& change = w.changes[w.system.pairs[turn.pair].a];
       state.ledger.rolling -= turn.couple.dot(turn.spin + change.spin / 2);
@@ -244,9 +253,12 @@ struct MassAcceptance : MassEnd {
     const Substep& s = free.substeps[k];
     const MassChange& change = w.changes[k];
     Motion out = s.free;
+    if (!change.pressed) return out;
+    const MassMember& m = w.members[k];
     out.velocity += change.velocity;
     out.pose.position += free.h / 2 * change.velocity;
-    out.pose.attitude = (rotation_by(free.h / 2 * change.spin) * s.free.pose.attitude).normalized();
+    out.pose.attitude = free_rotation(m.attitude, m.momentum + change.couple,
+                                      members.numbers[k].inertia, free.h / 2);
     out.angular_momentum += change.couple;
     return out;
   }

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/free_rotation.hpp"
 #include "scene/bonds.hpp"
 #include "scene/stems.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
 #include "solver/mass_numbers.hpp"
 #include "step/island/stems.hpp"
+#include "step/loads.hpp"
 #include "step/mass/stages.hpp"
 #include "step/soil.hpp"
 #include "step/substep.hpp"
@@ -70,12 +72,24 @@ struct MassMaker {
     m.velocity_end = s.free.velocity;
     m.spin_start = turn.spin_start;
     m.spin_end = turn.spin_end;
+    set_middle(members.numbers[k], members.block(k), s, m);
     w.members.push_back(m);
-    const Mat3& P = turn.per_inertia;
+    const Mat3& P = m.per_inertia;
     const auto single = [](double x) { return static_cast<float>(x); };
     w.system.inertia.push_back(
         {single(P(0, 0)), single(P(1, 1)), single(P(2, 2)), single(P(0, 1)), single(P(0, 2)),
          single(P(1, 2)), single(members.numbers[k].per_mass), single(members.numbers[k].radius)});
+  }
+
+  void set_middle(const BlockNumbers& c, size_t b, const Substep& s, MassMember& m) const {
+    const Pose& start = s.start.pose;
+    m.momentum = s.start.angular_momentum;
+    if (!scene.loads.empty())  // as predict() has it
+      m.momentum += free.h / 2 * load_torque(scene, static_cast<int>(b), start.attitude);
+    m.attitude = free_rotation(start.attitude, m.momentum, c.inertia, free.h / 2);
+    const Mat3 R = m.attitude.toRotationMatrix();
+    m.per_inertia = R * c.per_inertia.asDiagonal() * R.transpose();
+    m.spin = m.per_inertia * m.momentum;
   }
 
   void open_pair(int a, int b) {
@@ -216,7 +230,7 @@ struct MassMaker {
     turn.arm_begin = static_cast<int>(w.system.arms.size());
     turn.damping = turn_damping(scene, members.numbers[k], free.h);
     turn.inertia = members.numbers[k].inertia.minCoeff();
-    turn.spin = w.members[k].spin_end;
+    turn.spin = w.members[k].spin;
     for (int r = pair.row_begin; r < pair.row_end; ++r)
       w.system.arms.push_back(arm_on(scene, class_of(r), members.blocks[k]));
     w.system.turns.push_back(turn);

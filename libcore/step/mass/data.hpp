@@ -21,6 +21,11 @@ struct MassMember {
   Mat3 turned = Mat3::Zero();         ///< rotation from start to free end, less identity
   Vec3 velocity_start, velocity_end;  ///< [m/s]
   Vec3 spin_start, spin_end;          ///< local axes [rad/s]
+  // Contacts turn it at mid-step: what they do is exact there whatever its moments of inertia.
+  Quat attitude = Quat::Identity();  ///< at mid-step
+  Vec3 momentum;                     ///< ... angular, without contact [kg m2/s]
+  Vec3 spin;                         ///< ... local axes [rad/s]
+  Mat3 per_inertia;                  ///< ... inverse of the inertia, local axes [1/(kg m2)]
 };
 
 /// A contact of the mass, beside its row in the solver.
