@@ -53,8 +53,7 @@ struct MassEnd {
     const auto at = [&](int k, const Vec3& arm) -> Vec3 {
       const MassMember& m = w.members[k];
       const MassChange& change = w.changes[k];
-      return m.velocity_end + share * change.velocity +
-             (m.spin + share * change.spin).cross(arm);
+      return m.velocity_end + share * change.velocity + (m.spin + share * change.spin).cross(arm);
     };
     return pair.b < 0 ? at(pair.a, row.arm_a) : Vec3(at(pair.a, row.arm_a) - at(pair.b, row.arm_b));
   }
