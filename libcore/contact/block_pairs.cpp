@@ -11,9 +11,13 @@ namespace {
 
 constexpr double look_now = -std::numeric_limits<double>::infinity();
 constexpr double features_hold_ratio = 1e-3;  // motion that features outlast, of the thickness
+constexpr double passing_hold_ratio = 2e-2;   // ... of pairs in a mass that pass each other ...
+constexpr double passing_ratio = 1e-4;        // ... by more than this in a step
 constexpr double skin_ratio = 0.1;            // motion budget of a body, of its radius ...
 constexpr double steps_ahead = 20;            // ... and along the motion of so many steps ahead ...
 constexpr double farthest_ahead = 0.5;        // ... up to this part of its radius
+constexpr std::size_t pairs_a_thread = 256;   // of the list, that a thread looks at in one go ...
+constexpr std::size_t most_looks = 64;        // ... in no more parts
 
 int n_free(const Hulls& hulls, const PairMotion& motion) {
   return n_bodies(hulls) - motion.n_fixed;
@@ -268,18 +272,16 @@ struct Search {
   const PairSettings& settings;
   PairState& state;
   Arrangement& arrangement;
-  PairWork& work;
-  PairReport& report;
+  const std::vector<double>& reach;  // with what the bodies may have moved since the list was made
+  ListLook& look;
 };
 
 bool is_awake(const Search& s, int b) {
   return !is_fixed(s.hulls, s.motion, b) && (s.motion.awake.empty() || s.motion.awake[b] != 0);
 }
 
-// With everything that body b may have moved since the list was made.
 double reach_of(const Search& s, int b) {
-  return is_fixed(s.hulls, s.motion, b) ? fixed_reach(s.settings) + s.state.travel[b]
-                                        : s.work.reach[b];
+  return is_fixed(s.hulls, s.motion, b) ? fixed_reach(s.settings) + s.state.travel[b] : s.reach[b];
 }
 
 double pair_margin(const Search& s, int a, int b) {
@@ -301,16 +303,16 @@ std::span<const HeldPoint> held_before(const Search& s, const ListedPair& pair) 
 
 // Searches axis and features of a pair.
 void search_all(const Search& s, const PairWatch& watch, double margin, ListedPair& pair) {
-  ++s.report.n_searched;
+  ++s.look.n_searched;
   const std::span<const HeldPoint> before = held_before(s, pair);
-  pair.held_begin = static_cast<int>(s.work.next_held.size());
+  pair.held_begin = static_cast<int>(s.look.held.size());
   const ContactSearch found = search_contact(
       s.hulls, s.placed, watch.part_a, watch.part_b, margin, pair.touches ? pair.axis : PairAxis{},
-      s.settings.with_areas, s.work.axis, s.work.clip, s.work.next_held);
+      s.settings.with_areas, s.look.axis, s.look.clip, s.look.held);
   if (found.choice.touches)
     keep_edges(s.hulls, s.placed, watch.part_a, watch.part_b, before, found.choice.normal,
-               static_cast<std::size_t>(pair.held_begin), s.work.next_held);
-  pair.held_end = static_cast<int>(s.work.next_held.size());
+               static_cast<std::size_t>(pair.held_begin), s.look.held);
+  pair.held_end = static_cast<int>(s.look.held.size());
   pair.axis = found.choice.axis;
   pair.near_edges = found.choice.near_edges;
   pair.touches = found.choice.touches;
@@ -323,44 +325,77 @@ void search_all(const Search& s, const PairWatch& watch, double margin, ListedPa
 
 // Searches the features of a pair that touches along a known axis; false when none meet.
 bool search_features(const Search& s, const PairWatch& watch, ListedPair& pair) {
-  ++s.report.n_clipped;
+  ++s.look.n_clipped;
   const std::span<const HeldPoint> before = held_before(s, pair);
-  const auto begin = s.work.next_held.size();
-  pair.held_begin = static_cast<int>(s.work.next_held.size());
+  const auto begin = s.look.held.size();
+  pair.held_begin = static_cast<int>(s.look.held.size());
   pair.incident = incident_of(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis);
   pair.area = find_features(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.incident,
-                            s.settings.with_areas, s.work.clip, s.work.next_held);
+                            s.settings.with_areas, s.look.clip, s.look.held);
   const Vec3 normal = axis_normal(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis);
   add_near_edges(s.hulls, s.placed, watch.part_a, watch.part_b, pair.near_edges, normal, begin,
-                 s.work.next_held);
-  keep_edges(s.hulls, s.placed, watch.part_a, watch.part_b, before, normal, begin,
-             s.work.next_held);
-  pair.held_end = static_cast<int>(s.work.next_held.size());
+                 s.look.held);
+  keep_edges(s.hulls, s.placed, watch.part_a, watch.part_b, before, normal, begin, s.look.held);
+  pair.held_end = static_cast<int>(s.look.held.size());
   return pair.held_end > pair.held_begin;
 }
 
 void keep_features(const Search& s, ListedPair& pair) {
-  const int begin = static_cast<int>(s.work.next_held.size());
-  s.work.next_held.insert(s.work.next_held.end(), s.state.held.begin() + pair.held_begin,
-                          s.state.held.begin() + pair.held_end);
+  const int begin = static_cast<int>(s.look.held.size());
+  s.look.held.insert(s.look.held.end(), s.state.held.begin() + pair.held_begin,
+                     s.state.held.begin() + pair.held_end);
   pair.held_begin = begin;
-  pair.held_end = static_cast<int>(s.work.next_held.size());
+  pair.held_end = static_cast<int>(s.look.held.size());
+}
+
+// Whether a pair needs no points that do not close in the step.
+bool closes_only(const Search& s, const PairWatch& watch) {
+  const std::span<const std::uint8_t> closing_only = s.motion.closing_only;
+  const int a = s.hulls.body[watch.part_a], b = s.hulls.body[watch.part_b];
+  return !closing_only.empty() && closing_only[a] != 0 &&
+         (is_fixed(s.hulls, s.motion, b) || closing_only[b] != 0);
+}
+
+// Which points a pair needs along its axis.
+PointReach point_reach(const Search& s, const PairWatch& watch, double margin, const Vec3& normal) {
+  PointReach reach;
+  reach.margin = margin;
+  const PairMotion& motion = s.motion;
+  const int a = s.hulls.body[watch.part_a], b = s.hulls.body[watch.part_b];
+  const bool on_fixed = is_fixed(s.hulls, motion, b);
+  if (!closes_only(s, watch)) return reach;
+  // the end of a turn is nearer to its start than by its chord: half the square of the angle
+  double bent = motion.rotation[a].norm() * motion.turn[a];
+  Vec3 along = normal.cross(motion.rotation[a]);
+  reach.opens_at_origin = normal.dot(motion.step[a]) - along.dot(s.placed.position[a]);
+  reach.opens_along = along;
+  if (!on_fixed) {
+    bent += motion.rotation[b].norm() * motion.turn[b];
+    along = normal.cross(motion.rotation[b]);
+    reach.opens_at_origin -= normal.dot(motion.step[b]) - along.dot(s.placed.position[b]);
+    reach.opens_along -= along;
+  }
+  reach.closing =
+      std::max(s.settings.closing, graze_height(s.hulls, s.settings, watch.part_a, watch.part_b)) +
+      bent;
+  return reach;
 }
 
 // Contacts of a pair whose axis is known. `moved`: since its features were searched.
 void add_contacts(const Search& s, const PairWatch& watch, double moved, double margin,
                   const Vec3& normal, ListedPair& pair) {
-  const std::span<const HeldPoint> held(s.work.next_held.data() + pair.held_begin,
-                                        s.work.next_held.data() + pair.held_end);
+  const std::span<const HeldPoint> held(s.look.held.data() + pair.held_begin,
+                                        s.look.held.data() + pair.held_end);
   add_manifold(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.incident, normal,
-               pair.area, margin, held, s.work.manifolds, s.work.points);
-  if (!has_points(s.work.manifolds.back())) {
+               pair.area, point_reach(s, watch, margin, normal), held, s.look.manifolds,
+               s.look.points);
+  if (!has_points(s.look.manifolds.back())) {
     if (apart_along(s.hulls, s.placed, watch.part_a, watch.part_b, normal) > margin)
-      s.work.manifolds.pop_back();
+      s.look.manifolds.pop_back();
     return;
   }
   if (pair.other_face + moved >= -graze_height(s.hulls, s.settings, watch.part_a, watch.part_b))
-    s.work.shallow.push_back(static_cast<int>(s.work.manifolds.size()) - 1);
+    s.look.shallow.push_back(static_cast<int>(s.look.manifolds.size()) - 1);
 }
 
 // Where the bodies of a pair are, and how far they moved since that was last noted in the pair.
@@ -402,7 +437,11 @@ void refresh(const Search& s, const PairWatch& watch, Lookup& now, ListedPair& p
   const double thickness =
       std::min(s.hulls.thickness[watch.part_a], s.hulls.thickness[watch.part_b]);
   const bool known = s.settings.use_cache && pair.touches && now.moved <= pair.hold;
-  if (known && now.moved <= features_hold_ratio * thickness) return keep_features(s, pair);
+  // what passes by in a mass has other features soon anyway
+  const bool passes_by =
+      closes_only(s, watch) && now.margin - s.settings.margin > passing_ratio * thickness;
+  const double hold = (passes_by ? passing_hold_ratio : features_hold_ratio) * thickness;
+  if (known && now.moved <= hold) return keep_features(s, pair);
   if (known && search_features(s, watch, pair)) {
     pair.hold -= now.moved;
     pair.other_face += now.moved;
@@ -431,20 +470,84 @@ void look_at(const Search& s, PairWatch& watch, ListedPair& pair) {
     add_contacts(s, watch, now.moved, now.margin, normal, pair);
 }
 
-void look_at_pairs(const Search& s) {
-  PairState& state = s.state;
-  s.work.next_held.clear();
-  for (int b = 0; b < n_free(s.hulls, s.motion); ++b) s.work.reach[b] += state.travel[b];
-  for (std::size_t i = 0; i < state.watch.size(); ++i) {
-    PairWatch& watch = state.watch[i];
-    if (is_absent(s.motion, s.hulls.body[watch.part_a]) ||
-        is_absent(s.motion, s.hulls.body[watch.part_b]))
-      continue;
-    const double reached =
-        reach_of(s, s.hulls.body[watch.part_a]) + reach_of(s, s.hulls.body[watch.part_b]);
-    if (!s.settings.use_cache || reached >= watch.wake) look_at(s, watch, state.pairs[i]);
+// The pairs [begin, end) of the list; `notes` which were looked at.
+void look_at_pairs(const Search& s, std::size_t begin, std::size_t end, bool notes) {
+  ListLook& look = s.look;
+  look.manifolds.clear();
+  look.points.clear();
+  look.held.clear();
+  look.shallow.clear();
+  look.looked_at.clear();
+  look.n_searched = look.n_clipped = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    PairWatch& watch = s.state.watch[i];
+    const int a = s.hulls.body[watch.part_a], b = s.hulls.body[watch.part_b];
+    if (is_absent(s.motion, a) || is_absent(s.motion, b)) continue;
+    if (s.settings.use_cache && reach_of(s, a) + reach_of(s, b) < watch.wake) continue;
+    look_at(s, watch, s.state.pairs[i]);
+    if (notes) look.looked_at.push_back(static_cast<int>(i));
   }
-  state.held.swap(s.work.next_held);
+}
+
+template <class T>
+void append(const std::vector<T>& from, std::vector<T>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+// Puts what several looks found behind each other, in the order of the list.
+void join_looks(std::span<const ListLook> looks, PairState& state, PairWork& work,
+                PairReport& report) {
+  state.held.clear();
+  for (const ListLook& look : looks) {
+    const auto first_held = static_cast<int>(state.held.size()),
+               first_point = static_cast<int>(work.points.size()),
+               first_manifold = static_cast<int>(work.manifolds.size());
+    for (const int i : look.looked_at) {
+      state.pairs[i].held_begin += first_held;
+      state.pairs[i].held_end += first_held;
+    }
+    append(look.held, state.held);
+    append(look.points, work.points);
+    append(look.manifolds, work.manifolds);
+    for (auto m = work.manifolds.begin() + first_manifold; m != work.manifolds.end(); ++m) {
+      m->point_begin += first_point;
+      m->point_end += first_point;
+    }
+    for (const int m : look.shallow) work.shallow.push_back(first_manifold + m);
+    report.n_searched += look.n_searched;
+    report.n_clipped += look.n_clipped;
+  }
+}
+
+void look_at_list(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
+                  const PairSettings& settings, PairState& state, Arrangement& arrangement,
+                  PairWork& work, PairReport& report) {
+  for (int b = 0; b < n_free(hulls, motion); ++b) work.reach[b] += state.travel[b];
+  const auto look_over = [&](ListLook& look, std::size_t begin, std::size_t end, bool notes) {
+    look_at_pairs({hulls, placed, motion, settings, state, arrangement, work.reach, look}, begin,
+                  end, notes);
+  };
+  const std::size_t n = state.watch.size();
+  // an arrangement is one at a time
+  const bool is_shared = settings.workers != nullptr && motion.own == nullptr && n > pairs_a_thread;
+  const std::size_t chunk = std::max(pairs_a_thread, n / most_looks + 1);
+  const std::size_t n_looks = is_shared ? (n + chunk - 1) / chunk : 1;
+  if (work.looks.size() < n_looks) work.looks.resize(n_looks);
+  if (!is_shared) {
+    ListLook& look = work.looks[0];
+    look_over(look, 0, n, false);
+    work.manifolds.swap(look.manifolds);
+    work.points.swap(look.points);
+    work.shallow.swap(look.shallow);
+    state.held.swap(look.held);
+    report.n_searched = look.n_searched;
+    report.n_clipped = look.n_clipped;
+    return;
+  }
+  settings.workers->run(static_cast<std::uint32_t>(n_looks), [&](std::uint32_t i) {
+    look_over(work.looks[i], i * chunk, std::min((i + 1) * chunk, n), true);
+  });
+  join_looks(std::span(work.looks).first(n_looks), state, work, report);
 }
 
 // Manifolds by free block that bear it for certain: closed within `graze`, and not shallow
@@ -561,7 +664,7 @@ PairReport find_pair_contacts(const Hulls& hulls, PlacedHulls& placed, const Pai
     report.n_fixed_near = relist(hulls, placed, motion, settings, state, arrangement, work);
     report.relisted = true;
   }
-  look_at_pairs({hulls, placed, motion, settings, state, arrangement, work, report});
+  look_at_list(hulls, placed, motion, settings, state, arrangement, work, report);
   report.n_listed = static_cast<int>(state.pairs.size());
   report.n_grazing = drop_grazing(hulls, placed, motion, settings, arrangement, work);
   arrangement.put_back();

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "base/workers.hpp"
 #include "contact/body_grid.hpp"
 #include "contact/hulls.hpp"
 #include "contact/manifold.hpp"
@@ -27,8 +28,10 @@ struct PairSettings {
   /// their thickness (plus graze_m) along another face normal, and another block already bears the
   /// body that way.
   double graze_ratio = 5e-3;
-  double graze_m = 0;     ///< at least the penetration that the solver leaves under load [m]
-  bool use_cache = true;  ///< off: list and axes are searched anew each time, for tests
+  double graze_m = 0;          ///< at least the penetration that the solver leaves under load [m]
+  bool use_cache = true;       ///< off: list and axes are searched anew each time, for tests
+  double closing = 0;     ///< points that come so near close, see PairMotion::closing_only [m]
+  Workers* workers = nullptr;  ///< share the listed pairs; nullptr: there are none
 };
 
 /// A fixed body that stands elsewhere than it did first, for one free body alone.
@@ -58,6 +61,9 @@ struct PairMotion {  // clang-format off
   const ShiftedBodies* own = nullptr;  ///< then none are in `shifted`, and travel of a fixed body
                                        ///< (PairState) is as long as all pushes together
   std::span<const std::uint8_t> absent = {};  ///< 1: touches nothing; empty: none      (n_free)
+  std::span<const std::uint8_t> closing_only = {};  ///< 1: needs no points with its like that do
+                                                    ///< not close in the step; empty: none (n_free)
+  std::span<const Vec3> rotation = {};  ///< rotation vector of those [rad]              (n_free)
 };  // clang-format on
 
 /// When a listed pair must be looked at again.
@@ -107,20 +113,31 @@ struct PairReport {
   bool relisted = false;
 };
 
+/// What is found at consecutive pairs of the list, and the scratch of one thread.
+struct ListLook {
+  std::vector<PairManifold> manifolds;
+  std::vector<PairPoint> points;
+  std::vector<HeldPoint> held;
+  std::vector<int> shallow;    ///< manifolds that may be grazing
+  std::vector<int> looked_at;  ///< of the list; where threads share it
+  int n_searched = 0, n_clipped = 0;
+  AxisScratch axis;
+  ClipScratch clip;
+};
+
 struct PairWork {
   /// Sorted by part_a, part_b. Parts within the margin of which no features lie above each other
   /// yet have a manifold without points: along another axis they may meet all the same.
   std::vector<PairManifold> manifolds;
   std::vector<PairPoint> points;  ///< manifold by manifold
   // scratch
+  std::vector<ListLook> looks;  ///< one where nobody shares the list
   AxisScratch axis;
-  ClipScratch clip;
   OverlapScratch overlaps;
   std::vector<Box> boxes;
   std::vector<std::array<int, 2>> close;
   std::vector<PairWatch> next_watch;
   std::vector<ListedPair> next_pairs;
-  std::vector<HeldPoint> next_held;
   std::vector<double> reach;  ///< how far each body may reach for contacts [m]
   std::vector<int> shallow;   ///< manifolds that may be grazing
   std::vector<int> bearing, dropped;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "base/workers.hpp"
 #include "contact/neighbours.hpp"
 #include "geometry/polyhedron.hpp"
 #include "motion/pose.hpp"
@@ -91,9 +92,11 @@ struct PlacedHulls {  // clang-format off
 
 /// Brings `placed` to the given poses; body b is skipped where `moving[b]` is 0 (an empty span
 /// moves all). `stretch` is I + strain in body axes; empty for rigid bodies. The first time all
-/// bodies have to have a pose; later on those behind the last pose stay where they are.
+/// bodies have to have a pose; later on those behind the last pose stay where they are. `workers`
+/// share the bodies, or none.
 void place_hulls(const Hulls& hulls, std::span<const Pose> poses, std::span<const Mat3> stretch,
-                 std::span<const std::uint8_t> moving, PlacedHulls& placed);
+                 std::span<const std::uint8_t> moving, PlacedHulls& placed,
+                 Workers* workers = nullptr);
 
 /// Brings one rigid body of `placed` to a pose.
 void place_body(const Hulls& hulls, int b, const Pose& pose, PlacedHulls& placed);

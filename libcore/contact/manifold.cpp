@@ -168,12 +168,12 @@ Place place_of(const FaceContacts& face, const ContactKey& key) {
 }
 
 void add_face_points(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair,
-                     double margin, std::span<const HeldPoint> held,
+                     const PointReach& reach, std::span<const HeldPoint> held,
                      std::vector<PairPoint>& points) {
   const FaceContacts face = face_contacts(hulls, placed, pair);
   for (const HeldPoint& h : held) {
     const Place p = place_of(face, h.key);
-    if (!(p.height <= margin)) continue;
+    if (!reach.takes(p.height, p.x, p.y, p.z)) continue;
     const double back = pair.reference_is_a ? 0 : p.height;  // B's point, when A is incident
     make_room(points);
     PairPoint& point = points.emplace_back();
@@ -194,18 +194,20 @@ Vec3 crossing_on_b(const Vec3& a, const Vec3& along_a, const Vec3& b, const Vec3
 }
 
 void add_edge_point(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
-                    const PairAxis& axis, const Vec3& normal, double margin, const HeldPoint& held,
-                    std::vector<PairPoint>& points) {
+                    const PairAxis& axis, const Vec3& normal, const PointReach& reach,
+                    const HeldPoint& held, std::vector<PairPoint>& points) {
   const HullEdge& edge_a = hulls.edges[hulls.edge_begin[part_a] + axis.feature_a];
   const HullEdge& edge_b = hulls.edges[hulls.edge_begin[part_b] + axis.feature_b];
   const Vec3& a = placed.vertices[hulls.vertex_begin[part_a] + edge_a.a];
   const Vec3& b = placed.vertices[hulls.vertex_begin[part_b] + edge_b.a];
   const double gap = normal.dot(a - b);
-  if (!(gap <= margin)) return;
+  if (!(gap <= reach.margin)) return;
   const Vec3 along_a = placed.vertices[hulls.vertex_begin[part_a] + edge_a.b] - a;
   const Vec3 along_b = placed.vertices[hulls.vertex_begin[part_b] + edge_b.b] - b;
+  const Vec3 on_b = crossing_on_b(a, along_a, b, along_b);
+  if (!reach.takes(gap, on_b.x(), on_b.y(), on_b.z())) return;
   make_room(points);
-  points.push_back({held.key, crossing_on_b(a, along_a, b, along_b), gap, held.area});
+  points.push_back({held.key, on_b, gap, held.area});
 }
 
 ContactKey key_of_edges(const Hulls& hulls, int part_a, int part_b, const PairAxis& axis) {
@@ -240,7 +242,7 @@ bool is_parted(const Segment& segment, const Segment& line, const Vec3& normal) 
 
 // Edges that cross seen along `normal`, which need not be at right angles to them.
 void add_crossing(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
-                  const Vec3& normal, double margin, const HeldPoint& held,
+                  const Vec3& normal, const PointReach& reach, const HeldPoint& held,
                   std::vector<PairPoint>& points) {
   const auto segment = [&](int part, int edge_of_body) {
     return segment_of(
@@ -250,7 +252,7 @@ void add_crossing(const Hulls& hulls, const PlacedHulls& placed, int part_a, int
   const Segment a = segment(part_a, held.key.feature_a), b = segment(part_b, held.key.feature_b);
   const Vec3 on_b = met_by(b, a, normal);
   const double gap = normal.dot(met_by(a, b, normal) - on_b);
-  if (gap > margin) return;
+  if (!reach.takes(gap, on_b.x(), on_b.y(), on_b.z())) return;
   make_room(points);
   points.push_back({held.key, on_b, gap, held.area});
 }
@@ -380,18 +382,18 @@ int incident_of(const Hulls& hulls, const PlacedHulls& placed, int part_a, int p
 
 void add_manifold(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
                   const PairAxis& axis, int incident, const Vec3& normal, double area,
-                  double margin, std::span<const HeldPoint> held,
+                  const PointReach& reach, std::span<const HeldPoint> held,
                   std::vector<PairManifold>& manifolds, std::vector<PairPoint>& points) {
   const int begin = static_cast<int>(points.size());
   int face_a = axis.feature_a, face_b = axis.feature_b;
   if (axis.kind == AxisKind::edges) {
-    add_edge_point(hulls, placed, part_a, part_b, axis, normal, margin, held[0], points);
+    add_edge_point(hulls, placed, part_a, part_b, axis, normal, reach, held[0], points);
     for (const HeldPoint& other : held.subspan(1))
-      add_crossing(hulls, placed, part_a, part_b, normal, margin, other, points);
+      add_crossing(hulls, placed, part_a, part_b, normal, reach, other, points);
     face_a = hulls.edges[hulls.edge_begin[part_a] + axis.feature_a].left;
     face_b = hulls.edges[hulls.edge_begin[part_b] + axis.feature_b].left;
   } else {
-    add_face_points(hulls, placed, face_pair(hulls, part_a, part_b, axis, incident), margin, held,
+    add_face_points(hulls, placed, face_pair(hulls, part_a, part_b, axis, incident), reach, held,
                     points);
     (axis.kind == AxisKind::face_a ? face_b : face_a) = incident;
   }

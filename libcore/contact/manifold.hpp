@@ -5,6 +5,7 @@
 // theory: docs/theory/theory.md 1.6 (one form for all modes), 2.6 (clipping)
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -96,11 +97,28 @@ struct ContactSearch {
                                            AxisScratch& axis_scratch, ClipScratch& clip_scratch,
                                            std::vector<HeldPoint>& held);
 
-/// Appends the manifold of two parts along `axis` and those of its points `held` whose gap is at
-/// most `margin` [m], if any, at the places where they are now.
+/// Which points of a manifold are wanted: those whose gap is at most `margin`, and of these, those
+/// that are at most `closing` apart now or at the end of the step, as the bodies move now. A gap
+/// opens by opens_at_origin + opens_along . x in the step, x the place of its point.
+struct PointReach {
+  double margin = 0;                                         ///< [m]
+  double closing = std::numeric_limits<double>::infinity();  ///< [m]
+  double opens_at_origin = 0;                                ///< [m]
+  Vec3 opens_along = Vec3::Zero();
+  [[nodiscard]] bool takes(double gap, double x, double y, double z) const {
+    if (!(gap <= margin)) return false;
+    if (gap <= closing) return true;
+    return gap + opens_at_origin + opens_along.x() * x + opens_along.y() * y +
+               opens_along.z() * z <=
+           closing;
+  }
+};
+
+/// Appends the manifold of two parts along `axis` and those of its points `held` that `reach`
+/// takes, if any, at the places where they are now.
 void add_manifold(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
                   const PairAxis& axis, int incident, const Vec3& normal, double area,
-                  double margin, std::span<const HeldPoint> held,
+                  const PointReach& reach, std::span<const HeldPoint> held,
                   std::vector<PairManifold>& manifolds, std::vector<PairPoint>& points);
 
 }  // namespace talus

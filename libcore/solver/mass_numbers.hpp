@@ -42,8 +42,8 @@ inline constexpr int sweeps_per_square_layer = 24;
 /// [-] A first step that needs more is exact: six layers. 3,900 blocks in seven take twice as long
 /// by sweeps.
 inline constexpr int most_first_sweeps = 1000;
-/// [g h] Sweeps double where the last changes velocities by more, or, in the first step, where
-/// doubling them does: root of the mean square. Tried: 0.05; takes as long, but a wall that a mass
+/// [g h] Half as many sweeps follow where the last changes velocities by more; in the first step as
+/// many, where those since the last time do: root of the mean square. Tried: 0.05; takes as long, but a wall that a mass
 /// reaches at one end sags by 2 mm in a second at the other, and a block on 400 that are 10,000
 /// times lighter comes 2.5 % short of its closed form.
 inline constexpr double settled = 0.02;

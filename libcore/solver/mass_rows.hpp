@@ -44,6 +44,12 @@ struct MassBatch {
   int first = 0, count = 0;  ///< points, and the most rows of a lane
 };
 
+/// Batches of one colour: no two of them share a body, unless they are `in_turn`.
+struct MassColour {
+  int begin = 0, end = 0;
+  bool in_turn = false;
+};
+
 /// Rows side by side, as the sweeps read them.
 struct alignas(32) MassPoint {
   float normal[3][mass_lanes], arm_a[3][mass_lanes], arm_b[3][mass_lanes];

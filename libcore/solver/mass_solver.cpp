@@ -20,6 +20,8 @@ using std::size_t;
 constexpr int n_colour_bits = 64;
 constexpr int alone = n_colour_bits - 1;  // pairs of it share bodies: each has a batch to itself
 constexpr int most_rows = 16;             // pairs with more count as this when they are sorted
+constexpr size_t batches_a_chunk = 16;    // that a thread takes at a time
+constexpr size_t least_shared = 48;       // batches of a colour; of fewer a thread has too little
 
 // Greedy colours: no two pairs of one colour share a body, but those of `alone`. Pairs are sorted
 // by colour, those with most rows first.
@@ -52,8 +54,9 @@ int colour_pairs(MassSystem& s) {
 void make_batches(MassSystem& s) {
   const auto n = static_cast<int>(s.inertia.size());
   s.batches.clear();
+  s.colours.clear();
   s.place.resize(s.rows.size());
-  int n_points = 0;
+  int n_points = 0, last_colour = -1;
   for (size_t at = 0; at < s.order.size();) {
     const int colour = s.colour[s.order[at]] / (most_rows + 1);
     MassBatch batch;
@@ -76,7 +79,11 @@ void make_batches(MassSystem& s) {
         s.place[pair.row_begin + j] = mass_lanes * (batch.first + j) + lane;
     }
     n_points += batch.count;
+    const auto number = static_cast<int>(s.batches.size());
+    if (colour != last_colour) s.colours.push_back({number, number, colour == alone});
+    last_colour = colour;
     s.batches.push_back(batch);
+    s.colours.back().end = number + 1;
   }
   s.points.resize(static_cast<size_t>(n_points));
 }
@@ -188,20 +195,35 @@ MassResult solve_mass(const MassSettings& settings, MassSystem& s, int width) {
   s.inertias.assign(n_all, MassInertia{});
   std::copy(s.inertia.begin(), s.inertia.end(), s.inertias.begin());
   const MassRow no_row;
-  const MassSweeps sweeps{s.batches,
-                          s.points.data(),
-                          s.rows.data(),
-                          s.change.data(),
-                          s.inertias.data(),
-                          no_row,
-                          static_cast<float>(settings.compliance),
-                          static_cast<float>(settings.compliance / settings.shear_ratio)};
-  const auto run = [&](MassPass pass) {
+  const auto run_over = [&](MassPass pass, size_t begin, size_t end) {
+    const MassSweeps sweeps{std::span(s.batches).subspan(begin, end - begin),
+                            s.points.data(),
+                            s.rows.data(),
+                            s.change.data(),
+                            s.inertias.data(),
+                            no_row,
+                            static_cast<float>(settings.compliance),
+                            static_cast<float>(settings.compliance / settings.shear_ratio)};
     width == mass_lanes ? run_by_eight(sweeps, pass) : run_by_four(sweeps, pass);
+  };
+  // Whatever the threads: colours come in turn, and within one nothing depends on the order.
+  const auto run = [&](MassPass pass) {
+    const bool is_shared = settings.workers != nullptr && s.batches.size() >= least_shared;
+    if (!is_shared) return run_over(pass, 0, s.batches.size());
+    for (const MassColour& colour : s.colours) {
+      const auto begin = static_cast<size_t>(colour.begin);
+      const auto n = static_cast<size_t>(colour.end) - begin;
+      in_chunks(colour.in_turn ? nullptr : settings.workers, n, batches_a_chunk, least_shared,
+                [&](size_t from, size_t to) { run_over(pass, begin + from, begin + to); });
+    }
   };
   run(MassPass::fill);
   run(MassPass::apply);
-  for (int planned = settings.sweeps;; planned = std::min(2 * planned, settings.most_sweeps)) {
+  const auto more_than = [&](int planned) {
+    return std::min(settings.from_rest ? 2 * planned : planned + (planned + 1) / 2,
+                    settings.most_sweeps);
+  };
+  for (int planned = settings.sweeps;; planned = more_than(planned)) {
     const int measured_from = settings.from_rest ? result.sweeps : planned - 1;
     for (; result.sweeps < planned; ++result.sweeps) {
       if (result.sweeps == measured_from) s.before = s.change;

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "base/workers.hpp"
 #include "solver/angular_row.hpp"
 #include "solver/mass_rows.hpp"
 
@@ -42,12 +43,14 @@ struct MassTurn {
 };
 
 struct MassSettings {
-  int sweeps = 0;          ///< at least, > 0; they double ...
-  int most_sweeps = 0;     ///< ... up to this ...
-  double settled = 0;      ///< ... while the last one changes velocities by more [m/s]
-  bool from_rest = false;  ///< no row knows its impulse: ... while all since the last doubling do
-  double compliance = 0;   ///< > 0 [-]
-  double shear_ratio = 0;  ///< > 0 [-]
+  int sweeps = 0;       ///< at least, > 0; half as many more ...
+  int most_sweeps = 0;  ///< ... up to this ...
+  double settled = 0;   ///< ... while the last one changes velocities by more [m/s]
+  bool from_rest =
+      false;  ///< no row knows its impulse: they double while all since the last time do
+  double compliance = 0;       ///< > 0 [-]
+  double shear_ratio = 0;      ///< > 0 [-]
+  Workers* workers = nullptr;  ///< share the batches of a colour; nullptr: there are none
 };
 
 struct MassResult {
@@ -72,6 +75,7 @@ struct MassSystem {  // clang-format off
   std::vector<std::uint64_t> used;          ///< colours of the pairs of a body          (n_bodies)
   std::vector<int> colour, order, bucket;
   std::vector<MassBatch> batches;
+  std::vector<MassColour> colours;          ///< consecutive batches
   std::vector<MassPoint> points;
   std::vector<int> place;                   ///< of a row: 8 point + lane                (n_rows)
 };  // clang-format on

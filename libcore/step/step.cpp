@@ -104,6 +104,7 @@ State start(const Scene& scene) {
 
 Work make_work(const Scene& scene, Workers* workers) {
   Work work;
+  work.workers = work.search.workers = workers;
   work.island.solver.matrix.workers = work.island.hits.impact.workers = workers;
   size_t most_vertices = 0;
   for (int b = 0; b < n_blocks(scene); ++b)

@@ -40,6 +40,7 @@ struct SoilWork {
 };
 
 struct Work {  // clang-format off
+  Workers* workers = nullptr;                ///< share the loops of a step; nullptr: there are none
   // find_contacts: candidates of the block at hand
   std::vector<Vec3> world_vertices;          ///< at the predicted pose [m]
   std::vector<Contact> contacts;             ///< of the block at hand             (n_candidates)

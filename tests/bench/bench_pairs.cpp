@@ -168,8 +168,8 @@ void pair_cost(benchmark::State& bench, double gap, Repeat repeat) {
       find_features(scene.hulls, placed, 0, 1, choice.axis, incident, false, clip, held);
     }
     add_manifold(scene.hulls, placed, 0, 1, choice.axis, incident,
-                 axis_normal(scene.hulls, placed, 0, 1, choice.axis), 0, 0.01, held, manifolds,
-                 points);
+                 axis_normal(scene.hulls, placed, 0, 1, choice.axis), 0, PointReach{0.01}, held,
+                 manifolds, points);
     benchmark::DoNotOptimize(points.data());
   }
   bench.counters["points"] = static_cast<double>(points.size());

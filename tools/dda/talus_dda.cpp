@@ -34,7 +34,7 @@ struct Options {
   DdaFiles files;
   std::string out, xdmf, plan, passages_by = "footprint";
   bool resume = false, independent = false;
-  int threads = 1;  // 0: as many as there are
+  int threads = 0;  // 0: as many as there are
 };
 
 void declare(Tool& tool, SiteOptions& site, Options& o) {
@@ -57,8 +57,8 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
               "a cell is passed while the footprint or only the centroid is over it")
       ->check(CLI::IsMember({"footprint", "centroid"}));
   tool.option("--threads", o.threads,
-              "threads that share a step; 0: all that the machine or the Slurm task gives, one "
-              "inside make -j; the run has the same bytes with any number")
+              "threads that share a step; 0, the default: all that the machine or the Slurm task "
+              "gives, one inside make -j; the run has the same bytes with any number")
       ->check(CLI::Range(0, 1024));
   site.option(tool, "--law", "solver.law", "contact law, talus or paper");
   site.option(tool, "--duration-s", "solver.duration_s", "time simulated");

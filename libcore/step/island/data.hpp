@@ -43,10 +43,12 @@ struct PairSearch {  // clang-format off
   std::vector<double> turn;                 ///< path of turning ahead [m]               (n_bodies)
   std::vector<std::uint8_t> moving, awake;  ///<                                         (n_blocks)
   std::vector<std::uint8_t> absent;         ///< 1: touches nothing; empty: none      (n_blocks)
+  std::vector<std::uint8_t> in_mass;        ///< 1: of a mass; empty: none               (n_blocks)
   BodyGrid grid;                            ///< the fixed bodies, where they stood first
   std::vector<int> shifted;                 ///< bodies: the fixed ones whose pose is not that
   std::vector<int> near;                    ///< scratch: fixed bodies near a block
   std::int64_t n_fixed_near = 0;            ///< fixed bodies looked at so far, block by block
+  Workers* workers = nullptr;               ///< share the pairs
   PairWork pairs;
   bool is_of_step = false;                  ///< `pairs` are still those of form_islands
   // form_islands

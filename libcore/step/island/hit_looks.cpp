@@ -311,7 +311,7 @@ void HitLooks::find_touching_bodies(size_t p, double time) const {
   if (!found.choice.touches || found.choice.axis.kind == AxisKind::none) return;
   add_manifold(hulls, hits.placed, of.part_a, of.part_b, found.choice.axis, found.incident,
                axis_normal(hulls, hits.placed, of.part_a, of.part_b, found.choice.axis), found.area,
-               margin, hits.held, hits.manifolds, hits.points);
+               PointReach{margin}, hits.held, hits.manifolds, hits.points);
   if (hits.manifolds.empty()) return;
   const PairManifold& m = hits.manifolds.front();
   if (pair.b < 0 && giving_way(scene, fixed_of(scene, of.block_b), m.normal) != nullptr) return;

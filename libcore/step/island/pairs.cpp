@@ -12,6 +12,7 @@
 #include "step/island/stages.hpp"
 #include "step/island/stems.hpp"
 #include "step/island/step_island.hpp"
+#include "step/mass/stages.hpp"
 #include "step/substep.hpp"
 
 namespace talus {
@@ -87,18 +88,23 @@ void search_marked(const Scene& scene, double h, State& state, PairSearch& searc
   PairSettings settings;
   settings.margin = pair_margin(scene, h);
   settings.with_areas = !state.bonds.empty();
+  settings.workers = search.workers;
+  settings.closing = mass_reach(scene, h) + scene.gravity.norm() * h * h;
+  search.in_mass.clear();
+  for (const MassShare& share : state.mass) search.in_mass.push_back(share.is_in_mass ? 1 : 0);
   settings.graze_m = scene.gravity.norm() * h * h / law::stiffest_in_island;
   const std::span<const Pose> poses = search.poses;
   const bool none_placed = state.placed.turned.size() != poses.size();
   const OwnShifts own(scene, state);
   place_hulls(blocks.hulls, none_placed ? poses : poses.first(static_cast<size_t>(n_blocks(scene))),
-              {}, search.moving, state.placed);
+              {}, search.moving, state.placed, search.workers);
   for (const int body : search.shifted) place_body(blocks.hulls, body, poses[body], state.placed);
-  const PairReport found = find_pair_contacts(
-      blocks.hulls, state.placed,
-      {search.step, search.turn, search.awake, n_fixed(scene), &search.grid, search.shifted,
-       scene.settings.block_contacts, own.any() ? &own : nullptr, search.absent},
-      settings, state.pairs, search.pairs);
+  const PairReport found =
+      find_pair_contacts(blocks.hulls, state.placed,
+                         {search.step, search.turn, search.awake, n_fixed(scene), &search.grid,
+                          search.shifted, scene.settings.block_contacts, own.any() ? &own : nullptr,
+                          search.absent, search.in_mass, search.rotation},
+                         settings, state.pairs, search.pairs);
   search.n_fixed_near += found.n_fixed_near;
   add_stem_pairs(scene, state, settings.margin, search);
 }

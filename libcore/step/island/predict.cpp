@@ -39,23 +39,29 @@ void clear_bodies(Island& island) {
 }  // namespace
 
 void predict_free(const Scene& scene, const State& state, const IslandMembers& members, double t,
-                  double h, FreeMotions& free) {
+                  double h, Workers* workers, FreeMotions& free) {
+  constexpr size_t members_a_thread = 64;
   free.t = t;
   free.h = h;
   free.substeps.resize(members.size());
-  free.turns.clear();
-  for (size_t k = 0; k < members.size(); ++k) {
-    const BlockNumbers& c = members.numbers[k];
-    Substep& s = free.substeps[k];
-    s = predict(scene, members.blocks[k], c, begin_drag(scene, state, members.block(k), h), t, h);
-    free.turns.push_back({s.R * s.R_start.transpose(), s.R_start * s.spin_start, s.R * s.spin_free,
-                          s.R * c.per_inertia.asDiagonal() * s.R.transpose()});
-  }
+  free.turns.resize(members.size());
+  in_chunks(workers, members.size(), members_a_thread, 2 * members_a_thread,
+            [&](size_t begin, size_t end) {
+              for (size_t k = begin; k < end; ++k) {
+                const BlockNumbers& c = members.numbers[k];
+                Substep& s = free.substeps[k];
+                s = predict(scene, members.blocks[k], c,
+                            begin_drag(scene, state, members.block(k), h), t, h);
+                free.turns[k] = {s.R * s.R_start.transpose(), s.R_start * s.spin_start,
+                                 s.R * s.spin_free,
+                                 s.R * c.per_inertia.asDiagonal() * s.R.transpose()};
+              }
+            });
 }
 
 void predict(const Scene& scene, const State& state, const IslandMembers& members, double t,
              double h, FreeMotions& free, Island& island) {
-  predict_free(scene, state, members, t, h, free);
+  predict_free(scene, state, members, t, h, nullptr, free);
   clear_bodies(island);
   for (size_t k = 0; k < members.size(); ++k)
     add_body(scene, state, members.numbers[k], free.substeps[k], free.turns[k], members.block(k),

@@ -18,14 +18,12 @@
 namespace talus {
 
 // --- 1 gather_members (step/island/members.cpp)
-// -----------------------------------------------------
 /// Fills `members` but for what follows from their pairs.
 void gather_members(const Scene& scene, std::span<const int> blocks, IslandMembers& members);
 /// The bodies of `members` are in no island any more.
 void release_members(IslandMembers& members);
 
 // --- 2 find_pairs (step/island/pairs.cpp)
-// -----------------------------------------------------------
 /// Where blocks have each their own world: places the fixed bodies where block `b` has pushed them;
 /// -1: where they stood first, as they are between steps.
 void place_own_fixed(const Scene& scene, int b, State& state, PairSearch& search);
@@ -44,7 +42,6 @@ void find_pairs(const Scene& scene, const IslandMembers& members, double h, Stat
                                      std::span<const int> manifolds, double h);
 
 // --- 3 choose_stiffness (step/island/members.cpp)
-// ---------------------------------------------------
 /// Fills IslandMembers::is_small, which holds for a step.
 void see_size(const Scene& scene, const State& state, const PairSearch& search,
               std::span<const int> manifolds, IslandMembers& members);
@@ -53,16 +50,14 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
                       std::span<const int> manifolds, int eased, IslandMembers& members);
 
 // --- 4 predict (step/island/predict.cpp)
-// ------------------------------------------------------------
-/// Fills `free` for the substep of `h` from `t`.
+/// Fills `free` for the substep of `h` from `t`; `workers` share the members, or none.
 void predict_free(const Scene& scene, const State& state, const IslandMembers& members, double t,
-                  double h, FreeMotions& free);
+                  double h, Workers* workers, FreeMotions& free);
 /// The same, and the bodies of `island`.
 void predict(const Scene& scene, const State& state, const IslandMembers& members, double t,
              double h, FreeMotions& free, Island& island);
 
 // --- 5 make_contacts (step/island/contacts.cpp)
-// -----------------------------------------------------
 /// Fills `system` but for the bodies of its island: contacts with the ground, with other members
 /// and with fixed bodies. False: a member is off the known ground. `near_ground`: what each block
 /// may touch there, kept from search to search.
@@ -77,7 +72,6 @@ void predict(const Scene& scene, const State& state, const IslandMembers& member
                                  double h);
 
 // --- 6 find_hits (step/island/hits.cpp, hit_looks.cpp, after_hits.cpp)
-// ------------------------------
 /// Fills `hits`: what the members hit on their way through the substep, in order of time, each with
 /// where they are and how they move then. That is part of the motion without contact from now on:
 /// changes `free`, and in `system` bodies and rows of what was hit. `near_ground`, `making`: for
@@ -91,7 +85,6 @@ int close_waiting(const IslandMembers& members, const FreeMotions& free, IslandS
                   SubstepHits& hits);
 
 // --- 7 solve (step/island/impacts.cpp)
-// --------------------------------------------------------------
 /// What a solution has come to.
 struct Solution {
   bool converged = true;
@@ -110,7 +103,6 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
                      SubstepHits& hits, IslandWork& solver, StageClock* clock, Solution& solution);
 
 // --- 8 check_substep (step/island/check.cpp)
-// --------------------------------------------------------
 /// Fills `end` but for what accept() does: accept, or again with a reason. `making`, `near_ground`:
 /// for searches of the ground.
 [[nodiscard]] SubstepVerdict check_substep(const Scene& scene, const State& state,
@@ -133,7 +125,6 @@ void set_displacements(double h, const IslandSystem& system, const SubstepHits& 
                             const IslandSystem& system, const SubstepEnd& end, std::size_t k);
 
 // --- 9 accept (step/island/accept.cpp)
-// -------------------------------------------------------------
 /// The substep holds: fills motion, memory, bonds, yielding bodies and ledger of the state, the
 /// segments, and the report. Nothing before it changes anything of these.
 void accept(const Scene& scene, const IslandMembers& members, const FreeMotions& free,

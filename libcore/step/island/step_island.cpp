@@ -174,7 +174,9 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
   w.tries.last_h = t_end - state.time;
   w.tries.longest = no_normal_limit;
   double t = state.time, ahead = t_end - t;
+  const bool was_mass = is_any_in_mass(w.members, state);
   bool is_mass = t > 0 && moves_as_mass(scene, w.members, state);
+  if (was_mass && !is_mass) work.search.is_of_step = false;  // points that do not close are missing
   while (t < t_end && !w.members.blocks.empty()) {
     const double longest = prepare_substep(scene, k, is_mass, t, ahead, state, work);
     const bool is_tried = t == 0 && begins_as_mass(scene, longest, state, work);

@@ -19,6 +19,9 @@ namespace {
 
 using std::size_t;
 
+constexpr size_t least_shared = 256;  // members; of fewer a thread has too little to do
+constexpr size_t most_parts = 32;     // of members, and of manifolds
+
 void set_floats(const Vec3& from, float (&to)[3]) {
   for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
 }
@@ -38,7 +41,7 @@ struct Faces {
   bool yields = false;
 };
 
-/// Makes the contacts of a mass; a struct so that its parts share what they all read.
+/// Makes contacts of a mass; a struct so that its functions share what they all read.
 struct MassMaker {
   const Scene& scene;
   const State& state;
@@ -47,23 +50,26 @@ struct MassMaker {
   const IslandMembers& members;
   const FreeMotions& free;
   std::vector<NearFeatures>& near_ground;
-  ContactMaking& making;
-  MassScratch& w;
+  MassScratch& w;  // members
+  MassPart& out;
   double reach = 0, recovery_time = 0;
 
-  void clear_all() {
-    clear(w.system);
-    w.members.clear();
-    w.contacts.clear();
-    w.ground_pair.clear();
-    w.memories.touched_by = -1;
-    w.fell_through = false;
+  void clear_part() {
+    out.rows.clear();
+    out.pairs.clear();
+    out.turns.clear();
+    out.arms.clear();
+    out.contacts.clear();
+    out.ground_pair.clear();
+    out.making.memories.touched_by = -1;
+    out.fell_through = false;
+    out.outsider = -1;
   }
 
-  void add_member(size_t k) {
+  void set_member(size_t k) {
     const Substep& s = free.substeps[k];
     const FreeTurn& turn = free.turns[k];
-    MassMember m;
+    MassMember& m = w.members[k];
     m.at = s.start.pose.position;
     m.middle = (s.start.pose.position + s.free.pose.position) / 2;
     m.moved = s.free.pose.position - s.start.pose.position;
@@ -73,12 +79,16 @@ struct MassMaker {
     m.spin_start = turn.spin_start;
     m.spin_end = turn.spin_end;
     set_middle(members.numbers[k], members.block(k), s, m);
-    w.members.push_back(m);
     const Mat3& P = m.per_inertia;
     const auto single = [](double x) { return static_cast<float>(x); };
-    w.system.inertia.push_back(
-        {single(P(0, 0)), single(P(1, 1)), single(P(2, 2)), single(P(0, 1)), single(P(0, 2)),
-         single(P(1, 2)), single(members.numbers[k].per_mass), single(members.numbers[k].radius)});
+    w.system.inertia[k] = {single(P(0, 0)),
+                           single(P(1, 1)),
+                           single(P(2, 2)),
+                           single(P(0, 1)),
+                           single(P(0, 2)),
+                           single(P(1, 2)),
+                           single(members.numbers[k].per_mass),
+                           single(members.numbers[k].radius)};
   }
 
   void set_middle(const BlockNumbers& c, size_t b, const Substep& s, MassMember& m) const {
@@ -93,15 +103,15 @@ struct MassMaker {
   }
 
   void open_pair(int a, int b) {
-    const auto n = static_cast<int>(w.system.rows.size());
-    w.system.pairs.push_back({a, b, n, n});
+    const auto n = static_cast<int>(out.rows.size());
+    out.pairs.push_back({a, b, n, n});
   }
   // False where the pair has no rows: it is dropped.
   bool close_pair() {
-    MassPair& pair = w.system.pairs.back();
-    pair.row_end = static_cast<int>(w.system.rows.size());
+    MassPair& pair = out.pairs.back();
+    pair.row_end = static_cast<int>(out.rows.size());
     if (pair.row_end > pair.row_begin) return true;
-    w.system.pairs.pop_back();
+    out.pairs.pop_back();
     return false;
   }
 
@@ -127,7 +137,7 @@ struct MassMaker {
     const double approach = std::min(contact.speed_start, (motion.gap_free - motion.gap) / free.h);
     contact.is_hit = !faces.yields && approach < -faces.resting_speed && motion.gap_free < 0;
     contact.yields = faces.yields;
-    MassRow& row = w.system.rows.emplace_back();
+    MassRow& row = out.rows.emplace_back();
     set_floats(n, row.normal);
     set_floats(motion.arm_a, row.arm_a);
     set_floats(motion.arm_b, row.arm_b);
@@ -136,7 +146,7 @@ struct MassMaker {
     row.friction = static_cast<float>(faces.friction);
     row.limit = static_cast<float>(std::min(faces.limit, law_limit));
     if (then != nullptr && !contact.is_hit) set_floats(last_impulse(*then, n, faces), row.impulse);
-    w.contacts.push_back(contact);
+    out.contacts.push_back(contact);
   }
   static constexpr double law_limit = 1e30;  // a float, and its square times a mobility too
 
@@ -161,26 +171,26 @@ struct MassMaker {
 
   // False where member k is off the known ground.
   bool add_ground(size_t k) {
-    w.ground_pair.push_back(-1);
+    out.ground_pair.push_back(-1);
     const Substep& s = free.substeps[k];
     const int b = members.blocks[k];
     const BlockNumbers& c = members.numbers[k];
     if (!scene.settings.trn_contacts) {
-      w.fell_through |= is_below_ground(scene, b, s.free.pose.position);
+      out.fell_through |= is_below_ground(scene, b, s.free.pose.position);
       return true;
     }
-    const SearchResult near =
-        find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, Mat3::Identity(),
-                      search_margin(c, s.h), making.world_vertices, making.found, &near_ground[b]);
+    const SearchResult near = find_contacts(
+        scene.ground, scene.blocks.shapes, b, s.free.pose, Mat3::Identity(), search_margin(c, s.h),
+        out.making.world_vertices, out.making.found, &near_ground[b]);
     if (near.reach == Reach::off_ground) return false;
-    w.fell_through |= near.reach == Reach::below;
-    if (making.found.empty()) return true;
-    making.rows.resize(making.found.size());
-    make_rows(scene, b, c, s, state.memory[b], making.found, making.rows);
+    out.fell_through |= near.reach == Reach::below;
+    if (out.making.found.empty()) return true;
+    out.making.rows.resize(out.making.found.size());
+    make_rows(scene, b, c, s, state.memory[b], out.making.found, out.making.rows);
     open_pair(static_cast<int>(k), -1);
-    for (ContactRow& row : making.rows) add_ground_row(k, row);
+    for (ContactRow& row : out.making.rows) add_ground_row(k, row);
     if (!close_pair()) return true;
-    w.ground_pair.back() = static_cast<int>(w.system.pairs.size()) - 1;
+    out.ground_pair.back() = static_cast<int>(out.pairs.size()) - 1;
     add_turn_of(k);
     return true;
   }
@@ -218,22 +228,22 @@ struct MassMaker {
 
   // The couple against rolling of the pair that was closed last, of member k with the ground.
   void add_turn_of(size_t k) {
-    const MassPair& pair = w.system.pairs.back();
+    const MassPair& pair = out.pairs.back();
     const auto class_of = [&](int r) -> const GroundClass& {
-      return scene.ground.classes[w.contacts[r].ground_class];
+      return scene.ground.classes[out.contacts[r].ground_class];
     };
     bool any = false;
     for (int r = pair.row_begin; r < pair.row_end; ++r) any |= resists_rolling(class_of(r));
     if (!any) return;
     MassTurn turn;
-    turn.pair = static_cast<int>(w.system.pairs.size()) - 1;
-    turn.arm_begin = static_cast<int>(w.system.arms.size());
+    turn.pair = static_cast<int>(out.pairs.size()) - 1;
+    turn.arm_begin = static_cast<int>(out.arms.size());
     turn.damping = turn_damping(scene, members.numbers[k], free.h);
     turn.inertia = members.numbers[k].inertia.minCoeff();
     turn.spin = w.members[k].spin;
     for (int r = pair.row_begin; r < pair.row_end; ++r)
-      w.system.arms.push_back(arm_on(scene, class_of(r), members.blocks[k]));
-    w.system.turns.push_back(turn);
+      out.arms.push_back(arm_on(scene, class_of(r), members.blocks[k]));
+    out.turns.push_back(turn);
   }
 
   // --- with other bodies -----------------------------------------------------------------------
@@ -266,7 +276,7 @@ struct MassMaker {
   }
 
   [[nodiscard]] const ContactMemory* memory_of(const PairManifold& m, int p) const {
-    const int i = w.memories.continued[p - m.point_begin];
+    const int i = out.making.memories.continued[p - m.point_begin];
     return i < 0 ? nullptr : &state.memory[m.block_a][i];
   }
 
@@ -290,7 +300,7 @@ struct MassMaker {
         is_first = false;
         faces = faces_of(m, fixed);
         match_memories(m, name_of_body(scene, m.block_b), search.pairs.points,
-                       state.memory[m.block_a], w.memories);
+                       state.memory[m.block_a], out.making.memories);
       }
       if (yielding != nullptr) yield_to(*yielding, m, a, motion, faces);
       MassContact contact;
@@ -329,24 +339,70 @@ struct MassMaker {
     faces.yields = true;
   }
 
-  bool run(int& outsider) {
-    clear_all();
-    const double by_gravity = scene.gravity.norm() * free.h;
-    reach = free.h * std::max(by_gravity, mass::reach_speed);
+  void begin() {
+    clear_part();
+    reach = mass_reach(scene, free.h);
     recovery_time = members.numbers.front().recovery_time;
-    for (size_t k = 0; k < members.size(); ++k) {
-      add_member(k);
-      if (!add_ground(k)) {
-        outsider = members.blocks[k];
-        return false;
-      }
+  }
+  // Members [from, to), and what they have with the ground.
+  void add_members(size_t from, size_t to) {
+    for (size_t k = from; k < to && out.outsider < 0; ++k) {
+      set_member(k);
+      if (!add_ground(k)) out.outsider = members.blocks[k];
     }
-    for (const int i : manifolds) add_pair(search.pairs.manifolds[i]);
-    return true;
+  }
+  void add_pairs(size_t from, size_t to) {
+    for (size_t i = from; i < to; ++i) add_pair(search.pairs.manifolds[manifolds[i]]);
   }
 };
 
+template <class T>
+void append(const std::vector<T>& from, std::vector<T>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+// The only part is all there is.
+void take_part(MassPart& part, MassScratch& w) {
+  w.system.rows.swap(part.rows);
+  w.system.pairs.swap(part.pairs);
+  w.system.turns.swap(part.turns);
+  w.system.arms.swap(part.arms);
+  w.contacts.swap(part.contacts);
+  w.ground_pair.swap(part.ground_pair);
+  w.fell_through = part.fell_through;
+}
+
+// Puts the parts behind each other.
+void join_parts(std::span<const MassPart> parts, MassScratch& w) {
+  MassSystem& s = w.system;
+  for (const MassPart& part : parts) {
+    const auto first_row = static_cast<int>(s.rows.size()),
+               first_pair = static_cast<int>(s.pairs.size()),
+               first_arm = static_cast<int>(s.arms.size());
+    append(part.rows, s.rows);
+    append(part.arms, s.arms);
+    append(part.contacts, w.contacts);
+    for (MassPair pair : part.pairs) {
+      pair.row_begin += first_row;
+      pair.row_end += first_row;
+      s.pairs.push_back(pair);
+    }
+    for (MassTurn turn : part.turns) {
+      turn.pair += first_pair;
+      turn.arm_begin += first_arm;
+      s.turns.push_back(turn);
+    }
+    for (const int pair : part.ground_pair)
+      w.ground_pair.push_back(pair < 0 ? -1 : first_pair + pair);
+    w.fell_through |= part.fell_through;
+  }
+}
+
 }  // namespace
+
+double mass_reach(const Scene& scene, double h) {
+  return h * std::max(scene.gravity.norm() * h, mass::reach_speed);
+}
 
 double longest_mass_substep(const Scene& scene, const PairSearch& search,
                             const IslandMembers& members, std::span<const int> manifolds,
@@ -377,9 +433,50 @@ double longest_mass_substep(const Scene& scene, const PairSearch& search,
 bool make_mass_contacts(const Scene& scene, const State& state, const PairSearch& search,
                         std::span<const int> manifolds, const IslandMembers& members,
                         const FreeMotions& free, std::vector<NearFeatures>& near_ground,
-                        ContactMaking& making, MassScratch& w, int& outsider) {
-  return MassMaker{scene, state, search, manifolds, members, free, near_ground, making, w}.run(
-      outsider);
+                        Workers* workers, MassScratch& w, int& outsider) {
+  const size_t n = members.size(), n_pairs = manifolds.size();
+  w.members.resize(n);
+  clear(w.system);
+  w.system.inertia.resize(n);
+  w.contacts.clear();
+  w.ground_pair.clear();
+  w.fell_through = false;
+  const auto maker = [&](MassPart& part) {
+    return MassMaker{scene, state, search, manifolds, members, free, near_ground, w, part};
+  };
+  if (workers == nullptr || n < least_shared) {
+    w.parts.resize(std::max(w.parts.size(), size_t{1}));
+    MassPart& all = w.parts[0];
+    MassMaker make = maker(all);
+    make.begin();
+    make.add_members(0, n);
+    outsider = all.outsider;
+    if (outsider >= 0) return false;
+    make.add_pairs(0, n_pairs);
+    take_part(all, w);
+    return true;
+  }
+  const size_t a_part = n / most_parts + 1, pairs_a_part = n_pairs / most_parts + 1;
+  const size_t of_members = (n + a_part - 1) / a_part,
+               of_pairs = (n_pairs + pairs_a_part - 1) / pairs_a_part;
+  w.parts.resize(std::max(w.parts.size(), of_members + of_pairs));
+  const auto parts = std::span(w.parts).first(of_members + of_pairs);
+  workers->run(static_cast<std::uint32_t>(of_members), [&](std::uint32_t i) {
+    MassMaker make = maker(parts[i]);
+    make.begin();
+    make.add_members(i * a_part, std::min((i + 1) * a_part, n));
+  });
+  for (const MassPart& part : parts.first(of_members)) {
+    outsider = part.outsider;
+    if (outsider >= 0) return false;
+  }
+  workers->run(static_cast<std::uint32_t>(of_pairs), [&](std::uint32_t i) {
+    MassMaker make = maker(parts[of_members + i]);
+    make.begin();
+    make.add_pairs(i * pairs_a_part, std::min((i + 1) * pairs_a_part, n_pairs));
+  });
+  join_parts(parts, w);
+  return true;
 }
 
 }  // namespace talus

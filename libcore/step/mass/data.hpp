@@ -9,7 +9,7 @@
 #include "contact/contact.hpp"
 #include "scene/fixed_bodies.hpp"
 #include "solver/mass_solver.hpp"
-#include "step/island/pair_memories.hpp"
+#include "step/island/data.hpp"
 
 namespace talus {
 
@@ -53,13 +53,27 @@ struct MassChange {
   bool was_hit = false;
 };
 
+/// Rows of consecutive members on the ground, or of consecutive manifolds, and the scratch of the
+/// thread that makes them. Numbers count from the first of the part.
+struct MassPart {
+  std::vector<MassRow> rows;
+  std::vector<MassPair> pairs;
+  std::vector<MassTurn> turns;
+  std::vector<RowArm> arms;
+  std::vector<MassContact> contacts;
+  std::vector<int> ground_pair;  ///< of the part's members; none: of manifolds
+  bool fell_through = false;     ///< a member is wholly below the ground
+  int outsider = -1;             ///< block off the known ground, -1: none
+  ContactMaking making;
+};
+
 struct MassScratch {  // clang-format off
   // 2 make_mass_contacts
+  std::vector<MassPart> parts;              ///< one where nobody shares the work
   std::vector<MassMember> members;          ///<                                        (n_members)
   MassSystem system;                        ///< bodies: members
   std::vector<MassContact> contacts;        ///< of the rows                               (n_rows)
   std::vector<int> ground_pair;             ///< with the ground, -1: none              (n_members)
-  PairMemories memories;
   bool fell_through = false;                ///< a member is wholly below the ground
   // 3 solve
   MassResult solved;

@@ -54,6 +54,12 @@ bool has_settled(const Scene& scene, double h, double change) {
   return change <= mass::settled * scene.gravity.norm() * h;
 }
 
+bool is_any_in_mass(const IslandMembers& members, const State& state) {
+  return !state.mass.empty() &&
+         std::any_of(members.blocks.begin(), members.blocks.end(),
+                     [&](int b) { return state.mass[static_cast<size_t>(b)].is_in_mass; });
+}
+
 bool may_be_mass(const Scene& scene, const IslandMembers& members, const State& state) {
   return scene.settings.masses && !(scene.settings.normal_stiffness > 0) &&
          static_cast<int>(members.size()) >= mass::least_size && !has_bonds(members, state);

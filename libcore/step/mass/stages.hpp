@@ -23,12 +23,12 @@
 namespace talus {
 
 // --- the question (step/mass/question.cpp)
-// ----------------------------------------------------------
 /// Exact step or mass step? Asked once for an island and a step. A mass step for an island of which
 /// more than mass::most_moving blocks move; until it is small, or calm for mass::calm_time, or the
 /// mass step has not found its forces with most sweeps. Exact always: intact bonds, a stiffness
 /// that the scene sets. Fills State::mass of the members.
 [[nodiscard]] bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& state);
+[[nodiscard]] bool is_any_in_mass(const IslandMembers& members, const State& state);
 /// Whether an island is one that a mass step can advance at all.
 [[nodiscard]] bool may_be_mass(const Scene& scene, const IslandMembers& members,
                                const State& state);
@@ -49,31 +49,29 @@ void note_solution(const Scene& scene, const IslandMembers& members, double h,
                    const MassResult& solved, State& state, StepReport& report);
 
 // --- 1 predict: as for the exact step (step/island/predict.cpp)
-// -------------------------------------
 // --- 2 make_mass_contacts (step/mass/contacts.cpp)
-// --------------------------------------------------
 /// Longest substep, up to `h`, in which no point goes by more than mass::most_travel of the
 /// thickness relative to a neighbour, or past the side of a stem.
 [[nodiscard]] double longest_mass_substep(const Scene& scene, const PairSearch& search,
                                           const IslandMembers& members,
                                           std::span<const int> manifolds, double h);
-/// Fills members, rows and contacts of `w`. False: block `outsider` is off the known ground.
+/// Contacts that stay farther apart over a substep of `h` are left out [m].
+[[nodiscard]] double mass_reach(const Scene& scene, double h);
+/// Fills members, rows and contacts of `w`; `workers` share them, or none. False: block `outsider`
+/// is off the known ground.
 [[nodiscard]] bool make_mass_contacts(const Scene& scene, const State& state,
                                       const PairSearch& search, std::span<const int> manifolds,
                                       const IslandMembers& members, const FreeMotions& free,
-                                      std::vector<NearFeatures>& near_ground, ContactMaking& making,
+                                      std::vector<NearFeatures>& near_ground, Workers* workers,
                                       MassScratch& w, int& outsider);
 
 // --- 3 solve (solver/mass_solver.cpp)
-// ---------------------------------------------------------------
 // --- 4 find_mass_changes (step/mass/accept.cpp)
-// -----------------------------------------------------
 /// Fills changes and pushes: the impulses in doubles.
 void find_mass_changes(const Scene& scene, const State& state, const PairSearch& search,
                        const IslandMembers& members, const FreeMotions& free, MassScratch& w);
 
 // --- 5 accept_mass (step/mass/accept.cpp)
-// -----------------------------------------------------------
 /// Fills motion, memory, yielding bodies and ledger of the state, the segments, and the report.
 /// The memory is that of the exact step, which can go on from it, as this step can from that one's.
 void accept_mass(const Scene& scene, const IslandMembers& members, const FreeMotions& free,

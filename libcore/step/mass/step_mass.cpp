@@ -12,13 +12,14 @@
 namespace talus {
 namespace {
 
-MassSettings settings_of(const Scene& scene, const MassShare& share, double h) {
+MassSettings settings_of(const Scene& scene, const MassShare& share, double h, Workers* workers) {
   MassSettings settings;
   settings.sweeps = mass_sweeps(scene.settings.accuracy);
   settings.most_sweeps = std::max(settings.sweeps, mass::most_sweeps);
   settings.settled = mass::settled * scene.gravity.norm() * h;
   settings.compliance = mass_compliance(scene, share);
   settings.shear_ratio = scene.settings.shear_ratio;
+  settings.workers = workers;
   return settings;
 }
 
@@ -27,11 +28,11 @@ bool predict_contacts(const Scene& scene, double t, double h, const State& state
   IslandScratch& island = work.island;
   {
     const StageTimer timer(island.clock, IslandStage::predict);
-    predict_free(scene, state, island.members, t, h, island.free);
+    predict_free(scene, state, island.members, t, h, work.workers, island.free);
   }
   const StageTimer timer(island.clock, IslandStage::make_contacts);
   return make_mass_contacts(scene, state, work.search, island.manifolds, island.members,
-                            island.free, work.near_ground, island.making, work.mass,
+                            island.free, work.near_ground, work.workers, work.mass,
                             island.system.outsider);
 }
 
@@ -59,7 +60,7 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
     const MassShare& share = state.mass[island.members.block(0)];
     if (!is_tried || cuts > 0) {
       if (!predict_contacts(scene, t, h, state, work)) return false;
-      solve_contacts(scene, settings_of(scene, share, h), state, work);
+      solve_contacts(scene, settings_of(scene, share, h, work.workers), state, work);
     }
     report.passes += w.solved.sweeps;
     const StageTimer timer(island.clock, IslandStage::accept);
@@ -81,7 +82,7 @@ bool begins_as_mass(const Scene& scene, double h, State& state, Work& work) {
   if (!may_be_mass(scene, members, state) || !predict_contacts(scene, 0, h, state, work))
     return false;
   const int layers = layers_on_ground(w.system);
-  MassSettings settings = settings_of(scene, {}, h);
+  MassSettings settings = settings_of(scene, {}, h, work.workers);
   settings.sweeps = std::max(mass::most_sweeps, mass::sweeps_per_square_layer * layers * layers);
   settings.most_sweeps = mass::most_first_sweeps;
   settings.from_rest = true;

@@ -21,7 +21,7 @@ layer() {  # NAME SHIFT_M HEIGHT_M
 make_blocks
 dda() { talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db "$@"; }
 
-expect 0 dda -o one.h5 --json
+expect 0 dda -o one.h5 --json --threads 1
 holds_number() { sed -n "s/.*\"$1\": \\([0-9.e+-]*\\),*/\\1/p" out; }
 awk -v rate="$(holds_number simulated_s_per_cpu_s)" -v cpu="$(holds_number cpu_time_s)" \
   'BEGIN { exit !(cpu > 0 && rate * cpu > 0.599 && rate * cpu < 0.601) }' ||

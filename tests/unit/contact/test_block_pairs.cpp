@@ -206,6 +206,51 @@ TEST(BlockPairs, CommonMotionUsesNoBudget) {
   EXPECT_EQ(n_clipped, 0);
 }
 
+// Bodies that need closing points alone have those of all points that come near, now or by the
+// motion ahead, and no others.
+TEST(BlockPairs, PointsThatStayOpenAreLeftOut) {
+  Random random(37);
+  Bodies bodies = heap(random, 40, 5);
+  const Drift motion = drift(random, bodies, 1.0);
+  const double h = 5e-3;
+  std::vector<Vec3> step, rotation;
+  std::vector<double> turn;
+  for (std::size_t b = 0; b < bodies.poses.size(); ++b) {
+    step.push_back(h * motion.velocity[b]);
+    rotation.push_back(h * motion.spin[b]);
+    turn.push_back(bodies.hulls.radius[b] * rotation.back().norm());
+  }
+  PairMotion all;
+  all.step = step;
+  all.turn = turn;
+  const std::vector<std::uint8_t> every(bodies.poses.size(), 1);
+  PairMotion closing = all;
+  closing.closing_only = every;
+  closing.rotation = rotation;
+  PairSettings settings;
+  settings.margin = 0.15;
+  settings.closing = 2e-3;
+  PairState state_of_all, state_of_closing;
+  PairWork work_of_all, work_of_closing;
+  find_pair_contacts(bodies.hulls, bodies.placed, all, settings, state_of_all, work_of_all);
+  find_pair_contacts(bodies.hulls, bodies.placed, closing, settings, state_of_closing,
+                     work_of_closing);
+  const auto kept = contacts(work_of_closing);
+  int n_left_out = 0;
+  for (const auto& [name, where] : contacts(work_of_all)) {
+    const int a = std::get<0>(name), b = std::get<1>(name);  // of one part each
+    const Vec3 on_a = where.point_b + where.gap * where.normal;
+    const Vec3 opens = step[a] + rotation[a].cross(on_a - bodies.poses[a].position) - step[b] -
+                       rotation[b].cross(where.point_b - bodies.poses[b].position);
+    const double nearest = std::min(where.gap, where.gap + where.normal.dot(opens));
+    EXPECT_TRUE(nearest > settings.closing || kept.contains(name)) << nearest;
+    EXPECT_FALSE(nearest > 2e-2 && kept.contains(name)) << nearest;
+    n_left_out += kept.contains(name) ? 0 : 1;
+  }
+  EXPECT_GT(n_left_out, 20);
+  EXPECT_GT(kept.size(), 100u);
+}
+
 // To and fro twice: the second time nothing grows any more, whatever is listed or searched anew.
 TEST(BlockPairs, StepsAllocateNothingOnceTheArraysHaveGrown) {
   if (!counts_allocations) GTEST_SKIP() << "the thread sanitizer counts nothing";

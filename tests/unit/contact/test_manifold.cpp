@@ -35,8 +35,8 @@ Manifold contact_along(const Bodies& bodies, const PairAxis& axis, double margin
   const double area =
       find_features(bodies.hulls, bodies.placed, 0, 1, axis, m.incident, true, clip, held);
   if (!held.empty())
-    add_manifold(bodies.hulls, bodies.placed, 0, 1, axis, m.incident, m.choice.normal, area, margin,
-                 held, m.manifolds, m.points);
+    add_manifold(bodies.hulls, bodies.placed, 0, 1, axis, m.incident, m.choice.normal, area,
+                 PointReach{margin}, held, m.manifolds, m.points);
   return m;
 }
 
@@ -51,7 +51,7 @@ Manifold contact(const Bodies& bodies, double margin, const PairAxis& last = {})
   m.incident = found.incident;
   if (!held.empty())
     add_manifold(bodies.hulls, bodies.placed, 0, 1, m.choice.axis, m.incident, m.choice.normal,
-                 found.area, margin, held, m.manifolds, m.points);
+                 found.area, PointReach{margin}, held, m.manifolds, m.points);
   return m;
 }
 
@@ -440,8 +440,8 @@ RC_GTEST_PROP(Manifold, HeldFeaturesFollowTheBodiesExactly, ()) {
   const Manifold fresh = contact_along(bodies, axis, 1);
   std::vector<PairManifold> manifolds;
   std::vector<PairPoint> points;
-  add_manifold(bodies.hulls, bodies.placed, 0, 1, axis, first.incident, fresh.choice.normal, 0, 1,
-               held, manifolds, points);
+  add_manifold(bodies.hulls, bodies.placed, 0, 1, axis, first.incident, fresh.choice.normal, 0,
+               PointReach{1}, held, manifolds, points);
   const auto expected = places(fresh);
   RC_PRE(expected.size() == points.size());
   for (const PairPoint& p : points) {
