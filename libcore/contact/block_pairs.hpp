@@ -30,7 +30,7 @@ struct PairSettings {
   double graze_ratio = 5e-3;
   double graze_m = 0;          ///< at least the penetration that the solver leaves under load [m]
   bool use_cache = true;       ///< off: list and axes are searched anew each time, for tests
-  double closing = 0;     ///< points that come so near close, see PairMotion::closing_only [m]
+  double closing = 0;          ///< points that come so near close, see PairMotion::closing_only [m]
   Workers* workers = nullptr;  ///< share the listed pairs; nullptr: there are none
 };
 

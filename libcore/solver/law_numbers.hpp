@@ -55,9 +55,6 @@ inline constexpr double stiffest_by_load = 4e5;
 inline constexpr double easing = 4096;
 /// [-] ... then all of the island is soft, at once where a block moves; then substeps are halved.
 inline constexpr int most_eased = 2;
-/// [pairs] How far a hit throws others: contacts within so many pairs of it are not left out.
-/// Tried: 2; one step in ten of 390 blocks that run is made again, nearly all without this.
-inline constexpr int throw_rounds = 6;
 /// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for ...
 inline constexpr double stiffens = 2;
 /// [-] ... one that slips or opens softer by so much.
@@ -129,8 +126,6 @@ inline constexpr double most_substeps = 64;
 inline constexpr double substeps_ahead = 2;
 /// [rad] A lone block that slides on one plane turns by no more in a substep.
 inline constexpr double slides_by_turn = 0.05;
-/// [g h^2] A contact of an island farther than this, and than its hits may close, is left out.
-inline constexpr double reach_by_gravity = 0.25;
 
 // --- hits --------------------------------------------------------------------------------------
 

@@ -34,35 +34,6 @@ struct SubstepCheck {
   ContactMaking& making;
   SubstepEnd& end;
 
-  // Whether a contact that was left out closes by the displacements found without it.
-  [[nodiscard]] bool closes_left_out() const {
-    // Most are told by a bound: no point of a pair is farther than two radii from a block's start.
-    end.farthest.clear();
-    for (size_t k = 0; k < members.size(); ++k) {
-      const double shift =
-          (system.island.position[k] - free.substeps[k].start.pose.position).norm();
-      const Vec6 by = end.displacement[k] + hits.thrown[k];
-      end.farthest.push_back(by.head<3>().norm() +
-                             (2 * members.numbers[k].radius + shift) * by.tail<3>().norm());
-    }
-    return std::any_of(
-        system.left_out.begin(), system.left_out.end(), [&](const LeftOutPoint& left) {
-          const PairManifold& m = search.pairs.manifolds[left.manifold];
-          const double gap_end = system.gap_end[left.point];
-          if (gap_end > end.farthest[members.at(m.block_a)] + end.farthest[members.at(m.block_b)])
-            return false;
-          const Vec3& x = search.pairs.points[left.point].point_b;
-          const auto along = [&](int b) {
-            const size_t k = members.at(b);
-            return m.normal.dot(point_velocity<6>(end.displacement[k] + hits.thrown[k],
-                                                  x - system.island.position[k]));
-          };
-          const double touch = pair_touch_ratio *
-                               std::min(members.of(m.block_a).radius, members.of(m.block_b).radius);
-          return gap_end + along(m.block_a) - along(m.block_b) < -touch;
-        });
-  }
-
   // When the substep has to end so that no block ends deep where it is hit, since a later hit
   // throws it back or it goes in after its hit because of another: shortly after that hit. h: none
   // does.
@@ -231,8 +202,6 @@ struct SubstepCheck {
     if (!converged && tries.halvings < most_halvings)
       return SubstepVerdict::again(unconverged, h / 2);
     set_displacements(free.h, system, hits, end.displacement);
-    if (converged && !tries.takes_all && closes_left_out())
-      return SubstepVerdict::again(contact_left_out, h);
     if (tries.deep_cuts < most_deep_cuts)
       if (const double first = std::min(end_of_deepening_hit(), end_of_throw_into_ground());
           first < h)

@@ -1,7 +1,6 @@
 // Stage 5 of an island's step: its contacts, made ready for the solver.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/make_room.hpp"
 #include "scene/yielding.hpp"
@@ -15,7 +14,7 @@ namespace {
 
 using std::size_t;
 
-using law::pair_touch_ratio, law::reach_by_gravity;
+using law::pair_touch_ratio;
 
 // Sets what the motion of the points says of a contact: they move by `moved` relative to each other
 // within the substep without contact forces, and with `slip` at its start.
@@ -46,23 +45,6 @@ bool knows_body(const State& state, int a, int name) {
 // Lever arms, path and start velocity of a body's material point.
 struct PointPath {
   Vec3 start, end, moved, velocity, spin_end;
-};
-
-/// Motion of two blocks along the normal of their manifold, without contact forces.
-struct PairMotionFree {
-  Vec3 turn_a, turn_b, spin_a, spin_b, at_a, at_b;
-  double moved, speed;
-
-  // Gap at the end of the substep.
-  [[nodiscard]] double gap_end(const PairPoint& point) const {
-    return point.gap + moved + turn_a.dot(point.point_b - at_a) - turn_b.dot(point.point_b - at_b);
-  }
-  // The smaller of the speeds at the start and on the mean.
-  [[nodiscard]] double approach(const PairPoint& point, double gap_end, double h) const {
-    const double start =
-        speed + spin_a.dot(point.point_b - at_a) - spin_b.dot(point.point_b - at_b);
-    return std::min(start, (gap_end - point.gap) / h);
-  }
 };
 
 /// What the contacts of a manifold of two blocks have in common.
@@ -102,7 +84,6 @@ struct ContactMaker {
   void clear() {
     system.pair_manifold.clear();
     system.contacts.clear();
-    system.left_out.clear();
     system.island.pairs.clear();
     system.island.rows.clear();
     system.island.angular.clear();
@@ -336,89 +317,13 @@ struct ContactMaker {
       add_fixed_point(m, point_at(p), continued(m, p), std::max(n_closing, 1));
   }
 
-  [[nodiscard]] PairMotionFree free_motion(const PairManifold& m) const {
-    const size_t ka = members.at(m.block_a), kb = members.at(m.block_b);
-    const Substep &a = free.substeps[ka], &b = free.substeps[kb];
-    const FreeTurn &turn_a = free.turns[ka], &turn_b = free.turns[kb];
-    const Vec3& n = m.normal;
-    PairMotionFree out;
-    out.turn_a = turn_a.by.transpose() * n - n;
-    out.turn_b = turn_b.by.transpose() * n - n;
-    out.spin_a = n.cross(turn_a.spin_start);
-    out.spin_b = n.cross(turn_b.spin_start);
-    out.at_a = a.start.pose.position;
-    out.at_b = b.start.pose.position;
-    out.moved = n.dot((a.free.pose.position - out.at_a) - (b.free.pose.position - out.at_b));
-    out.speed = n.dot(a.start.velocity - b.start.velocity);
-    return out;
-  }
-
-  // Gaps at the end of the substep without contact forces, and how fast each member may be thrown
-  // by the fastest of its own hits and those near it.
-  void look_ahead() {
-    const double h = free.h;
-    std::vector<double>& bound = making.hit_speed_bound;
-    bound.assign(members.size(), 0);
-    const auto note_hit = [&](int b, double speed) {
-      if (b >= 0) bound[members.at(b)] = std::max(bound[members.at(b)], speed);
-    };
-    for (const size_t r : system.waiting)
-      note_hit(system.contacts[r].a, -system.contacts[r].approach);
-    system.gap_end.resize(search.pairs.points.size());
-    for (const int i : manifolds) {
-      const PairManifold& m = search.pairs.manifolds[i];
-      if (is_fixed(scene, m.block_b)) continue;
-      const PairMotionFree motion = free_motion(m);
-      const double resting_speed = members.of(m.block_a).resting_speed;
-      for (int p = m.point_begin; p < m.point_end; ++p) {
-        const double gap_end = motion.gap_end(point_at(p));
-        system.gap_end[p] = gap_end;
-        const double speed = -motion.approach(point_at(p), gap_end, h);
-        if (!(speed > resting_speed && gap_end < h * speed)) continue;
-        note_hit(m.block_a, speed);
-        note_hit(m.block_b, speed);
-      }
-    }
-    for (int round = 0; round < law::throw_rounds; ++round) pass_on();
-  }
-
-  // What is thrown throws its neighbours.
-  void pass_on() {
-    std::vector<double>& bound = making.hit_speed_bound;
-    making.hit_speed_before = bound;
-    for (const int i : manifolds) {
-      const PairManifold& m = search.pairs.manifolds[i];
-      if (is_fixed(scene, m.block_b) || !has_points(m)) continue;
-      const size_t a = members.at(m.block_a), b = members.at(m.block_b);
-      bound[a] = std::max(bound[a], making.hit_speed_before[b]);
-      bound[b] = std::max(bound[b], making.hit_speed_before[a]);
-    }
-  }
-
-  // Contacts of two blocks. A new one is left out where its gap is wider than a quarter of what
-  // gravity does in the substep and twice what hits near them throw; check_substep() sees whether
-  // it closed all the same, and then the substep is made again with all. In one piece, as
-  // add_ground(): a contact is many small functions, and their calls are a twentieth of a step.
-  [[gnu::flatten]] void add_points(int manifold) {
-    const double h = free.h;
-    const PairManifold& m = search.pairs.manifolds[manifold];
-    const double farthest = reach_by_gravity * scene.gravity.norm() * h * h +
-                            2 * h *
-                                std::max(making.hit_speed_bound[members.at(m.block_a)],
-                                         making.hit_speed_bound[members.at(m.block_b)]);
-    const bool may_wait = !tries.takes_all && bond_of(m) < 0;
-    std::optional<Meeting> meeting;  // most manifolds of a dense mass need none
-    for (int p = m.point_begin; p < m.point_end; ++p) {
-      const PairPoint& point = point_at(p);
-      const int memory = continued(m, p);
-      const double nearest = std::min(point.gap, system.gap_end[p]);
-      if (may_wait && memory < 0 && nearest > farthest) {
-        system.left_out.push_back({manifold, p});
-        continue;
-      }
-      if (!meeting) meeting = meeting_of(m);
-      add_point(m, *meeting, point, memory);
-    }
+  // In one piece, as add_ground(): a contact is many small functions, and their calls are a
+  // twentieth of a step.
+  [[gnu::flatten]] void add_points(const PairManifold& m) {
+    if (!has_points(m)) return;
+    const Meeting meeting = meeting_of(m);
+    for (int p = m.point_begin; p < m.point_end; ++p)
+      add_point(m, meeting, point_at(p), continued(m, p));
   }
 
   void add_pair(int manifold) {
@@ -430,7 +335,7 @@ struct ContactMaker {
     if (is_fixed(scene, m.block_b))
       add_fixed_points(m);
     else
-      add_points(manifold);
+      add_points(m);
     if (system.island.pairs.back().row_begin == system.island.pairs.back().row_end) {
       system.island.pairs.pop_back();
       system.first_contact.pop_back();
@@ -442,7 +347,6 @@ struct ContactMaker {
     clear();
     for (size_t k = 0; k < members.size(); ++k)
       if (!add_ground(k)) return false;
-    look_ahead();
     for (const int i : manifolds) add_pair(i);
     return true;
   }

@@ -93,11 +93,6 @@ struct FreeMotions {
   std::vector<FreeTurn> turns;    ///<                                                   (n_members)
 };
 
-/// A point of contact too far apart to close within the substep.
-struct LeftOutPoint {
-  int manifold = 0, point = 0;
-};
-
 /// Bodies and contacts of the substep.
 struct IslandSystem {  // clang-format off
   Island island;                            ///< 4: its bodies; 5: pairs, rows; 7: solution
@@ -107,8 +102,6 @@ struct IslandSystem {  // clang-format off
   std::vector<int> pair_manifold;           ///< index into PairSearch::pairs, -1: ground (n_pairs)
   std::vector<int> ground_pair;             ///< with the ground, -1: none               (n_members)
   std::vector<std::size_t> waiting;         ///< contacts that wait for their hit
-  std::vector<LeftOutPoint> left_out;       ///< points of the pairs that are no contacts
-  std::vector<double> gap_end;              ///< without contact forces [m]              (n_points)
   bool has_bonds = false;                   ///< a contact is part of a bond
   bool is_hard = false;                     ///< 7: its forces took many passes
   bool fell_through = false;                ///< a member is wholly below the ground
@@ -121,8 +114,6 @@ struct ContactMaking {  // clang-format off
   std::vector<Contact> found;               ///< with the ground, of the member at hand
   std::vector<ContactRow> rows;             ///< of these
   std::vector<ContactMemory> unbonded;      ///< memory of a member whose bond with the ground broke
-  std::vector<double> hit_speed_bound;      ///< that hits near it may give it, about [m/s] (n_members)
-  std::vector<double> hit_speed_before;     ///< ... by hits one pair nearer [m/s]       (n_members)
   PairMemories memories;                    ///< of the manifold at hand
 };  // clang-format on
 
@@ -241,7 +232,6 @@ struct SubstepHits {  // clang-format off
 struct SubstepEnd {  // clang-format off
   // 8 check_substep
   std::vector<Vec6> displacement;           ///< by contact                              (n_members)
-  std::vector<double> farthest;             ///< that contact moves a point [m]          (n_members)
   std::vector<BondFace> bond_faces;         ///< and what they carry                     (n_bonded)
   double error = 0;                         ///< estimated, as a share of the way [-]
   std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
@@ -267,7 +257,6 @@ struct SubstepTries {
   // of the substep
   int halvings = 0;              ///< because it did not converge
   int used_up_cuts = 0;          ///< at the time when what gives way is used up
-  bool takes_all = false;        ///< contacts that may be left out are not
   std::vector<BondFace> broken;  ///< bonds that it breaks
   // of the step
   double last_h = 0;   ///< length of the substep before, or of the step [s]

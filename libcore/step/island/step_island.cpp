@@ -42,7 +42,6 @@ SubstepVerdict try_substep(const Scene& scene, const State& state, const PairSea
 
 void begin_substep(SubstepTries& tries) {
   tries.halvings = tries.used_up_cuts = 0;
-  tries.takes_all = false;
   tries.broken.clear();
 }
 
@@ -59,9 +58,6 @@ void note_cut(SubstepCut reason, const SubstepEnd& end, const IslandMembers& mem
         tries.eased = law::most_eased;
         ++tries.halvings;
       }
-      break;
-    case SubstepCut::contact_left_out:
-      tries.takes_all = true;
       break;
     case SubstepCut::inaccurate:
       break;
@@ -161,6 +157,18 @@ double prepare_substep(const Scene& scene, int k, bool is_mass, double t, double
   return longest_substep(scene, state, search, w.members, w.manifolds, ahead);
 }
 
+// Gives back what the exact step of a large island held: several times what its mass step needs.
+void release_exact_step(IslandScratch& w) {
+  constexpr size_t large = 1000;  // members
+  if (w.members.size() < large) return;
+  Workers* const workers = w.solver.matrix.workers;
+  w.system = {};
+  w.hits = {};
+  w.solver = {};
+  w.end = {};
+  w.solver.matrix.workers = w.hits.impact.workers = workers;
+}
+
 }  // namespace
 
 void advance_island(const Scene& scene, int k, double t_end, State& state, Work& work,
@@ -177,6 +185,7 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
   const bool was_mass = is_any_in_mass(w.members, state);
   bool is_mass = t > 0 && moves_as_mass(scene, w.members, state);
   if (was_mass && !is_mass) work.search.is_of_step = false;  // points that do not close are missing
+  if (is_mass && !was_mass) release_exact_step(w);
   while (t < t_end && !w.members.blocks.empty()) {
     const double longest = prepare_substep(scene, k, is_mass, t, ahead, state, work);
     const bool is_tried = t == 0 && begins_as_mass(scene, longest, state, work);
