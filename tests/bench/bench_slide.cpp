@@ -1,4 +1,5 @@
-// The peers' slide (scene F): 39 blocks on 2,240 triangles, friction 25 degrees, COR 0.7, 20 s.
+// The peers' slide (scene F): 39 blocks on 2,240 triangles, friction 25 degrees, COR 0.7, 20 s; and
+// many blocks, copies of theirs side by side on a plane of 40 degrees.
 // TALUS_PEERS_DIR=... [TALUS_BENCH_THREADS=n] bench_slide; counters: mean position s (down the
 // slope) and x, the largest penetration, steps accepted unconverged, and the error of the energy
 // balance over the fall.
@@ -7,10 +8,12 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 
 #include "base/workers.hpp"
 #include "slide_scene.hpp"
 #include "step/step.hpp"
+#include "verify/cases/cases.hpp"
 
 namespace {
 
@@ -81,6 +84,52 @@ void slide_by(benchmark::State& run, Law law, bool masses = Settings{}.masses) {
     run.counters["balance"] = (lost - l.friction - l.impact - l.contact - l.removed) / lost;
   }
 }
+// Blocks of a slide `n_copies` times side by side, on a plane that they touch.
+Scene many_blocks(const SlideData& data, std::int64_t n_copies) {
+  const cases::SlopeFrame frame = cases::slope_frame(40, -90);  // down y, as the slide
+  double left = std::numeric_limits<double>::infinity(), right = -left, lowest = left;
+  Vec3 foot = Vec3::Zero();
+  for (const Body& body : data.bodies)
+    for (const Vec3& v : body.parts.front().vertices) {
+      left = std::min(left, v.x());
+      right = std::max(right, v.x());
+      if (frame.normal.dot(v) >= lowest) continue;
+      lowest = frame.normal.dot(v);
+      foot = v;
+    }
+  const double width = right - left + 1;  // [m]
+  std::vector<Body> bodies;
+  for (std::int64_t k = 0; k < n_copies; ++k) {
+    const double aside = (static_cast<double>(k) - static_cast<double>(n_copies / 2)) * width;
+    for (const Body& body : data.bodies)
+      bodies.push_back(cases::body_of(
+          cases::moved(body.parts.front(), Mat3::Identity(), Vec3::Zero(), Vec3(aside, 0, 0))));
+  }
+  const double reach = 400 + static_cast<double>(n_copies) * width / 2;
+  return cases::scene_of(cases::plane_trn(frame, 5, reach, foot - 1e-3 * frame.normal),
+                         cases::ground_of(25, 0.7), bodies, {}, {2500, 5e10, 0.25});
+}
+
+// Arguments: blocks of a copy, copies, duration [0.1 s].
+void SlideMany(benchmark::State& run) {
+  if (bench::peers_folder().empty()) return run.SkipWithError("TALUS_PEERS_DIR is not set");
+  const double duration = 0.1 * static_cast<double>(run.range(2));
+  const Scene scene = many_blocks(bench::read_peers_slide(run.range(0)), run.range(1));
+  Workers workers(bench::n_threads());
+  for (auto _ : run) {
+    State state = start(scene);
+    Work work = make_work(scene, workers.n_threads() > 1 ? &workers : nullptr);
+    double deepest = 0;
+    while (state.time < duration - scene.settings.dt / 2)
+      deepest = std::max(deepest, step(scene, state, work).largest_penetration);
+    run.counters["blocks"] = n_blocks(scene);
+    run.counters["deepest_m"] = deepest;
+    run.counters["passes"] = static_cast<double>(state.counters.passes);
+    run.counters["unconverged"] = static_cast<double>(state.counters.unconverged);
+    run.counters["kb_a_block"] = resident_kb() / n_blocks(scene);
+  }
+}
+
 void Slide(benchmark::State& run) { slide_by(run, Law::talus); }
 void SlideExact(benchmark::State& run) { slide_by(run, Law::talus, false); }
 void SlideMass(benchmark::State& run) { slide_by(run, Law::talus, true); }
@@ -103,6 +152,10 @@ BENCHMARK(SlideExact)
     ->Iterations(1);
 BENCHMARK(SlideMass)
     ->ArgsProduct({{39, 390, 3900}, {10, 50, 100}, {0, 1, 2}, {5, 10, 20, 100, 200}})
+    ->Unit(benchmark::kSecond)
+    ->Iterations(1);
+BENCHMARK(SlideMany)
+    ->ArgsProduct({{390, 3900}, {1, 5, 25}, {1, 2, 5, 10, 50}})
     ->Unit(benchmark::kSecond)
     ->Iterations(1);
 BENCHMARK(SlidePaper)
