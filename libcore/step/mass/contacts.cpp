@@ -37,6 +37,7 @@ struct PointMotion {
 struct Faces {
   double friction = 0, restitution = 0;
   double resting_speed = 0;
+  double thickness = 0;            // of the thinner body [m]
   double limit = no_normal_limit;  // of the normal impulse [N s]
   bool yields = false;
 };
@@ -115,13 +116,23 @@ struct MassMaker {
     return false;
   }
 
+  // Overlap that presses nothing: what the last step left of it, or what a new contact begins with.
+  // It is pressed out slowly, so that nothing is lifted; what is deep faster.
+  [[nodiscard]] double offset_of(const PointMotion& motion, const Faces& faces,
+                                 const ContactMemory* then) const {
+    const double left = then != nullptr ? then->offset : std::max(0.0, -motion.gap);
+    const double deep = std::clamp(left / (law::relaxes_anyway * faces.thickness) - 1, 0.0, 1.0);
+    const double relaxed = offset_relaxed(scene.gravity.norm(), free.h);
+    return std::max(0.0, left - relaxed - deep * (free.h * mass::fastest_push - relaxed));
+  }
+
   // Velocity below which the row presses, less that of its point.
   [[nodiscard]] double bias_of(const PointMotion& motion, const Faces& faces, double approach,
-                               bool is_hit) const {
+                               bool is_hit, const ContactMemory* then) const {
     if (is_hit) return faces.restitution * approach;
     if (motion.gap >= 0) return motion.gap / free.h;
     if (faces.yields) return 0;  // the overlap of what gave way presses nothing
-    return std::max(motion.gap / recovery_time, -mass::fastest_push);
+    return std::min(0.0, motion.gap + offset_of(motion, faces, then)) / recovery_time;
   }
 
   // Adds the row of a contact that moves so; the rest of `contact` is filled. `then`: what it
@@ -141,7 +152,8 @@ struct MassMaker {
     set_floats(n, row.normal);
     set_floats(motion.arm_a, row.arm_a);
     set_floats(motion.arm_b, row.arm_b);
-    set_floats(motion.end + bias_of(motion, faces, approach, contact.is_hit) * n, row.velocity);
+    set_floats(motion.end + bias_of(motion, faces, approach, contact.is_hit, then) * n,
+               row.velocity);
     if (slip_speed > 0) set_floats(slip / slip_speed, row.slip_start);
     row.friction = static_cast<float>(faces.friction);
     row.limit = static_cast<float>(std::min(faces.limit, law_limit));
@@ -218,6 +230,7 @@ struct MassMaker {
                         free.h * row.slip_speed);
     faces.restitution = restitution_on(ground, c.mass, row.restitution, approach);
     faces.resting_speed = c.resting_speed;
+    faces.thickness = c.thickness;
     MassContact contact;
     contact.key = row.key;
     contact.a = members.blocks[k];
@@ -320,6 +333,8 @@ struct MassMaker {
     faces.friction = of.friction;
     faces.restitution = of.restitution;
     faces.resting_speed = members.of(m.block_a).resting_speed;
+    faces.thickness = members.of(m.block_a).thickness;
+    if (fixed < 0) faces.thickness = std::min(faces.thickness, members.of(m.block_b).thickness);
     return faces;
   }
 

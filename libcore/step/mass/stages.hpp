@@ -5,7 +5,6 @@
 // order. Laws are those of the exact step, through the same functions: ground and its rows
 // (step/substep.hpp), pairs, fences, stems, soil, drag. What is simpler:
 // - a contact that closes fast rebounds within the step, once: a hit is not passed on in turn;
-// - overlap is pressed out at a bounded speed, whatever pressed it in;
 // - all contacts have one stiffness;
 // - forces are found to what the last sweep changes, see law numbers in solver/mass_numbers.hpp.
 // docs/theory/theory.md, "One step of a mass"
