@@ -7,7 +7,6 @@
 #include "record/deep_rows.hpp"
 #include "record/tree_hits.hpp"
 #include "scene/worlds.hpp"
-#include "step/step.hpp"
 #include "store/checkpoint.hpp"
 
 namespace talus {
@@ -142,7 +141,7 @@ double energy_gain(const Runner& runner, const HealthRow& row) {
   // What is gone into friction and impacts came from somewhere too. The ledger of law paper leaves
   // out what its integrator damps.
   double known = now - runner.energy_start - row.base;
-  if (runner.scene.settings.law == Law::talus)
+  if (!runner.law)
     known += std::max(0.0, row.friction + row.impact + row.contact + row.fence + row.rolling +
                                row.drag + row.breakage + row.removed);
   return known / turned_over(runner, row);
@@ -245,7 +244,7 @@ std::vector<HealthCheck> checks_of(const Runner& runner, const WorstOfRows& wors
             first(mishaps.fell_through)),
       check("energy gained, share of the fall energy", worst.gain.value, limits.max_energy_gain,
             true, worst.gain.where())};
-  if (least_restitution(runner.scene) >= almost_full && runner.scene.settings.law == Law::talus)
+  if (least_restitution(runner.scene) >= almost_full && !runner.law)
     checks.push_back(check("energy lost but by friction and hits, share of the fall energy",
                            worst.loss.value, limits.max_energy_gain, false, worst.loss.where()));
   checks.push_back(check("steps accepted unconverged, share", unconverged_share(runner),
@@ -264,6 +263,7 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
                    RunFile file) {
   Runner runner{scene,
                 options,
+                law_of(options.paper),
                 {},
                 make_work(scene, options.workers),
                 {},
@@ -292,7 +292,7 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
 Runner begin_run(const Scene& scene, const RunOptions& options, std::vector<RecordLine> lines,
                  RunFile file) {
   Runner runner = make_runner(scene, options, std::move(lines), std::move(file));
-  runner.state = start(scene, runner.work);
+  runner.state = start_by(runner.law, scene, runner.work);
   runner.energy_start = mechanical(energies(scene, runner.state));
   for (int b = 0; b < n_blocks(scene); ++b) {
     const Motion& motion = runner.state.motion[b];
@@ -309,6 +309,7 @@ Runner resume_run(const Scene& scene, const RunOptions& options, std::vector<Rec
   const int n_cells = std::max(1, runner.passages.grid.n_rows * runner.passages.grid.n_cols);
   Checkpoint checkpoint = unpack(runner.file.checkpoint, n_blocks(scene), n_cells, path);
   runner.state = std::move(checkpoint.state);
+  if (runner.law) runner.law->state = std::move(checkpoint.paper);
   runner.sampler = std::move(checkpoint.sampler);
   runner.interval = checkpoint.interval;
   runner.energy_start = checkpoint.energy_start;
@@ -327,7 +328,7 @@ Runner resume_run(const Scene& scene, const RunOptions& options, std::vector<Rec
 
 void advance(Runner& runner) {
   const std::size_t n_crushed = runner.state.crushed.size(), n_breaks = runner.state.breaks.size();
-  const StepReport report = step(runner.scene, runner.state, runner.work);
+  const StepReport report = step_by(runner.law, runner.scene, runner.state, runner.work);
   for (const Segment& segment : runner.work.segments) record(runner, segment);
   record_breaks(runner, n_breaks);
   record_crushed(runner, n_crushed);
@@ -347,8 +348,7 @@ bool is_over(const Runner& runner) {
 bool stands(const Runner& runner) {
   const Scene& scene = runner.scene;
   const State& state = runner.state;
-  if (scene.settings.law != Law::talus || state.time < standing_after_s - half_step(runner))
-    return false;
+  if (runner.law || state.time < standing_after_s - half_step(runner)) return false;
   if (shakes(scene.base) || !scene.loads.empty()) return false;
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<std::size_t>(b);
@@ -403,8 +403,9 @@ void update_file(Runner& runner, bool with_checkpoint) {
   file.phase = runner.state.phase;
   file.checkpoint.clear();
   if (with_checkpoint)
-    file.checkpoint = pack({runner.state, runner.passages.trackers, runner.sampler, runner.interval,
-                            runner.energy_start});
+    file.checkpoint =
+        pack({runner.state, runner.law ? runner.law->state : PaperState{}, runner.passages.trackers,
+              runner.sampler, runner.interval, runner.energy_start});
 }
 
 std::vector<HealthCheck> health_checks(const Runner& runner) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "record/object_hits.hpp"
 #include "record/passages.hpp"
 #include "record/run_file.hpp"
+#include "run/law.hpp"
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
 #include "step/work.hpp"
@@ -38,6 +40,7 @@ struct RunOptions {
   bool passages_by_centroid = false;
   double passage_cell_size = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the TRN's [m]
   bool strain = false;                                                  ///< store strains in frames
+  std::optional<PaperSettings> paper;  ///< law paper moves the blocks, not law talus
   RunLimits limits;
   Workers* workers = nullptr;  ///< share the loops of a step; the bits do not depend on them
 };
@@ -55,6 +58,7 @@ struct HealthCheck {
 struct Runner {
   const Scene& scene;
   RunOptions options;
+  RunLaw law;
   State state;
   Work work;
   PassageRecorder passages;

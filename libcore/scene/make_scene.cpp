@@ -87,9 +87,6 @@ void check_scene(const Scene& scene) {
   const Settings& s = scene.settings;
   if (!(s.dt > 0 && std::isfinite(s.dt)))
     throw InputError({}, "time step is " + text(s.dt) + " s, expected above 0");
-  if (s.law == Law::paper && !(s.normal_stiffness > 0))
-    throw InputError({}, "law paper needs a normal stiffness above 0 N/m",
-                     "give [solver] normal_stiffness_n_m; the paper takes k_n = E = 5e10");
   if (!(s.normal_stiffness >= 0))
     throw InputError({}, "normal stiffness is " + text(s.normal_stiffness) + " N/m, expected >= 0");
   if (!(s.accuracy > 0))

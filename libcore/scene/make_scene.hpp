@@ -22,7 +22,7 @@ struct Material {
 void add_blocks(Scene& scene, const BlockSet& set, std::span<const Material> materials);
 
 /// Throws InputError for what no run can be computed with: dt <= 0, friction < 0, a restitution
-/// outside 0..1, a stiffness <= 0 with law paper, a base motion whose times do not increase.
+/// outside 0..1, a base motion whose times do not increase.
 void check_scene(const Scene& scene);
 
 }  // namespace talus

@@ -17,18 +17,13 @@
 #include "scene/fixed_bodies.hpp"
 #include "scene/forest.hpp"
 #include "scene/joint_classes.hpp"
-#include "scene/paper_state.hpp"
 #include "site/acceleration_record.hpp"
 
 namespace talus {
 
-/// `paper`: penalty springs, open-close iteration, fixed step. `talus`: docs/theory/theory.md.
-enum class Law { talus, paper };
-
 /// How a run is computed. The defaults of law talus serve every scene; those that a site file may
 /// change are its defaults too (SolverSettings).
 struct Settings {
-  Law law = Law::talus;
   bool strains = false;         ///< 12 degrees of freedom a block instead of 6
   double dt = 0.005;            ///< time step, > 0; law talus shortens it where it must [s]
   double normal_stiffness = 0;  ///< k_n, > 0; 0 lets law talus choose [N/m]
@@ -42,7 +37,6 @@ struct Settings {
   bool trn_contacts = true;  ///< law talus: blocks touch the TRN; off, fixed bodies are the slope
   bool masses = true;        ///< law talus: many moving blocks take the mass step
   bool sleep = true;         ///< law talus: blocks at rest are left out
-  PaperSettings paper;
 };
 
 /// A force on a material point of a block, constant in local axes.

@@ -121,7 +121,6 @@ double time_step(const SolverSettings& solver) {
 
 Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
   Settings settings;
-  settings.law = solver.law == "paper" ? Law::paper : Law::talus;
   settings.strains = plan.strains;
   settings.dt = time_step(solver);
   settings.normal_stiffness =
@@ -173,7 +172,7 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
   scene.fragments = std::move(parts.fragments);
   scene.fragmentation = {breaking.energy_j_m2, breaking.spread, breaking.separation_share,
                          static_cast<std::uint64_t>(breaking.seed)};
-  if (scene.settings.law == Law::talus) {
+  if (solver.law == "talus") {
     const auto n_released = std::count_if(scene.fragments.begin(), scene.fragments.end(),
                                           [](const Fragment& f) { return f.parent < 0; });
     scene.crush_load =

@@ -151,7 +151,6 @@ struct State : BlockLives {  // clang-format off
   FenceState fence;                         ///< what touched the panels of fences
   std::vector<StemHit> stem_hits;           ///< in the order of their times, step by step
   HitChain stem_chain;                      ///< of `stem_hits`
-  PaperState paper;                         ///< of law paper alone
   EnergyLedger ledger;
   RunCounters counters;
 };  // clang-format on

@@ -1,4 +1,4 @@
-// libcore/step/deep_blocks.hpp
+// libcore/step/deep_blocks.hpp: public
 // Blocks that are in the ground, in another block or in a fence by more than a tenth of their
 // thickness at the end of a step.
 // in:    blocks with a contact that says so (DeepWork::is_suspect), motion at the end of the step

@@ -1,4 +1,4 @@
-// libcore/step/loads.hpp
+// libcore/step/loads.hpp: public
 // What drives a block besides its contacts: gravity, base motion, point loads.
 // theory 1.5
 #pragma once

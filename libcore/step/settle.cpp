@@ -59,8 +59,21 @@ void bond_faces(const Scene& scene, int b, const Pose& pose, const Work& work,
   }
 }
 
-// Whether the block touches the ground and moves neither into it nor off it.
+// Whether the ball around block b at rest is far above all ground below it.
+bool is_above_ground(const Scene& scene, size_t b) {
+  const Vec3 &at = scene.blocks.rest[b].position,
+             around = Vec3::Constant(1.001 * scene.blocks.shapes.radius[b]);
+  const NearCells near =
+      find_near_cells(scene.ground.trn, scene.ground.pyramid, at - around, at + around, 0);
+  return near.reach == Reach::above;
+}
+
+// Whether the block is there, touches the ground without spin, and moves neither into it nor off
+// it.
 bool touches_at_rest(const Scene& scene, int b, const Motion& motion, Work& work) {
+  const auto i = static_cast<size_t>(b);
+  if (!is_released(scene, i) || !scene.blocks.spin[i].isZero(0) || is_above_ground(scene, i))
+    return false;
   const BlockNumbers c = numbers_of(scene, b);
   (void)find_contacts(scene.ground, scene.blocks.shapes, b, motion.pose, Mat3::Identity(),
                       1e3 * c.touch, work.world_vertices, work.contacts);

@@ -1,4 +1,4 @@
-// libcore/step/settle.hpp
+// libcore/step/settle.hpp: public
 // Law talus: static start of one block, and the bonds of its faces on cohesive ground.
 #pragma once
 

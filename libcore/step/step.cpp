@@ -15,7 +15,6 @@
 #include "step/island/step_island.hpp"
 #include "step/lone/step_talus.hpp"
 #include "step/mishaps.hpp"
-#include "step/paper/step_paper.hpp"
 #include "step/settle.hpp"
 #include "step/substep.hpp"
 
@@ -40,20 +39,9 @@ bool in_company(const State& state, const PairSearch& w, int b) {
          (w.near_fixed[i] != 0 && !does_not_move(state.phase[i]));
 }
 
-// Whether the ball around block b at rest is far above all ground below it.
-bool is_above_ground(const Scene& scene, size_t b) {
-  const Vec3 &at = scene.blocks.rest[b].position,
-             around = Vec3::Constant(1.001 * scene.blocks.shapes.radius[b]);
-  const NearCells near =
-      find_near_cells(scene.ground.trn, scene.ground.pyramid, at - around, at + around, 0);
-  return near.reach == Reach::above;
-}
-
-bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
-
 }  // namespace
 
-State start(const Scene& scene, Work& work) {
+State start_unsettled(const Scene& scene) {
   const auto n = static_cast<size_t>(n_blocks(scene));
   State state;
   static_cast<BlockLives&>(state) = start_lives(scene.blocks.rest);
@@ -86,14 +74,13 @@ State start(const Scene& scene, Work& work) {
     state.motion[b].angular_momentum = angular_momentum(
         scene.blocks.rest[b].attitude, scene.blocks.spin[b], scene.blocks.inertia[b]);
   }
-  const bool is_paper = scene.settings.law == Law::paper;
-  if (is_paper) state.paper.rebound.assign(n, Vec3::Zero());
-  if (scene.settings.trn_contacts && (is_paper || scene.settings.static_start)) {
-    for (size_t b = 0; b < n; ++b) {
-      if (!is_released(scene, b) || spins(scene, b) || is_above_ground(scene, b)) continue;
-      (is_paper ? bond_block : settle_block)(scene, static_cast<int>(b), state, work);
-    }
-  }
+  return state;
+}
+
+State start(const Scene& scene, Work& work) {
+  State state = start_unsettled(scene);
+  if (!scene.settings.trn_contacts || !scene.settings.static_start) return state;
+  for (int b = 0; b < n_blocks(scene); ++b) settle_block(scene, b, state, work);
   return state;
 }
 
@@ -151,41 +138,9 @@ void advance_talus(const Scene& scene, State& state, Work& work, StepReport& rep
   }
 }
 
-// Members and pairs of blocks of the island that block b is the first of, for law paper.
-void gather_island(const Scene& scene, int b, Work& work) {
-  const PairSearch& w = work.search;
-  const auto k = static_cast<size_t>(w.groups.island_of[b]);
-  work.paper.members.assign(w.groups.blocks.begin() + w.groups.block_begin[k],
-                            w.groups.blocks.begin() + w.groups.block_begin[k + 1]);
-  for (int p = w.groups.pair_begin[k]; p < w.groups.pair_begin[k + 1]; ++p) {
-    const int m = w.joined_manifold[w.groups.pairs[p]];
-    if (!is_fixed(scene, w.pairs.manifolds[m].block_b)) work.paper.manifolds.push_back(m);
-  }
-}
-
-void advance_paper(const Scene& scene, State& state, Work& work, StepReport& report) {
-  const bool islands = n_blocks(scene) > 1 && scene.settings.block_contacts;
-  if (islands) form_islands(scene, state, work);
-  for (int b = 0; b < n_blocks(scene); ++b) {
-    const auto i = static_cast<size_t>(b);
-    if (does_not_move(state.phase[i])) continue;
-    if (islands && work.search.groups.local_index[i] > 0) continue;
-    work.paper.members.assign(1, b);
-    work.paper.manifolds.clear();
-    if (islands) gather_island(scene, b, work);
-    advance_island_paper(scene, work.paper.members, work.paper.manifolds, state, work, report);
-  }
-}
-
 }  // namespace
 
-StepReport step(const Scene& scene, State& state, Work& work) {
-  StepReport report;
-  work.segments.clear();
-  if (scene.settings.law == Law::paper)
-    advance_paper(scene, state, work, report);
-  else
-    advance_talus(scene, state, work, report);
+void end_step(const Scene& scene, State& state, Work& work, StepReport& report) {
   state.time += scene.settings.dt;
   break_blocks(scene, state, work);
   crush_blocks(scene, state);
@@ -196,6 +151,13 @@ StepReport step(const Scene& scene, State& state, Work& work) {
   state.counters.impacts += report.n_impacts;
   state.counters.passes += report.passes;
   state.counters.unconverged += report.n_unconverged;
+}
+
+StepReport step(const Scene& scene, State& state, Work& work) {
+  StepReport report;
+  work.segments.clear();
+  advance_talus(scene, state, work, report);
+  end_step(scene, state, work, report);
   return report;
 }
 

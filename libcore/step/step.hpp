@@ -13,9 +13,9 @@
 
 namespace talus {
 
-/// State at time 0. With law talus and Settings::static_start, a block at rest that touches the
-/// ground is let down into equilibrium with it (its weight over the contact stiffness,
-/// micrometres), with `work` of make_work().
+/// State at time 0. With Settings::static_start, a block at rest that touches the ground is let
+/// down into equilibrium with it (its weight over the contact stiffness, micrometres), with `work`
+/// of make_work().
 [[nodiscard]] State start(const Scene& scene, Work& work);
 [[nodiscard]] State start(const Scene& scene);
 
@@ -28,6 +28,13 @@ namespace talus {
 /// A block in flight is not touched until its flight ends: its motion is that at local_time;
 /// motion_at() gives it at any time. A block that leaves the known terrain is stopped there.
 StepReport step(const Scene& scene, State& state, Work& work);
+
+// For another law (paper/paper_step.hpp), which moves the blocks of the same State.
+
+/// State at time 0 without static start.
+[[nodiscard]] State start_unsettled(const Scene& scene);
+/// What follows the motion of the blocks over settings.dt: time, breakage, deep blocks, counters.
+void end_step(const Scene& scene, State& state, Work& work, StepReport& report);
 
 /// Energies of all blocks at state.time [J]. Potential energy counts from the local zero.
 struct Energies {

@@ -1,4 +1,4 @@
-// libcore/step/substep.hpp
+// libcore/step/substep.hpp: public
 // What a substep of law talus starts from, for a lone block and for an island: numbers of a block,
 // its free motion, and the rows of its contacts with the ground.
 // theory 1.7, 1.8 (law of a contact over a step), 1.10 (correction about the free motion)

@@ -14,7 +14,6 @@
 #include "step/deep_work.hpp"
 #include "step/island/data.hpp"
 #include "step/mass/data.hpp"
-#include "step/paper/paper_work.hpp"
 
 namespace talus {
 
@@ -58,7 +57,6 @@ struct Work {  // clang-format off
   PairSearch search;
   IslandScratch island;                      ///< at hand
   MassScratch mass;                          ///< ... where it is a mass
-  PaperWork paper;
   // note_overlap, note_deep_blocks
   DeepWork deep;
 };  // clang-format on

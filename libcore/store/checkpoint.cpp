@@ -16,7 +16,7 @@ namespace talus {
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 72 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 136 &&
               sizeof(HealthRow) == 208 + 8 * substep_cut_names.size());
-static_assert(sizeof(State) == 8 + 23 * 24 + sizeof(HitChain) + sizeof(EnergyLedger) +
+static_assert(sizeof(State) == 8 + 22 * 24 + sizeof(HitChain) + sizeof(EnergyLedger) +
                                    sizeof(RunCounters) + sizeof(PairState) + sizeof(PlacedHulls) +
                                    sizeof(FenceState) + sizeof(YieldingState) + sizeof(Mishaps));
 static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
@@ -163,15 +163,6 @@ void fields(Fields<Archive>& archive, PlacedHulls& placed) {
           placed.axes, placed.turned);
 }
 template <class Archive>
-void fields(Fields<Archive>& archive, State& state) {
-  archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
-          state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
-          state.rest_steps, state.strain, state.strain_rate, state.memory, state.mass, state.pairs,
-          state.placed, state.bonds, state.deep, state.slid, state.load, state.crushed,
-          state.hit_loss, state.n_hits, state.breaks, state.mishaps, state.yielding, state.fence,
-          state.stem_hits, state.stem_chain, state.ledger, state.counters);
-}
-template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
   archive(values.speed, values.translational_energy, values.total_energy, values.centroid_height,
           values.top_height);
@@ -204,8 +195,14 @@ void fields(Fields<Archive>& archive, HealthRow& row) {
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
-  archive(checkpoint.state, checkpoint.trackers, checkpoint.sampler, checkpoint.interval,
-          checkpoint.energy_start);
+  State& state = checkpoint.state;
+  archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
+          state.acceleration, state.spin_rate, state.support, checkpoint.paper.rebound,
+          state.rest_pose, state.rest_steps, state.strain, state.strain_rate, state.memory,
+          state.mass, state.pairs, state.placed, state.bonds, state.deep, state.slid, state.load,
+          state.crushed, state.hit_loss, state.n_hits, state.breaks, state.mishaps, state.yielding,
+          state.fence, state.stem_hits, state.stem_chain, state.ledger, state.counters,
+          checkpoint.trackers, checkpoint.sampler, checkpoint.interval, checkpoint.energy_start);
 }
 
 namespace {
@@ -234,6 +231,8 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
     return false;
   if (!state.load.empty() && state.load.size() != n_blocks) return false;
   if (!state.mass.empty() && state.mass.size() != n_blocks) return false;
+  if (!checkpoint.paper.rebound.empty() && checkpoint.paper.rebound.size() != n_blocks)
+    return false;
   for (const auto& [chain, n_hits] : {std::pair{&state.fence.chain, state.fence.hits.size()},
                                       std::pair{&state.stem_chain, state.stem_hits.size()}})
     if ((n_hits > 0 && chain->latest.size() != n_blocks) || chain->before.size() != n_hits)

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "paper/paper_state.hpp"
 #include "record/frames.hpp"
 #include "record/passages.hpp"
 #include "record/run_file.hpp"
@@ -16,6 +17,7 @@ namespace talus {
 
 struct Checkpoint {
   State state;
+  PaperState paper;                      ///< empty with law talus
   std::vector<PassageTracker> trackers;  ///< empty when passages are off
   FrameSampler sampler;
   HealthRow interval;       ///< health since the last row

@@ -95,7 +95,7 @@ void case_sliding(benchmark::State& bench) {
 BENCHMARK(case_sliding)->Unit(benchmark::kMillisecond);
 
 void case_bounce(benchmark::State& bench) {
-  Settings settings;
+  CaseSettings settings;
   settings.dt = 1e-2;
   CaseResult result;
   for (auto _ : bench) result = bounce(settings, 0.7, Landing::face);

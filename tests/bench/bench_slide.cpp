@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "base/workers.hpp"
+#include "run/law.hpp"
 #include "slide_scene.hpp"
-#include "step/step.hpp"
 #include "verify/cases/cases.hpp"
 
 namespace {
@@ -43,25 +43,24 @@ double resident_kb() {
 }
 
 // Arguments: blocks, time step [1e-4 s], seed, duration [0.1 s].
-void slide_by(benchmark::State& run, Law law, bool masses = Settings{}.masses) {
+void slide_by(benchmark::State& run, RunLaw law, bool masses = Settings{}.masses) {
   if (bench::peers_folder().empty()) return run.SkipWithError("TALUS_PEERS_DIR is not set");
   Settings settings;
-  settings.law = law;
   settings.masses = masses;
-  if (law == Law::paper) settings.normal_stiffness = 5e10;
+  if (law) settings.normal_stiffness = 5e10;
   settings.dt = 1e-4 * static_cast<double>(run.range(1));
   const double duration = 0.1 * static_cast<double>(run.range(3));
   const double before_kb = resident_kb();  // means something for the first scene of a process
   const Scene scene = slide_scene(bench::read_peers_slide(run.range(0)), settings,
                                   static_cast<std::uint64_t>(run.range(2)));
   for (auto _ : run) {
-    State state = start(scene);
     Workers workers(bench::n_threads());
     Work work = make_work(scene, workers.n_threads() > 1 ? &workers : nullptr);
+    State state = start_by(law, scene, work);
     const double before = mechanical_energy(scene, state);
     double deepest = 0, depth = 0, closed = 0;
     while (state.time < duration - settings.dt / 2) {
-      const StepReport report = step(scene, state, work);
+      const StepReport report = step_by(law, scene, state, work);
       deepest = std::max(deepest, report.largest_penetration);
       depth += report.sum_penetration;
       closed += report.n_closed;
@@ -130,10 +129,10 @@ void SlideMany(benchmark::State& run) {
   }
 }
 
-void Slide(benchmark::State& run) { slide_by(run, Law::talus); }
-void SlideExact(benchmark::State& run) { slide_by(run, Law::talus, false); }
-void SlideMass(benchmark::State& run) { slide_by(run, Law::talus, true); }
-void SlidePaper(benchmark::State& run) { slide_by(run, Law::paper); }
+void Slide(benchmark::State& run) { slide_by(run, {}); }
+void SlideExact(benchmark::State& run) { slide_by(run, {}, false); }
+void SlideMass(benchmark::State& run) { slide_by(run, {}, true); }
+void SlidePaper(benchmark::State& run) { slide_by(run, PaperLaw{}); }
 
 BENCHMARK(Slide)
     ->Name("Slide39")

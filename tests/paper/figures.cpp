@@ -9,45 +9,41 @@
 #include <numbers>
 
 #include "paper/plot.hpp"
-#include "step/step.hpp"
+#include "verify/cases/case_run.hpp"
 #include "verify/cases/cases.hpp"
-#include "verify/cases/closed_form.hpp"
 
 namespace {
 
 using namespace talus;
 using namespace talus::cases;
 
-constexpr double g = 10, degree = std::numbers::pi / 180;
 const std::string red = "#c1272d", blue = "#0057a8", grey = "#555";
 
-Settings law_paper(double dt, double normal_stiffness) {
-  Settings settings;
-  settings.law = Law::paper;
+CaseSettings law_paper(double dt, double normal_stiffness) {
+  CaseSettings settings;
+  settings.paper.emplace();
   settings.dt = dt;
   settings.normal_stiffness = normal_stiffness;
   return settings;
 }
 
-Scene cube_scene(const Settings& settings, const SlopeFrame& frame, const GroundClass& ground,
-                 double lift, const Vec3& velocity) {
+Run cube_run(const CaseSettings& settings, const SlopeFrame& frame, const GroundClass& ground,
+             double lift, const Vec3& velocity) {
   Body body;
   body.parts = {box_in(frame, lift * frame.normal, Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1))};
   body.velocity = velocity;
-  return scene_of(plane_trn(frame, 0.5, 60), ground, {body}, settings);
+  return {scene_of(plane_trn(frame, 0.5, 60), ground, {body}, settings), settings.paper};
 }
 
 // `value` of the moving block every `interval_s`, from 0 to `duration_s`.
-std::vector<Vec2> history(const Scene& scene, double duration_s, double interval_s,
+std::vector<Vec2> history(Run run, double duration_s, double interval_s,
                           const std::function<double(const Vec3&)>& value) {
-  State state = start(scene);
-  Work work = make_work(scene);
-  const auto position = [&] { return motion_at(scene, state, 0, state.time).pose.position; };
-  std::vector<Vec2> points = {{0, value(position())}};
-  const long n_between = std::lround(interval_s / scene.settings.dt);
-  while (state.time < duration_s - scene.settings.dt / 2) {
-    for (long i = 0; i < n_between; ++i) step(scene, state, work);
-    points.emplace_back(state.time, value(position()));
+  std::vector<Vec2> points = {{0, value(run.motion().pose.position)}};
+  const double dt = run.scene.settings.dt;
+  const long n_between = std::lround(interval_s / dt);
+  while (run.state.time < duration_s - dt / 2) {
+    for (long i = 0; i < n_between; ++i) run.advance();
+    points.emplace_back(run.state.time, value(run.motion().pose.position));
   }
   return points;
 }
@@ -68,15 +64,14 @@ Figure parabola_figure() {
   figure.curves.push_back({"", grey, sampled(0, 1, 50, [](double t) { return -g * t * t / 2; })});
   for (const auto& [name, colour, settings] :
        {std::tuple{"law paper, dt = 1e-3 s", blue, law_paper(1e-3, 5e10)},
-        {"law talus", red, Settings{}}}) {
-    const Scene scene = cube_scene(settings, slope_frame(0, 0), {}, 20, Vec3(0, 10, 0));
-    const Vec3 from = start(scene).motion[0].pose.position;
+        {"law talus", red, CaseSettings{}}}) {
+    const Run run = cube_run(settings, slope_frame(0, 0), {}, 20, Vec3(0, 10, 0));
+    const Vec3 from = run.motion().pose.position;
+    figure.curves.push_back({name, colour,
+                             history(run, 1, 0.1, [&](const Vec3& x) { return x.y() - from.y(); }),
+                             true});
     figure.curves.push_back(
-        {name, colour, history(scene, 1, 0.1, [&](const Vec3& x) { return x.y() - from.y(); }),
-         true});
-    figure.curves.push_back(
-        {"", colour, history(scene, 1, 0.1, [&](const Vec3& x) { return x.z() - from.z(); }),
-         true});
+        {"", colour, history(run, 1, 0.1, [&](const Vec3& x) { return x.z() - from.z(); }), true});
   }
   return figure;
 }
@@ -96,12 +91,12 @@ Figure sliding_figure() {
                              sampled(0, 1, 40, [a](double t) { return a * t * t / 2; })});
     for (const auto& [name, colour, settings] :
          {std::tuple{"law paper, dt = 1e-4 s", blue, law_paper(1e-4, 5e10)},
-          {"law talus", red, Settings{}}}) {
-      const Scene scene = cube_scene(settings, frame, ground, 0, Vec3::Zero());
-      const Vec3 from = start(scene).motion[0].pose.position;
+          {"law talus", red, CaseSettings{}}}) {
+      const Run run = cube_run(settings, frame, ground, 0, Vec3::Zero());
+      const Vec3 from = run.motion().pose.position;
       figure.curves.push_back(
           {first ? name : "", colour,
-           history(scene, 1, 0.1, [&](const Vec3& x) { return (x - from).dot(frame.dip); }), true});
+           history(run, 1, 0.1, [&](const Vec3& x) { return (x - from).dot(frame.dip); }), true});
     }
     first = false;
   }
@@ -115,7 +110,7 @@ Figure rolling_figure() {
       {"closed form (27)", grey, sampled(3, 12, 90, [](double n) { return 180 / n; })});
   for (const auto& [name, colour, settings] :
        {std::tuple{"law paper, dt = 1e-3 s", blue, law_paper(1e-3, 1e9)},
-        {"law talus", red, Settings{}}}) {
+        {"law talus", red, CaseSettings{}}}) {
     Curve curve{name, colour, {}, true};
     for (int n = 3; n <= 12; ++n) curve.points.emplace_back(n, rolling_angle(settings, n).value);
     figure.curves.push_back(curve);
@@ -145,10 +140,10 @@ Figure bouncing_figure() {
   ground.restitution = 0.7;
   for (const auto& [name, colour, settings] :
        {std::tuple{"law paper, dt = 1e-4 s", blue, law_paper(1e-4, 5e10)},
-        {"law talus", red, Settings{}}}) {
-    const Scene scene = cube_scene(settings, slope_frame(0, 0), ground, 5, Vec3::Zero());
+        {"law talus", red, CaseSettings{}}}) {
+    const Run run = cube_run(settings, slope_frame(0, 0), ground, 5, Vec3::Zero());
     figure.curves.push_back(
-        {name, colour, history(scene, 5, 0.1, [](const Vec3& x) { return x.z() - 0.5; }), true});
+        {name, colour, history(run, 5, 0.1, [](const Vec3& x) { return x.z() - 0.5; }), true});
   }
   return figure;
 }

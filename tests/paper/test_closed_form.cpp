@@ -10,15 +10,15 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-Settings with_dt(double dt) {
-  Settings settings;
+CaseSettings with_dt(double dt) {
+  CaseSettings settings;
   settings.dt = dt;
   return settings;
 }
 
 class LawTalus : public testing::TestWithParam<double> {
  protected:
-  Settings settings = with_dt(GetParam());
+  CaseSettings settings = with_dt(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Steps, LawTalus, testing::Values(1e-2, Settings{}.dt, 1e-3));
 
@@ -40,7 +40,7 @@ TEST_P(LawTalus, SlidesAtMapCoordinatesToTheSameDigits) {
 }
 
 TEST_P(LawTalus, SticksAboveTheDipAndSlidesBelow) {
-  Settings awake = settings;
+  CaseSettings awake = settings;
   awake.sleep = false;
   for (const double friction : {30.1, 31.0, 35.0, 60.0})
     for (const double azimuth : {0.0, 37.0})
@@ -133,22 +133,20 @@ TEST_P(LawTalus, TumblingBlockFliesTheParabola) {
 TEST(LawTalusDefault, PrismStartsToRollAtTheCriticalAngle) {
   for (int n = 3; n <= 12; ++n) {
     EXPECT_LT(rolling_angle(with_dt(1e-2), n).error, 0.01) << n;
-    EXPECT_LT(rolling_angle(Settings{}, n).error, 0.003) << n;
+    EXPECT_LT(rolling_angle({}, n).error, 0.003) << n;
   }
 }
 
 TEST(LawTalusDefault, WedgeStopsSlidingAtTheCriticalFriction) {
-  EXPECT_LT(wedge_critical(Settings{}).error, 0.05);
+  EXPECT_LT(wedge_critical({}).error, 0.05);
   EXPECT_LT(wedge_critical(with_dt(1e-2)).error, 0.05);
 }
 
 TEST(LawTalusDefault, ColumnTopplesOrSlidesAtTheRightAngle) {
-  EXPECT_LT(toppling_angle(Settings{}).error, 0.05);
-  EXPECT_LT(sliding_angle(Settings{}).error, 0.05);
+  EXPECT_LT(toppling_angle({}).error, 0.05);
+  EXPECT_LT(sliding_angle({}).error, 0.05);
 }
 
-TEST(LawTalusDefault, EnergyLineHasTheSlopeOfFriction) {
-  EXPECT_LT(energy_line(Settings{}).error, 5e-3);
-}
+TEST(LawTalusDefault, EnergyLineHasTheSlopeOfFriction) { EXPECT_LT(energy_line({}).error, 5e-3); }
 
 }  // namespace

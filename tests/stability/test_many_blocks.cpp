@@ -30,7 +30,7 @@ TEST(ManyBlocks, BlockSlidesOnABlock) { EXPECT_LT(block_on_block({}).error, 2e-3
 TEST(ManyBlocks, WedgeSlidesInAGrooveOfTwoBlocks) { EXPECT_LT(groove({}).error, 5e-3); }
 
 TEST(ManyBlocks, DominoesFallAsARigidComputationSays) {
-  Settings settings;
+  CaseSettings settings;
   settings.dt = 1e-3;
   EXPECT_LT(dominoes(settings).error, 0.02);
 }

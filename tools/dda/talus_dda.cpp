@@ -100,6 +100,7 @@ RunOptions run_options(const Site& site, const ScenePlan& plan, const Options& o
   options.passages_by_centroid = o.passages_by == "centroid";
   options.passage_cell_size = site.output.cell_size_m;
   options.strain = plan.strains_in_frames;
+  if (site.solver.law == "paper") options.paper.emplace();
   options.limits = {site.solver.max_penetration_m, site.solver.max_energy_gain,
                     site.solver.max_lost_share, site.solver.max_unconverged_share};
   return options;

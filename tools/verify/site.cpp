@@ -90,6 +90,7 @@ EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Ca
   EnsembleResult result = run_ensemble(
       scene, n_runs, site.solver.duration_s,
       [](const Vec3& from, const Vec3& now) { return (now - from).head<2>().norm(); },
+      c.is_paper ? std::optional(PaperSettings{}) : std::nullopt,
       [&](const cases::Run& run) { return breaks_health(run, site.solver); });
   result.method = c.method;
   return result;

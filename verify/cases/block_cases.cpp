@@ -33,9 +33,8 @@ Scene on_plane(const SlopeFrame& frame, const std::vector<Body>& bodies, double 
 
 // Largest movement of a block from `settling_s` on; nothing sleeps. What it moved by before counts
 // beyond a tenth of a metre: blocks that were thrown off do not stand.
-CaseResult movement_after(Scene scene, double settling_s, double duration_s) {
-  scene.settings.sleep = false;
-  Run run(std::move(scene));
+CaseResult movement_after(Run run, double settling_s, double duration_s) {
+  run.scene.settings.sleep = false;
   const std::vector<Vec3> start = places(run);
   run.advance_to(settling_s);
   const std::vector<Vec3> before = places(run);
@@ -47,8 +46,7 @@ CaseResult movement_after(Scene scene, double settling_s, double duration_s) {
 
 // How far the last block came down the dip in 1.5 s against a t^2 / 2, and how far the others,
 // which should stay, moved.
-CaseResult slides_on_the_others(Scene scene, const SlopeFrame& frame, double a) {
-  Run run(std::move(scene));
+CaseResult slides_on_the_others(Run run, const SlopeFrame& frame, double a) {
   const std::vector<Vec3> before = places(run);
   run.advance_to(1.5);
   const std::vector<Vec3> after = places(run);
@@ -71,10 +69,10 @@ Scene tower(int n, double dip_deg, double friction_deg, const Settings& settings
   return scene_of(plane_trn(frame, 1, 20), ground_of(friction_deg), bodies, settings);
 }
 
-CaseResult tower_slide(const Settings& settings) {
+CaseResult tower_slide(const CaseSettings& settings) {
   Scene scene = tower(3, 15, 10, settings);
   scene.joint = ground_of(40);
-  Run run(std::move(scene));
+  Run run(std::move(scene), settings.paper);
   const std::vector<Vec3> before = places(run);
   run.advance_to(1);
   const Vec3 dip = slope_frame(15, 30).dip;
@@ -88,13 +86,14 @@ CaseResult tower_slide(const Settings& settings) {
   return run.finish(value, expected, error);
 }
 
-CaseResult head_on(const Settings& settings, double restitution) {
+CaseResult head_on(const CaseSettings& settings, double restitution) {
   const Polyhedron cube = box(Vec3::Constant(-0.5), Vec3::Constant(0.5));
   const auto body = [&](double x, double speed) {
     return body_of(moved(cube, Mat3::Identity(), Vec3::Zero(), Vec3(x, 0, 200)), Vec3(speed, 0, 0));
   };
   Run run(scene_of(plane_trn(slope_frame(0, 0), 5, 100), ground_of(0, restitution),
-                   {body(-3, 4), body(3, -4)}, settings));
+                   {body(-3, 4), body(3, -4)}, settings),
+          settings.paper);
   run.advance_to(1);
   const double value = run.motion(1).velocity.x() - run.motion(0).velocity.x();
   const double expected = restitution * 8;
@@ -104,19 +103,19 @@ CaseResult head_on(const Settings& settings, double restitution) {
   return run.finish(value, expected, std::max(std::abs(value - expected) / 8, off / 2.5));
 }
 
-CaseResult stack_stands(const Settings& settings, int n, double settling_s) {
-  return movement_after(tower(n, 0, 30, settings), settling_s, 4);
+CaseResult stack_stands(const CaseSettings& settings, int n, double settling_s) {
+  return movement_after({tower(n, 0, 30, settings), settings.paper}, settling_s, 4);
 }
 
-CaseResult tower_holds(const Settings& settings) {
-  return movement_after(tower(3, 15, 15.5, settings), 1, 4);
+CaseResult tower_holds(const CaseSettings& settings) {
+  return movement_after({tower(3, 15, 15.5, settings), settings.paper}, 1, 4);
 }
 
-CaseResult pile_topples(const Settings& settings) {
+CaseResult pile_topples(const CaseSettings& settings) {
   CaseResult total;
   total.expected = std::atan(0.25) / degree;
   total.value = bisect(12, 16, 10, [&](double dip) {
-    Run run(tower(4, dip, 40, settings));
+    Run run(tower(4, dip, 40, settings), settings.paper);
     const std::vector<Vec3> before = places(run);
     double moved = 0;
     while (moved < 0.5 && run.state.time < 5) {
@@ -130,16 +129,17 @@ CaseResult pile_topples(const Settings& settings) {
   return total;
 }
 
-CaseResult block_on_block(const Settings& settings) {
+CaseResult block_on_block(const CaseSettings& settings) {
   const SlopeFrame frame = slope_frame(30, 25);
   const std::vector<Body> bodies = {
       body_of(box_in(frame, Vec3::Zero(), Vec3(-2, -2, 0), Vec3(8, 2, 1))),
       body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 1), Vec3(0.5, 0.5, 2)))};
   const double a = g * (std::sin(30 * degree) - std::tan(20 * degree) * std::cos(30 * degree));
-  return slides_on_the_others(on_plane(frame, bodies, 20, 50, settings), frame, a);
+  return slides_on_the_others({on_plane(frame, bodies, 20, 50, settings), settings.paper}, frame,
+                              a);
 }
 
-CaseResult groove(const Settings& settings) {
+CaseResult groove(const CaseSettings& settings) {
   const SlopeFrame frame = slope_frame(35, 25);
   // section in (strike, normal): counter-clockwise about +dip
   const auto prism = [&](const std::vector<Vec2>& section, double low, double high) {
@@ -162,19 +162,22 @@ CaseResult groove(const Settings& settings) {
       prism({{0.2, 0.7}, {1.5, 2}, {-1.5, 2}, {-0.2, 0.7}}, -1, 1)};
   const double a =
       g * (std::sin(35 * degree) - std::sqrt(2.0) * std::tan(20 * degree) * std::cos(35 * degree));
-  return slides_on_the_others(on_plane(frame, bodies, 20, 60, settings), frame, a);
+  return slides_on_the_others({on_plane(frame, bodies, 20, 60, settings), settings.paper}, frame,
+                              a);
 }
 
-CaseResult arch_stands(const Settings& settings) {
-  return movement_after(on_plane(slope_frame(0, 0), arch_of(7, 4, 5.5, 2), 40, 50, settings), 5, 5);
+CaseResult arch_stands(const CaseSettings& settings) {
+  return movement_after(
+      {on_plane(slope_frame(0, 0), arch_of(7, 4, 5.5, 2), 40, 50, settings), settings.paper}, 5, 5);
 }
 
-CaseResult large_on_small(const Settings& settings) {
+CaseResult large_on_small(const CaseSettings& settings) {
   std::vector<Body> bodies = {body_of(box(Vec3(-5, -5, 0.1), Vec3(5, 5, 10.1)))};
   for (const double x : {-4.0, 4.0})
     for (const double y : {-4.0, 4.0})
       bodies.push_back(body_of(box(Vec3(x - 0.05, y - 0.05, 0), Vec3(x + 0.05, y + 0.05, 0.1))));
-  Run run(scene_of(plane_trn(slope_frame(0, 0), 2, 40), ground_of(30), bodies, settings));
+  Run run(scene_of(plane_trn(slope_frame(0, 0), 2, 40), ground_of(30), bodies, settings),
+          settings.paper);
   run.advance_to(2);
   std::vector<Vec3> rest;
   for (const Pose& pose : run.scene.blocks.rest) rest.push_back(pose.position);
@@ -182,10 +185,11 @@ CaseResult large_on_small(const Settings& settings) {
   return run.finish(moved, 0, moved);
 }
 
-CaseResult thin_plate(const Settings& settings) {
+CaseResult thin_plate(const CaseSettings& settings) {
   const std::vector<Body> bodies = {body_of(box(Vec3(-1, -1, 0), Vec3(1, 1, 2))),
                                     body_of(box(Vec3(-5, -5, 2), Vec3(5, 5, 2.1)))};
-  return movement_after(on_plane(slope_frame(0, 0), bodies, 30, 30, settings), 1, 4);
+  return movement_after({on_plane(slope_frame(0, 0), bodies, 30, 30, settings), settings.paper}, 1,
+                        4);
 }
 
 namespace {
@@ -221,10 +225,10 @@ std::vector<Body> thrown_boxes() {
 
 }  // namespace
 
-CaseResult collision(const Settings& settings, double restitution) {
+CaseResult collision(const CaseSettings& settings, double restitution) {
   Scene scene = on_plane(slope_frame(0, 0), thrown_boxes(), 25, 25, settings);
   scene.joint.restitution = restitution;
-  Run run(std::move(scene));
+  Run run(std::move(scene), settings.paper);
   const auto kinetic = [&run] {
     const Energies e = energies(run.scene, run.state);
     return e.translation + e.rotation;

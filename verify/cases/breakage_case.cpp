@@ -75,10 +75,10 @@ Scene falling_cube(const Settings& settings, double side, double speed) {
 
 }  // namespace
 
-CaseResult pieces_part(const Settings& settings) {
+CaseResult pieces_part(const CaseSettings& settings) {
   constexpr double separation = 500;
   const Quat turn = rotation_by(Vec3(0.4, 1, -2));
-  Run run(cube_of_two(settings));
+  Run run(cube_of_two(settings), settings.paper);
   run.state.motion[0].pose.attitude = turn * run.state.motion[0].pose.attitude;
   const Vec3 normal = turn * Vec3::UnitX();
   release_pieces(run.scene, 0, separation, run.state);
@@ -94,10 +94,10 @@ CaseResult pieces_part(const Settings& settings) {
       std::max({error_of(1, -impulse / 1000), error_of(2, impulse / 1600), of_energy}));
 }
 
-CaseResult breaking_speed(const Settings& settings, double side_m) {
+CaseResult breaking_speed(const CaseSettings& settings, double side_m) {
   CaseResult total;
   const auto breaks = [&](double speed) {
-    Run run(falling_cube(settings, side_m, speed));
+    Run run(falling_cube(settings, side_m, speed), settings.paper);
     while (run.state.breaks.empty() && run.state.time < 0.02) run.advance();
     add_counts(run.counted(), total);
     return !run.state.breaks.empty();

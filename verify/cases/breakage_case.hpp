@@ -10,11 +10,11 @@ namespace talus::cases {
 /// normal of the cut: largest relative error of their velocities, 0.78446 and 0.49029 m/s, and of
 /// the energy, after 0.1 s of flight. Law paper breaks nothing: its pieces are released all the
 /// same.
-CaseResult pieces_part(const Settings& settings);
+CaseResult pieces_part(const CaseSettings& settings);
 
 /// A cube that falls on a face, COR 0.3, 2600 kg/m3, 1e5 J/m2 across one section and a sharp
 /// threshold: relative error of the speed from which it breaks, sqrt(2 G / (rho a (1 - e^2))) for
 /// the side a, by bisection; 16.786, 9.194 and 5.308 m/s for 0.3, 1 and 3 m.
-CaseResult breaking_speed(const Settings& settings, double side_m);
+CaseResult breaking_speed(const CaseSettings& settings, double side_m);
 
 }  // namespace talus::cases

@@ -11,7 +11,7 @@
 
 #include "base/processor_time.hpp"
 #include "motion/rotation.hpp"
-#include "step/step.hpp"
+#include "run/law.hpp"
 #include "verify/cases/closed_form.hpp"
 
 namespace talus::cases {
@@ -33,19 +33,25 @@ inline double clock_seconds() {
   return seconds;
 }
 
-/// A scene on its way, and the sums that a case reports of it.
+/// A scene on its way by law talus, or by law paper where `paper` has its settings, and the sums
+/// that a case reports of it.
 struct Run {
   Scene scene;
   double clock = clock_seconds();      ///< [s]
   double begin = processor_seconds();  ///< before the start, after the set-up of the scene [s]
-  State state;
+  RunLaw law;
   Work work;
+  State state;
   CaseResult result;
 
-  explicit Run(Scene s) : scene(std::move(s)), state(start(scene)), work(make_work(scene)) {}
+  Run(Scene s, const std::optional<PaperSettings>& paper)
+      : scene(std::move(s)),
+        law(law_of(paper)),
+        work(make_work(scene)),
+        state(start_by(law, scene, work)) {}
 
   StepReport advance() {
-    const StepReport report = step(scene, state, work);
+    const StepReport report = step_by(law, scene, state, work);
     ++result.steps;
     result.passes += report.passes;
     result.unconverged += report.n_unconverged;

@@ -49,11 +49,11 @@ double way_of_bounces(double drop, double e, double duration_s) {
 
 }  // namespace
 
-CaseResult bouncing_slab(const Settings& settings, double restitution) {
+CaseResult bouncing_slab(const CaseSettings& settings, double restitution) {
   const SlopeFrame frame = slope_frame(20, 25);
   constexpr double drop = 1, duration_s = 5;
   const Body body = body_of(box_in(frame, drop * frame.normal, Vec3(-1, -1, 0), Vec3(1, 1, 0.3)));
-  Run run(on_plane(settings, frame, ground_of(25, restitution), body, 12));
+  Run run(on_plane(settings, frame, ground_of(25, restitution), body, 12), settings.paper);
   const Vec3 from = run.motion().pose.position;
   run.advance_to(duration_s);
   const double value = (run.motion().pose.position - from).dot(frame.dip),
@@ -96,7 +96,7 @@ double way_of(double half, const Pivoting& at) {
 
 }  // namespace
 
-CaseResult prism_rolls(const Settings& settings, const Rolling& rolling, double duration_s) {
+CaseResult prism_rolls(const CaseSettings& settings, const Rolling& rolling, double duration_s) {
   const SlopeFrame frame = slope_frame(rolling.dip_deg, 0);
   const double half = std::numbers::pi / rolling.n_sides, dip = rolling.dip_deg * degree,
                angle = rolling.begin * half;
@@ -106,7 +106,7 @@ CaseResult prism_rolls(const Settings& settings, const Rolling& rolling, double 
   const Mat3 turn = rotation_by((angle + half) * frame.strike).toRotationMatrix();
   const Polyhedron shape = prism_on(frame, Vec3::Zero(), rolling.n_sides, 1, 0.5);
   const Body body = body_of(moved(shape, turn, edge), spin.cross(lever), spin);
-  Run run(on_plane(settings, frame, ground_of(85), body, 30, 1, 10 * frame.dip));
+  Run run(on_plane(settings, frame, ground_of(85), body, 30, 1, 10 * frame.dip), settings.paper);
   const Vec3 from = run.motion().pose.position;
   Pivoting at{.angle = angle, .spin = rolling.spin};
   double value = 0, expected = 0, farthest = 0;
@@ -158,13 +158,13 @@ std::array<double, 3> integrated_top(double lean, double along, double across, d
 
 }  // namespace
 
-CaseResult spinning_top(const Settings& settings, double spin) {
+CaseResult spinning_top(const CaseSettings& settings, double spin) {
   constexpr double lean = 20 * degree, height = 0.56, duration_s = 3;
   const Mat3 turn = Eigen::AngleAxisd(lean, Vec3::UnitY()).toRotationMatrix();
   const Vec3 axis = turn * Vec3::UnitZ();
   const Body body =
       body_of(moved(top_of(0.5, height), turn, Vec3::Zero()), Vec3::Zero(), spin * axis);
-  Run run(on_plane(settings, slope_frame(0, 0), ground_of(80), body, 4));
+  Run run(on_plane(settings, slope_frame(0, 0), ground_of(80), body, 4), settings.paper);
   const Quat from = run.motion().pose.attitude;
   const double mass = run.scene.blocks.mass[0], arm = run.motion().pose.position.norm();
   const Mat3 R = from.toRotationMatrix();
@@ -213,12 +213,12 @@ double height_above_drop(double time) {
 
 }  // namespace
 
-CaseResult lifted_slab(const Settings& settings) {
+CaseResult lifted_slab(const CaseSettings& settings) {
   const SlopeFrame frame = slope_frame(0, 30);
   const Body body = body_of(box_in(frame, Vec3::Zero(), Vec3(-1, -0.7, 0), Vec3(1, 0.7, 0.4)));
   Scene scene = on_plane(settings, frame, ground_of(30), body, 5);
   scene.base = drop_of_ground();
-  Run run(std::move(scene));
+  Run run(std::move(scene), settings.paper);
   const double from = run.motion().pose.position.z();
   double highest = 0, value = 0, error = 0;
   while (run.state.time < 1.2) {
@@ -232,14 +232,14 @@ CaseResult lifted_slab(const Settings& settings) {
   return run.finish(value, highest, error / highest);
 }
 
-CaseResult slab_over_edge(const Settings& settings) {
+CaseResult slab_over_edge(const CaseSettings& settings) {
   constexpr double length = 4, thickness = 0.4, speed = 3, begin = -2.2, duration_s = 1.5;
   const SlopeFrame frame = slope_frame(0, 0);
   const Body body = body_of(box_in(frame, begin * Vec3::UnitX(), Vec3(-length / 2, -0.6, 0),
                                    Vec3(length / 2, 0.6, thickness)),
                             speed * Vec3::UnitX());
   const auto height = [](double x, double) { return x < 0.25 ? 0.0 : -8.0; };
-  Run run(scene_of(make_trn(height, 0.5, 8), ground_of(0), {body}, settings));
+  Run run(scene_of(make_trn(height, 0.5, 8), ground_of(0), {body}, settings), settings.paper);
   run.advance_to(duration_s);
   // x, z and turn of the slab, and their rates, from where its middle passes the edge
   const double inertia = (length * length + thickness * thickness) / 12;
@@ -288,7 +288,7 @@ double way_across_border(double dip, double length, double height, double ahead,
 
 }  // namespace
 
-CaseResult border_slide(const Settings& settings) {
+CaseResult border_slide(const CaseSettings& settings) {
   constexpr double dip_deg = 30, length = 0.4, height = 0.2, border = 2, duration_s = 1.6;
   const SlopeFrame frame = slope_frame(dip_deg, 0);
   const Vec3 base(0, 0.1, 0);
@@ -300,7 +300,7 @@ CaseResult border_slide(const Settings& settings) {
   for (int row = 0; row < trn.n_rows - 1; ++row)
     for (int col = 0; col < trn.n_cols - 1; ++col)
       scene.ground.cell_class.push_back(node_point(trn, row, col).x() > border - 0.1 ? 1 : 0);
-  Run run(std::move(scene));
+  Run run(std::move(scene), settings.paper);
   const Vec3 from = run.motion().pose.position;
   run.advance_to(duration_s);
   const double value = (run.motion().pose.position - from).dot(frame.dip);

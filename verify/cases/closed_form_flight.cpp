@@ -8,11 +8,11 @@
 #include "verify/cases/closed_form_scenes.hpp"
 
 namespace talus::cases {
-CaseResult parabola(const Settings& settings) {
+CaseResult parabola(const CaseSettings& settings) {
   const SlopeFrame flat = slope_frame(0, 0);
   const Body body =
       body_of(box_in(flat, Vec3(0, 0, 50), Vec3(-1, -1, -1), Vec3(1, 1, 1)), Vec3(0, 10, 0));
-  Run run(on_plane(settings, flat, ground_of(0), body, 40, 2));
+  Run run(on_plane(settings, flat, ground_of(0), body, 40, 2), settings.paper);
   const Vec3 from = run.motion().pose.position;
   run.advance_to(1);
   const double t = run.state.time;
@@ -60,8 +60,8 @@ State7 integrated_free_spin(const Vec3& inertia, const Vec3& spin, double time) 
 
 }  // namespace
 
-CaseResult tumbling_flight(const Settings& settings, double duration_s) {
-  Run run(thrown_box(settings, duration_s));
+CaseResult tumbling_flight(const CaseSettings& settings, double duration_s) {
+  Run run(thrown_box(settings, duration_s), settings.paper);
   const Vec3 from = run.motion().pose.position;
   run.advance_to(duration_s);
   const double t = run.state.time;
@@ -70,8 +70,8 @@ CaseResult tumbling_flight(const Settings& settings, double duration_s) {
   return run.finish(moved.x(), expected.x(), (moved - expected).cwiseAbs().maxCoeff());
 }
 
-CaseResult free_spin(const Settings& settings, double duration_s) {
-  Run run(thrown_box(settings, duration_s));
+CaseResult free_spin(const CaseSettings& settings, double duration_s) {
+  Run run(thrown_box(settings, duration_s), settings.paper);
   const Vec3 inertia = run.scene.blocks.inertia[0], L = run.motion().angular_momentum;
   run.advance_to(duration_s);
   const State7 s = timed_reference(
@@ -82,7 +82,7 @@ CaseResult free_spin(const Settings& settings, double duration_s) {
   return run.finish(error, 0, error);
 }
 
-CaseResult bounce(const Settings& settings, double restitution, Landing landing) {
+CaseResult bounce(const CaseSettings& settings, double restitution, Landing landing) {
   constexpr double fall = 5;  // places of hits round with it, whatever is left of the height
   Polyhedron cube = box(Vec3::Constant(-0.5), Vec3::Constant(0.5));
   if (landing == Landing::edge)
@@ -95,7 +95,8 @@ CaseResult bounce(const Settings& settings, double restitution, Landing landing)
   for (const Vec3& v : cube.vertices) low = std::max(low, -v.z());
   const Body body =
       body_of(moved(cube, Mat3::Identity(), Vec3::Zero(), Vec3(0.1, 0.2, low + fall)));
-  Run run(on_plane(settings, slope_frame(0, 0), ground_of(25, restitution), body, 10));
+  Run run(on_plane(settings, slope_frame(0, 0), ground_of(25, restitution), body, 10),
+          settings.paper);
   double error = 0, expected = fall, height = 0;
   int found = 0;
   // a piece of the path: does it lead over a top?
@@ -158,13 +159,14 @@ CaseResult impulse_of_springs(Run& run, double restitution) {
 
 }  // namespace
 
-CaseResult corner_impulse(const Settings& settings, double restitution) {
+CaseResult corner_impulse(const CaseSettings& settings, double restitution) {
   const Mat3 turn = (Eigen::AngleAxisd(0.4, Vec3::UnitX()) * Eigen::AngleAxisd(0.3, Vec3::UnitY()))
                         .toRotationMatrix();
   const Polyhedron cube = box(Vec3::Constant(-0.5), Vec3::Constant(0.5));
   const Body body = body_of(moved(cube, turn, Vec3::Zero(), Vec3(0, 0, 2)), Vec3(3, 1, 0));
-  Run run(on_plane(settings, slope_frame(0, 0), ground_of(0, restitution), body, 20));
-  if (settings.law == Law::paper) return impulse_of_springs(run, restitution);
+  Run run(on_plane(settings, slope_frame(0, 0), ground_of(0, restitution), body, 20),
+          settings.paper);
+  if (settings.paper) return impulse_of_springs(run, restitution);
   const double mass = run.scene.blocks.mass[0];
   while (run.state.time < 2) {
     run.advance();
@@ -182,16 +184,17 @@ CaseResult corner_impulse(const Settings& settings, double restitution) {
   return run.finish(0, 1, 1);
 }
 
-CaseResult elastic_restitution(const Settings& settings, double young) {
-  Settings with_strains = settings;
+CaseResult elastic_restitution(const CaseSettings& settings, double young) {
+  CaseSettings with_strains = settings;
   with_strains.strains = true;
-  with_strains.paper.post_adjustment = false;
+  if (with_strains.paper) with_strains.paper->post_adjustment = false;
   const SlopeFrame flat = slope_frame(0, 0);
   Material material;
   material.young = young;
   const double fall = 20 * settings.dt;
   const Body body = body_of(cube_on(flat, 1, Vec3(0, 0, fall)), Vec3(0, 0, -4));
-  Run run(scene_of(plane_trn(flat, 0.5, 5), ground_of(0, 1), {body}, with_strains, material));
+  Run run(scene_of(plane_trn(flat, 0.5, 5), ground_of(0, 1), {body}, with_strains, material),
+          with_strains.paper);
   double before = 0, height = 0;  // fastest downwards; the hit is over long before the end
   while (run.state.time < 0.02 + fall / 4) {
     run.advance();

@@ -10,13 +10,14 @@
 #include "verify/cases/closed_form_scenes.hpp"
 
 namespace talus::cases {
-CaseResult rolling_angle(const Settings& settings, int n_sides) {
+CaseResult rolling_angle(const CaseSettings& settings, int n_sides) {
   const double expected = 180.0 / n_sides;
   CaseResult total;
   const auto rolls = [&](double dip) {
     const SlopeFrame frame = slope_frame(dip, 20);
     Run run(on_plane(settings, frame, ground_of(80),
-                     body_of(prism_on(frame, Vec3::Zero(), n_sides, 1, 0.5)), 10));
+                     body_of(prism_on(frame, Vec3::Zero(), n_sides, 1, 0.5)), 10),
+            settings.paper);
     const Quat from = run.motion().pose.attitude;
     bool rolled = false;
     while (!rolled && run.state.time < 6) {
@@ -32,14 +33,14 @@ CaseResult rolling_angle(const Settings& settings, int n_sides) {
   return total;
 }
 
-CaseResult sustained_rolling(const Settings& settings, int n_sides) {
+CaseResult sustained_rolling(const CaseSettings& settings, int n_sides) {
   const SlopeFrame frame = slope_frame(10, 0);
   const double half = std::numbers::pi / n_sides, apothem = std::cos(half);
   const Vec3 edge = std::sin(half) * frame.dip, spin = 1.5 * frame.strike;
   const Body body = body_of(prism_on(frame, Vec3::Zero(), n_sides, 1, 0.5),
                             spin.cross(apothem * frame.normal - edge), spin);
   const Vec3 middle = 60 * frame.dip;
-  Run run(on_plane(settings, frame, ground_of(80), body, 70, 2, middle));
+  Run run(on_plane(settings, frame, ground_of(80), body, 70, 2, middle), settings.paper);
   // before an impact: the fastest spin of each side's length of path
   const double side = 2 * std::sin(half);
   double before = 0, fastest = 0, next = side;
@@ -98,14 +99,14 @@ Rocking rock_on_springs(Run& run) {
   return rocking;
 }
 
-Rocking rock(const Settings& settings) {
+Rocking rock(const CaseSettings& settings) {
   const SlopeFrame frame = slope_frame(0, 30);
   const double b = 0.25, h = 1, slenderness = std::atan2(b, h);
   const Polyhedron column = box_in(frame, Vec3::Zero(), Vec3(-b, -0.5, 0), Vec3(b, 0.5, 2 * h));
   const Mat3 turn = Eigen::AngleAxisd(slenderness / 2, frame.strike).toRotationMatrix();
-  Run run(
-      on_plane(settings, frame, ground_of(80), body_of(moved(column, turn, b * frame.dip)), 10));
-  if (settings.law == Law::paper) return rock_on_springs(run);
+  Run run(on_plane(settings, frame, ground_of(80), body_of(moved(column, turn, b * frame.dip)), 10),
+          settings.paper);
+  if (settings.paper) return rock_on_springs(run);
   Rocking rocking;
   while (rocking.time == 0 && run.state.time < 2) {
     run.advance();
@@ -123,7 +124,7 @@ Rocking rock(const Settings& settings) {
 
 }  // namespace
 
-CaseResult rocking_time(const Settings& settings) {
+CaseResult rocking_time(const CaseSettings& settings) {
   const Rocking rocking = rock(settings);
   CaseResult result = rocking.result;
   const double t = timed_reference(result, integrated_rocking_time);
@@ -133,7 +134,7 @@ CaseResult rocking_time(const Settings& settings) {
   return result;
 }
 
-CaseResult rocking_ratio(const Settings& settings) {
+CaseResult rocking_ratio(const CaseSettings& settings) {
   const Rocking rocking = rock(settings);
   const double sine = std::sin(std::atan(0.25));
   CaseResult result = rocking.result;

@@ -42,11 +42,12 @@ Path2 integrated_oblique_slide(double time) {
 
 }  // namespace
 
-CaseResult sliding(const Settings& settings, double friction_deg, double azimuth_deg,
+CaseResult sliding(const CaseSettings& settings, double friction_deg, double azimuth_deg,
                    double duration_s, const Vec3& offset, double cell_size) {
   const SlopeFrame frame = slope_frame(30, azimuth_deg);
   Run run(on_plane(settings, frame, ground_of(friction_deg), body_of(cube_on(frame, 1, offset)), 60,
-                   cell_size, offset));
+                   cell_size, offset),
+          settings.paper);
   const bool sticks = friction_deg >= 30;
   if (sticks) run.advance_to(duration_s / 4);
   const Vec3 from = run.motion().pose.position;
@@ -60,10 +61,11 @@ CaseResult sliding(const Settings& settings, double friction_deg, double azimuth
                     (moved - expected * frame.dip).norm() / expected);
 }
 
-CaseResult oblique_slide(const Settings& settings, double azimuth_deg) {
+CaseResult oblique_slide(const CaseSettings& settings, double azimuth_deg) {
   const SlopeFrame frame = slope_frame(30, azimuth_deg);
   Run run(
-      on_plane(settings, frame, ground_of(20), body_of(cube_on(frame, 1), 10 * frame.strike), 40));
+      on_plane(settings, frame, ground_of(20), body_of(cube_on(frame, 1), 10 * frame.strike), 40),
+      settings.paper);
   const Vec3 from = run.motion().pose.position;
   run.advance_to(2);
   const Path2 path =
@@ -93,7 +95,7 @@ WedgeGeometry wedge_geometry() {
   return {turn * a, turn * b, turn * line};
 }
 
-Run wedge_run(const Settings& settings, double friction_deg) {
+Run wedge_run(const CaseSettings& settings, double friction_deg) {
   const WedgeGeometry w = wedge_geometry();
   const auto height = [&](double x, double y) {
     return std::max(-(w.normal_a.x() * x + w.normal_a.y() * y) / w.normal_a.z(),
@@ -110,12 +112,13 @@ Run wedge_run(const Settings& settings, double friction_deg) {
   if (moments(polyhedron(corners, faces)).volume < 0)
     for (auto& f : faces) std::reverse(f.begin(), f.end());
   return Run(scene_of(make_trn(height, 0.5, 15), ground_of(friction_deg),
-                      {body_of(polyhedron(corners, faces))}, settings));
+                      {body_of(polyhedron(corners, faces))}, settings),
+             settings.paper);
 }
 
 }  // namespace
 
-CaseResult wedge(const Settings& settings, double friction_deg) {
+CaseResult wedge(const CaseSettings& settings, double friction_deg) {
   const WedgeGeometry w = wedge_geometry();
   Run run = wedge_run(settings, friction_deg);
   const Vec3 from = run.motion().pose.position;
@@ -132,7 +135,7 @@ CaseResult wedge(const Settings& settings, double friction_deg) {
   return run.finish(value, expected, std::abs(value / expected - 1));
 }
 
-CaseResult wedge_critical(const Settings& settings) {
+CaseResult wedge_critical(const CaseSettings& settings) {
   const WedgeGeometry w = wedge_geometry();
   CaseResult total;
   total.expected = 33.357;
@@ -149,7 +152,7 @@ CaseResult wedge_critical(const Settings& settings) {
 namespace {
 
 // Angle at which a column `does` something on its slope.
-CaseResult column_angle(const Settings& settings, double friction_deg, double low, double high,
+CaseResult column_angle(const CaseSettings& settings, double friction_deg, double low, double high,
                         double expected, const std::function<bool(const SlopeFrame&, Run&)>& does) {
   CaseResult total;
   total.expected = expected;
@@ -157,7 +160,7 @@ CaseResult column_angle(const Settings& settings, double friction_deg, double lo
     const SlopeFrame frame = slope_frame(dip, 25);
     const Body body =
         body_of(box_in(frame, Vec3::Zero(), Vec3(-0.25, -0.25, 0), Vec3(0.25, 0.25, 1)));
-    Run run(on_plane(settings, frame, ground_of(friction_deg), body, 10));
+    Run run(on_plane(settings, frame, ground_of(friction_deg), body, 10), settings.paper);
     const bool done = does(frame, run);
     add_counts(run.counted(), total);
     return done;
@@ -168,7 +171,7 @@ CaseResult column_angle(const Settings& settings, double friction_deg, double lo
 
 }  // namespace
 
-CaseResult toppling_angle(const Settings& settings) {
+CaseResult toppling_angle(const CaseSettings& settings) {
   return column_angle(settings, 60, 25.5, 27.5, std::atan(0.5) / degree,
                       [](const SlopeFrame&, Run& run) {
                         const Quat from = run.motion().pose.attitude;
@@ -182,7 +185,7 @@ CaseResult toppling_angle(const Settings& settings) {
 }
 
 // By its way in the second second: what a block does when it drops into its springs is over then.
-CaseResult sliding_angle(const Settings& settings) {
+CaseResult sliding_angle(const CaseSettings& settings) {
   return column_angle(settings, 20, 19, 21, 20, [](const SlopeFrame& frame, Run& run) {
     run.advance_to(1);
     const Vec3 from = run.motion().pose.position;
@@ -191,7 +194,7 @@ CaseResult sliding_angle(const Settings& settings) {
   });
 }
 
-CaseResult bond_angle(const Settings& settings) {
+CaseResult bond_angle(const CaseSettings& settings) {
   const double share = 0.3, friction = std::tan(20 * degree);  // of the weight, density 2500 kg/m3
   GroundClass ground = ground_of(20);
   ground.cohesion = ground.tension = share * 2500 * g;
@@ -199,7 +202,7 @@ CaseResult bond_angle(const Settings& settings) {
   total.expected = 20 + std::asin(share * std::cos(20 * degree)) / degree;
   total.value = bisect(20, 45, 15, [&](double dip) {
     const SlopeFrame frame = slope_frame(dip, 20);
-    Run run(on_plane(settings, frame, ground, body_of(cube_on(frame, 1)), 10));
+    Run run(on_plane(settings, frame, ground, body_of(cube_on(frame, 1)), 10), settings.paper);
     run.advance_to(1);
     add_counts(run.counted(), total);
     const double a = g * (std::sin(dip * degree) - friction * std::cos(dip * degree));
@@ -210,7 +213,7 @@ CaseResult bond_angle(const Settings& settings) {
   return total;
 }
 
-CaseResult shaken_block(const Settings& settings) {
+CaseResult shaken_block(const CaseSettings& settings) {
   const SlopeFrame frame = slope_frame(20, 0);
   const Body body = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 0.2)));
   Scene scene = on_plane(settings, frame, ground_of(30), body, 15);
@@ -220,20 +223,20 @@ CaseResult shaken_block(const Settings& settings) {
     scene.base.time.push_back(t);
     scene.base.acceleration.push_back(Vec3(-5 * std::sin(2 * std::numbers::pi * t), 0, 0));
   }
-  Run run(std::move(scene));
+  Run run(std::move(scene), settings.paper);
   const Vec3 from = run.motion().pose.position;
   run.advance_to(10);
   const double value = (run.motion().pose.position - from).dot(frame.dip), expected = 3.196940;
   return run.finish(value, expected, std::abs(value / expected - 1));
 }
 
-CaseResult harmonic_slide(const Settings& settings) {
+CaseResult harmonic_slide(const CaseSettings& settings) {
   constexpr double amplitude = 4, frequency = 2 * std::numbers::pi * 0.7, begin = 0.3, end = 2.7;
   const Vec3 along(std::sin(60 * degree), std::cos(60 * degree), 0);
   const Body body = body_of(box(Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 0.2)));
   Scene scene = on_plane(settings, slope_frame(0, 0), ground_of(15), body, 15);
   scene.base.harmonic = {amplitude * along, frequency, begin, end};
-  Run run(std::move(scene));
+  Run run(std::move(scene), settings.paper);
   const Vec3 from = run.motion().pose.position;
   run.advance_to(4);
   const Vec3 way = run.motion().pose.position - from;
@@ -256,7 +259,7 @@ CaseResult harmonic_slide(const Settings& settings) {
   return run.finish(way.dot(along), expected, std::abs(off / expected));
 }
 
-CaseResult energy_line(const Settings& settings) {
+CaseResult energy_line(const CaseSettings& settings) {
   // The slope eases from 27 to 23 degrees over 400 m: v^2 / R stays below g / 500
   const double steep = std::tan(27 * degree), gentle = std::tan(23 * degree), reach = 400;
   const auto height = [&](double x, double) {
@@ -265,7 +268,8 @@ CaseResult energy_line(const Settings& settings) {
   const SlopeFrame frame = slope_frame(27, 0);
   const Body body = body_of(
       box_in(frame, Vec3(0.3, 0.4, height(0.3, 0)), Vec3(-0.1, -0.1, 1e-3), Vec3(0.1, 0.1, 0.05)));
-  Run run(scene_of(make_trn(height, 0.5, 210, Vec2(200, 0)), ground_of(25), {body}, settings));
+  Run run(scene_of(make_trn(height, 0.5, 210, Vec2(200, 0)), ground_of(25), {body}, settings),
+          settings.paper);
   const Vec3 from = run.motion().pose.position;
   while (run.state.time < 120) {
     run.advance();
@@ -276,11 +280,12 @@ CaseResult energy_line(const Settings& settings) {
   return run.finish(value, expected, std::abs(value / expected - 1));
 }
 
-CaseResult own_weight(const Settings& settings) {
-  Settings with_strains = settings;
+CaseResult own_weight(const CaseSettings& settings) {
+  CaseSettings with_strains = settings;
   with_strains.strains = true;
   const SlopeFrame flat = slope_frame(0, 0);
-  Run run(on_plane(with_strains, flat, ground_of(30), body_of(cube_on(flat, 10)), 20));
+  Run run(on_plane(with_strains, flat, ground_of(30), body_of(cube_on(flat, 10)), 20),
+          with_strains.paper);
   run.advance_to(1);
   const Material material;
   const Vec6 stress = elastic_matrix(material.young, material.poisson) * run.state.strain[0];
@@ -288,12 +293,12 @@ CaseResult own_weight(const Settings& settings) {
   return run.finish(stress[2], expected, std::abs(stress[2] / expected - 1));
 }
 
-CaseResult ghost_collisions(const Settings& settings, double dip_deg) {
+CaseResult ghost_collisions(const CaseSettings& settings, double dip_deg) {
   const SlopeFrame frame = slope_frame(dip_deg, 33);
   const Mat3 turn = Eigen::AngleAxisd(0.3, frame.normal).toRotationMatrix();
   const Vec3 velocity = 20 * (0.6 * frame.dip + 0.8 * frame.strike);
   const Body body = body_of(moved(cube_on(frame, 1.7), turn, Vec3::Zero()), velocity);
-  Run run(on_plane(settings, frame, ground_of(0), body, 120, 1));
+  Run run(on_plane(settings, frame, ground_of(0), body, 120, 1), settings.paper);
   const Vec3 from = run.motion().pose.position;
   const Vec3 a = g * std::sin(dip_deg * degree) * frame.dip;
   double largest = 0;

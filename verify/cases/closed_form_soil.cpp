@@ -21,10 +21,11 @@ Polyhedron slab_on(const SlopeFrame& frame) {
   return box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 0.05));
 }
 
-Run slab_run(const Settings& settings, const SlopeFrame& frame, const GroundClass& ground,
+Run slab_run(const CaseSettings& settings, const SlopeFrame& frame, const GroundClass& ground,
              double speed, double reach) {
   return Run(on_plane(settings, frame, ground, body_of(slab_on(frame), speed * frame.dip), reach, 1,
-                      0.8 * reach * frame.dip));
+                      0.8 * reach * frame.dip),
+             settings.paper);
 }
 
 // Way down the dip until it stands, or until `longest` seconds are over.
@@ -74,7 +75,7 @@ GroundClass scarring_ground(double least, double rate, double decay) {
   return ground;
 }
 
-CaseResult falling_restitution(const Settings& settings, bool by_energy) {
+CaseResult falling_restitution(const CaseSettings& settings, bool by_energy) {
   const SlopeFrame flat = slope_frame(0, 0);
   GroundClass ground = ground_of(30, 0.9);
   const Body body = body_of(moved(cube_on(flat, 1), Mat3::Identity(), Vec3::Zero(), Vec3(0, 0, 5)));
@@ -83,7 +84,7 @@ CaseResult falling_restitution(const Settings& settings, bool by_energy) {
     ground.half_energy = 20e3;
   else
     ground.half_speed = 10;
-  Run run(on_plane(settings, flat, ground, body, 10));
+  Run run(on_plane(settings, flat, ground, body, 10), settings.paper);
   mass = run.scene.blocks.mass[0];
   const double floor = run.motion().pose.position.z() - 5;
   double speed = std::sqrt(2 * g * 5), largest = 0, height = 0, first = 0;
@@ -106,7 +107,7 @@ CaseResult falling_restitution(const Settings& settings, bool by_energy) {
   return run.finish(first, speed * speed / (2 * g), largest);
 }
 
-CaseResult rolling_stop(const Settings& settings, int n_sides, double resistance) {
+CaseResult rolling_stop(const CaseSettings& settings, int n_sides, double resistance) {
   constexpr double radius = 0.5, start = 2;
   const double b = pi / n_sides;
   const double volume = 4.0 / 3 * pi * radius * radius * radius;  // of the sphere: R_e = R
@@ -116,7 +117,7 @@ CaseResult rolling_stop(const Settings& settings, int n_sides, double resistance
   ground.rolling = resistance;
   const Body body = body_of(prism_on(flat, Vec3::Zero(), n_sides, radius, length / 2),
                             start * flat.dip, start / radius * flat.strike);
-  Run run(on_plane(settings, flat, ground, body, 12));
+  Run run(on_plane(settings, flat, ground, body, 12), settings.paper);
   const double way = way_to_rest(flat, run, 30);
   const double cosine = std::cos(2 * b), kappa = (2 + 7 * cosine) / (8 + cosine);
   const double path = 2 * radius * std::sin(b) / (1 - kappa * kappa);
@@ -125,7 +126,7 @@ CaseResult rolling_stop(const Settings& settings, int n_sides, double resistance
   return run.finish(way, expected, std::abs(way / expected - 1));
 }
 
-CaseResult resisted_rolling_angle(const Settings& settings, int n_sides, double resistance) {
+CaseResult resisted_rolling_angle(const CaseSettings& settings, int n_sides, double resistance) {
   const double half = pi / n_sides;
   GroundClass ground = ground_of(80);
   ground.rolling = resistance;
@@ -134,7 +135,8 @@ CaseResult resisted_rolling_angle(const Settings& settings, int n_sides, double 
   const auto rolls = [&](double dip) {
     const SlopeFrame frame = slope_frame(dip, 20);
     Run run(on_plane(settings, frame, ground, body_of(prism_on(frame, Vec3::Zero(), n_sides, 1, 1)),
-                     10));
+                     10),
+            settings.paper);
     radius = std::cbrt(3 * run.scene.blocks.volume[0] / (4 * pi));
     const Quat from = run.motion().pose.attitude;
     bool rolled = false;
@@ -152,7 +154,7 @@ CaseResult resisted_rolling_angle(const Settings& settings, int n_sides, double 
   return total;
 }
 
-CaseResult standing_on_edge(const Settings& settings, double resistance) {
+CaseResult standing_on_edge(const CaseSettings& settings, double resistance) {
   const SlopeFrame flat = slope_frame(0, 0);
   GroundClass ground = ground_of(60);
   ground.rolling = resistance;
@@ -166,7 +168,7 @@ CaseResult standing_on_edge(const Settings& settings, double resistance) {
     double lowest = 0;
     for (const Vec3& v : cube.vertices) lowest = std::min(lowest, v.z());
     cube = moved(cube, Mat3::Identity(), Vec3::Zero(), Vec3(0.13, 0.21, -lowest));
-    Run run(on_plane(settings, flat, ground, body_of(cube), 10));
+    Run run(on_plane(settings, flat, ground, body_of(cube), 10), settings.paper);
     const Quat from = run.motion().pose.attitude;
     bool fallen = false;
     while (!fallen && run.state.time < 6) {
@@ -182,13 +184,14 @@ CaseResult standing_on_edge(const Settings& settings, double resistance) {
   return total;
 }
 
-CaseResult pivoting_stop(const Settings& settings) {
+CaseResult pivoting_stop(const CaseSettings& settings) {
   constexpr double spin = 10, resistance = 0.1;
   const SlopeFrame flat = slope_frame(0, 0);
   GroundClass ground = ground_of(0);
   ground.spinning = resistance;
   Run run(on_plane(settings, flat, ground,
-                   body_of(cube_on(flat, 1), Vec3::Zero(), spin * Vec3::UnitZ()), 10));
+                   body_of(cube_on(flat, 1), Vec3::Zero(), spin * Vec3::UnitZ()), 10),
+          settings.paper);
   const double radius = std::cbrt(3 / (4 * pi));
   // a quarter of the time and three quarters on: from the speeds there when it would stand still
   const double expected = spin / (6 * resistance * radius * g);
@@ -200,7 +203,7 @@ CaseResult pivoting_stop(const Settings& settings) {
   return run.finish(value, expected, std::abs(value / expected - 1));
 }
 
-CaseResult scarring_stop(const Settings& settings, const GroundClass& ground, double speed) {
+CaseResult scarring_stop(const CaseSettings& settings, const GroundClass& ground, double speed) {
   const SlopeFrame flat = slope_frame(0, 0);
   Run run = slab_run(settings, flat, ground, speed, 20);
   const double way = way_to_rest(flat, run, 20);
@@ -209,7 +212,7 @@ CaseResult scarring_stop(const Settings& settings, const GroundClass& ground, do
   return run.finish(way, expected, std::abs(way / expected - 1));
 }
 
-CaseResult scarring_creep(const Settings& settings, const GroundClass& ground) {
+CaseResult scarring_creep(const CaseSettings& settings, const GroundClass& ground) {
   const SlopeFrame frame = slope_frame(35, 0);
   const double pull = std::sin(35 * degree), press = std::cos(35 * degree);
   Run run = slab_run(settings, frame, ground, 0, 10);
@@ -234,7 +237,7 @@ CaseResult scarring_creep(const Settings& settings, const GroundClass& ground) {
   return run.finish(way, stop, std::max(std::abs(way / stop - 1), std::abs(fastest / top - 1)));
 }
 
-CaseResult weakening_stop(const Settings& settings, double speed) {
+CaseResult weakening_stop(const CaseSettings& settings, double speed) {
   const SlopeFrame flat = slope_frame(0, 0);
   // the run-out of the fastest is 190 m on earth
   Run run = slab_run(settings, flat, weakening_ground(), speed, speed > 10 ? 250 : 25);
@@ -249,7 +252,7 @@ CaseResult weakening_stop(const Settings& settings, double speed) {
   return run.finish(way, expected, std::abs(way / expected - 1));
 }
 
-CaseResult weakening_runaway(const Settings& settings) {
+CaseResult weakening_runaway(const CaseSettings& settings) {
   const SlopeFrame frame = slope_frame(20, 0);
   const GroundClass ground = weakening_ground();
   CaseResult total;
@@ -267,7 +270,7 @@ CaseResult weakening_runaway(const Settings& settings) {
   return total;
 }
 
-CaseResult dragged_slide(const Settings& settings, bool per_way) {
+CaseResult dragged_slide(const CaseSettings& settings, bool per_way) {
   const SlopeFrame frame = slope_frame(40, 0);
   GroundClass ground = ground_of(30);
   const double a = g * (std::sin(40 * degree) - std::tan(30 * degree) * std::cos(40 * degree));
@@ -291,7 +294,7 @@ CaseResult dragged_slide(const Settings& settings, bool per_way) {
                     std::max(std::abs(speed / expected - 1), std::abs(way / expected_way - 1)));
 }
 
-CaseResult dragged_stop(const Settings& settings) {
+CaseResult dragged_stop(const CaseSettings& settings) {
   constexpr double nu = 0.5, mu = 0.3, speed = 10;
   const SlopeFrame flat = slope_frame(0, 0);
   GroundClass ground;

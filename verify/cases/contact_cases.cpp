@@ -40,10 +40,10 @@ double kinetic(const Run& run) {
 
 // --- piles ---------------------------------------------------------------------------------------
 
-CaseResult tower_topples(const Settings& settings) {
+CaseResult tower_topples(const CaseSettings& settings) {
   const Pile pile{.high = 8, .share = 1.05, .step = settings.dt};
   constexpr double angle = 0.2;  // [rad]
-  Run run(scene_of_pile(pile, settings));
+  Run run(scene_of_pile(pile, settings), settings.paper);
   const double expected =
       timed_reference(run.result, [&] { return rigid_topple_time(pile, angle); });
   double value = nowhere, turned = 0;
@@ -59,10 +59,10 @@ CaseResult tower_topples(const Settings& settings) {
   return run.finish(value, expected, std::abs(value / expected - 1));
 }
 
-CaseResult pile_moves(const Settings& settings, const Pile& pile, double duration_s) {
+CaseResult pile_moves(const CaseSettings& settings, const Pile& pile, double duration_s) {
   Pile of_step = pile;
   of_step.step = settings.dt;
-  Run run(scene_of_pile(of_step, settings));
+  Run run(scene_of_pile(of_step, settings), settings.paper);
   double most = 0;
   while (run.state.time < duration_s && most < pile.side) {
     run.advance();
@@ -106,14 +106,14 @@ Body tumbling_cube(const Vec3& place, const Vec3& velocity, Random& random) {
 
 }  // namespace
 
-CaseResult tumbling_pairs(const Settings& settings, double restitution) {
+CaseResult tumbling_pairs(const CaseSettings& settings, double restitution) {
   CaseResult worst;
   worst.value = nowhere;
   Random random(11, "cubes");
   for (int i = 0; i < 12; ++i) {
     const std::vector<Body> bodies = {tumbling_cube(Vec3(0, 0, 50), Vec3::Zero(), random),
                                       tumbling_cube(Vec3(0.2, -0.1, 53), Vec3(0, 0, -6), random)};
-    Run run(in_space(restitution, bodies, settings));
+    Run run(in_space(restitution, bodies, settings), settings.paper);
     while (run.state.time < 0.6) {
       const std::vector<Motion> before = run.state.motion;
       if (run.advance().n_impacts != 1) continue;
@@ -128,12 +128,13 @@ CaseResult tumbling_pairs(const Settings& settings, double restitution) {
   return worst;
 }
 
-CaseResult borne_slab(const Settings& settings) {
+CaseResult borne_slab(const CaseSettings& settings) {
   constexpr double e = 0.7, height = 2, thick = 0.5, half = 2, until = 0.1;
   const std::vector<Body> bodies = {
       body_of(box(Vec3(-half, -half, 0), Vec3(half, half, thick))),
       body_of(box(Vec3(-0.5, -0.5, thick + height), Vec3(0.5, 0.5, thick + height + 1)))};
-  Run run(all_alike(plane_trn(slope_frame(0, 0), 1, 20), ground_of(30, e), bodies, settings));
+  Run run(all_alike(plane_trn(slope_frame(0, 0), 1, 20), ground_of(30, e), bodies, settings),
+          settings.paper);
   const double fall = std::sqrt(2 * height / g);
   run.advance_to(fall + until);
   const double value = run.motion(1).velocity.z() + g * (run.state.time - fall);
@@ -152,7 +153,7 @@ CaseResult borne_slab(const Settings& settings) {
   return run.finish(value, cube, std::abs(value / cube - 1));
 }
 
-CaseResult unequal_row(const Settings& settings, double e) {
+CaseResult unequal_row(const CaseSettings& settings, double e) {
   const std::vector<double> length = {1, 3, 0.5, 2, 1};
   std::vector<Body> bodies;
   std::vector<double> place, speed(length.size(), 0);
@@ -164,7 +165,7 @@ CaseResult unequal_row(const Settings& settings, double e) {
     x += length[i] + (i == 0 ? 0.5 : 0.02);
   }
   speed[0] = 10;
-  Run run(in_space(e, bodies, settings));
+  Run run(in_space(e, bodies, settings), settings.paper);
   run.advance_to(1);
   for (double time = 0; time < run.state.time;) {
     double wait = run.state.time - time;
@@ -188,13 +189,13 @@ CaseResult unequal_row(const Settings& settings, double e) {
   return run.finish(run.motion(4).velocity.x(), speed[4], error);
 }
 
-CaseResult plastic_row(const Settings& settings) {
+CaseResult plastic_row(const CaseSettings& settings) {
   constexpr int n = 6;
   std::vector<Body> bodies;
   for (int i = 0; i < n; ++i)
     bodies.push_back(
         body_of(box(Vec3(1.4 * i, 0, 50), Vec3(1.4 * i + 1, 1, 51)), Vec3(i == 0 ? 10 : 0, 0, 0)));
-  Run run(in_space(0, bodies, settings));
+  Run run(in_space(0, bodies, settings), settings.paper);
   run.advance_to(2);
   double error = 0;
   for (int i = 0; i < n; ++i) {
@@ -206,7 +207,7 @@ CaseResult plastic_row(const Settings& settings) {
   return run.finish(run.motion(n - 1).velocity.x(), 10.0 / n, error);
 }
 
-CaseResult elastic_bowl(const Settings& settings) {
+CaseResult elastic_bowl(const CaseSettings& settings) {
   Random random(3, "bowl");
   std::vector<Body> bodies;
   for (int i = 0; i < 8; ++i)
@@ -214,7 +215,8 @@ CaseResult elastic_bowl(const Settings& settings) {
         tumbling_cube(Vec3(2.4 * (i % 2) - 1.2, 2.4 * (i / 2 % 2) - 1.2, 4 + 2.5 * (i / 4)),
                       Vec3::Zero(), random));
   Run run(all_alike(make_trn([](double x, double y) { return (x * x + y * y) / 12; }, 1, 30),
-                    ground_of(0, 1), bodies, settings));
+                    ground_of(0, 1), bodies, settings),
+          settings.paper);
   const auto total = [&] { return kinetic(run) + energies(run.scene, run.state).potential; };
   const double before = total();
   run.advance_to(4);
@@ -250,10 +252,11 @@ Body split_plate(double azimuth_deg, double off) {
   return body;
 }
 
-CaseResult parts_on_ridge(const Settings& settings, double half_angle_deg) {
+CaseResult parts_on_ridge(const CaseSettings& settings, double half_angle_deg) {
   constexpr double size = 6;  // of the plate [m]
   const std::vector<Body> bodies = {split_plate(30, 0.1), ridge_wall(half_angle_deg, 0)};
-  Run run(scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(60), bodies, settings));
+  Run run(scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(60), bodies, settings),
+          settings.paper);
   const double before = run.motion().pose.position.z();
   double deepest = 0;
   while (run.state.time < 1 - settings.dt / 2) {
@@ -263,14 +266,15 @@ CaseResult parts_on_ridge(const Settings& settings, double half_angle_deg) {
   return run.finish(deepest, 0, deepest / size);
 }
 
-CaseResult parts_land_flat(const Settings& settings) {
+CaseResult parts_land_flat(const CaseSettings& settings) {
   constexpr double height = 1.25, speed = 5, side = 1;
   Body slab;
   slab.parts = {box(Vec3(-2, -1, side + height), Vec3(0.3, 1, side + height + 0.5)),
                 box(Vec3(0.3, -1, side + height), Vec3(2, 1, side + height + 0.5))};
   slab.velocity = Vec3(1, 0, 0);  // for half a second: to the middle of what it falls on
   const std::vector<Body> bodies = {slab, body_of(box(Vec3(-7.5, -8, 0), Vec3(8.5, 8, side)))};
-  Run run(all_alike(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5), bodies, settings));
+  Run run(all_alike(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5), bodies, settings),
+          settings.paper);
   run.advance_to(0.6);
   const Motion after = run.motion();
   const double value = run.spin(after).norm() * run.scene.blocks.shapes.radius[0];

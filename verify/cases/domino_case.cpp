@@ -77,7 +77,7 @@ double wave_time(double dt, const LeanOf& lean, const Advance& advance) {
 
 }  // namespace
 
-CaseResult dominoes(const Settings& settings) {
+CaseResult dominoes(const CaseSettings& settings) {
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < n_plates; ++i) {
     const double front = pitch * static_cast<double>(i), spin = i == 0 ? first_spin : 0;
@@ -86,7 +86,7 @@ CaseResult dominoes(const Settings& settings) {
   }
   Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 20), ground_of(75), bodies, settings);
   scene.joint = ground_of(0);
-  Run run(std::move(scene));
+  Run run(std::move(scene), settings.paper);
   const auto lean = [&](std::size_t k) {
     const Vec3 up = run.motion(static_cast<int>(k)).pose.attitude *
                     (run.scene.blocks.rest[k].attitude.conjugate() * Vec3::UnitZ());

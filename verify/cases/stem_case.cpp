@@ -31,10 +31,10 @@ Scene scene_with_stem(const Settings& settings, double speed) {
 
 }  // namespace
 
-CaseResult stem(const Settings& settings) {
+CaseResult stem(const CaseSettings& settings) {
   CaseResult all;
   for (const double speed : {10.0, 15.0, 20.0, 25.0}) {
-    Run run(scene_with_stem(settings, speed));
+    Run run(scene_with_stem(settings, speed), settings.paper);
     run.advance_to(4.0 / speed);
     const double expected = std::sqrt(std::max(0.0, speed * speed - 2 * capacity / mass));
     const double value = run.motion(0).velocity.x();
@@ -47,7 +47,7 @@ CaseResult stem(const Settings& settings) {
   return all;
 }
 
-CaseResult dragged_flight(const Settings& settings) {
+CaseResult dragged_flight(const CaseSettings& settings) {
   constexpr double heavy = 1000, drag = 500, speed = 15, low = 5;
   const Material material;
   const double half = std::cbrt(heavy / material.density) / 2;
@@ -57,7 +57,7 @@ CaseResult dragged_flight(const Settings& settings) {
   scene.gravity = Vec3::Zero();
   const Area around{{{Vec2(-50, -50), Vec2(50, -50), Vec2(50, 50), Vec2(-50, 50)}}};
   scene.canopies = {make_canopy(around, 20, drag)};
-  Run run(std::move(scene));
+  Run run(std::move(scene), settings.paper);
   const double from = run.motion().pose.position.x(), expected = heavy * speed / drag;
   run.advance_to(40);
   const double way = run.motion().pose.position.x() - from;

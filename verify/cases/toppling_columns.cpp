@@ -94,12 +94,12 @@ double farthest(const Run& run) {
 
 }  // namespace
 
-CaseResult columns_topple(const Settings& settings) {
+CaseResult columns_topple(const CaseSettings& settings) {
   CaseResult total;
   total.expected =
       bisect(30, 44, 40, [](double friction) { return !(thrust_at_toe(friction) > 0); });
   total.value = bisect(36, 40, 7, [&](double friction) {
-    Run run(scene_of_columns(friction, settings));
+    Run run(scene_of_columns(friction, settings), settings.paper);
     while (farthest(run) < 0.1 && run.state.time < 4) run.advance();
     add_counts(run.counted(), total);
     return farthest(run) < 0.1;

@@ -23,13 +23,13 @@ void keep_worst(const CaseResult& one, CaseResult& worst) {
   add_counts(one, worst);
 }
 
-CaseResult worst_rolling_angle(const Settings& settings) {
+CaseResult worst_rolling_angle(const CaseSettings& settings) {
   CaseResult worst;
   for (int n = 3; n <= 12; ++n) keep_worst(rolling_angle(settings, n), worst);
   return worst;
 }
 
-CaseResult worst_breaking_speed(const Settings& settings) {
+CaseResult worst_breaking_speed(const CaseSettings& settings) {
   CaseResult worst;
   for (const double side : {0.3, 1.0, 3.0}) keep_worst(breaking_speed(settings, side), worst);
   return worst;
@@ -43,7 +43,7 @@ VerifyCase slide_case(const std::string& name, double friction_deg, double bound
       .norm = "relative",
       .test = "LawTalus.SlidesAsInClosedForm",
       .bound = bound,
-      .run = [=](const Settings& s) { return sliding(s, friction_deg, 37, 4); }};
+      .run = [=](const CaseSettings& s) { return sliding(s, friction_deg, 37, 4); }};
 }
 
 VerifyCase bounce_case(const std::string& name, double restitution, Landing landing) {
@@ -54,7 +54,7 @@ VerifyCase bounce_case(const std::string& name, double restitution, Landing land
       .norm = "of the first fall, largest of three",
       .test = "LawTalus.BouncesToTheHeightAskedFor",
       .bound = 1e-11,
-      .run = [=](const Settings& s) { return bounce(s, restitution, landing); }};
+      .run = [=](const CaseSettings& s) { return bounce(s, restitution, landing); }};
 }
 
 std::vector<VerifyCase> single_block_cases() {
@@ -81,8 +81,8 @@ std::vector<VerifyCase> single_block_cases() {
        .test = "LawTalus.SticksAboveTheDipAndSlidesBelow",
        .bound = 1e-8,
        .run =
-           [](const Settings& s) {
-             Settings awake = s;
+           [](const CaseSettings& s) {
+             CaseSettings awake = s;
              awake.sleep = false;
              return sliding(awake, 30.1, 37, 4);
            }},
@@ -92,7 +92,7 @@ std::vector<VerifyCase> single_block_cases() {
        .norm = "share of the path",
        .test = "LawTalus.SlidesObliquely",
        .bound = 1e-5,
-       .run = [](const Settings& s) { return oblique_slide(s, 37); }},
+       .run = [](const CaseSettings& s) { return oblique_slide(s, 37); }},
       {.name = "rolling",
        .claim = "prisms of 3 to 12 sides start to roll at 180 / n degrees",
        .reference = "closed form (27)",
@@ -106,7 +106,7 @@ std::vector<VerifyCase> single_block_cases() {
        .norm = "relative",
        .test = "LawTalus.PrismRollsOnAtTheSteadySpeed",
        .bound = 0.01,
-       .run = [](const Settings& s) { return sustained_rolling(s, 12); }},
+       .run = [](const CaseSettings& s) { return sustained_rolling(s, 12); }},
       bounce_case("bounce_face", 0.7, Landing::face),
       bounce_case("bounce_edge", 0.7, Landing::edge),
       bounce_case("bounce_corner", 0.7, Landing::corner),
@@ -118,28 +118,28 @@ std::vector<VerifyCase> single_block_cases() {
        .norm = "relative",
        .test = "LawTalus.CornerImpulseIsExact",
        .bound = 1e-8,
-       .run = [](const Settings& s) { return corner_impulse(s, 0.7); }},
+       .run = [](const CaseSettings& s) { return corner_impulse(s, 0.7); }},
       {.name = "free_spin",
        .claim = "a box spins about its middle axis in flight, 20 s",
        .reference = "Euler's equations by Runge-Kutta, 200,000 steps",
        .norm = "degrees",
        .test = "LawTalusDefault.SpinsFreelyAndTumblesInFlight",
        .bound = 0.01,
-       .run = [](const Settings& s) { return free_spin(s, 20); }},
+       .run = [](const CaseSettings& s) { return free_spin(s, 20); }},
       {.name = "tumbling",
        .claim = "the box that spins about its middle axis flies the parabola, 10 s",
        .reference = "closed form (25)",
        .norm = "m",
        .test = "LawTalus.TumblingBlockFliesTheParabola",
        .bound = 1e-12,
-       .run = [](const Settings& s) { return tumbling_flight(s, 10); }},
+       .run = [](const CaseSettings& s) { return tumbling_flight(s, 10); }},
       {.name = "wedge",
        .claim = "a wedge slides along the line of its two planes, friction 20 degrees",
        .reference = "closed form",
        .norm = "relative",
        .test = "LawTalus.WedgeSlidesAsInClosedForm",
        .bound = 1e-4,
-       .run = [](const Settings& s) { return wedge(s, 20); }},
+       .run = [](const CaseSettings& s) { return wedge(s, 20); }},
       {.name = "wedge_critical",
        .claim = "the wedge holds from 33.357 degrees of friction",
        .reference = "closed form",
@@ -211,7 +211,7 @@ std::vector<VerifyCase> single_block_cases() {
        .norm = "1 - COR",
        .test = "LawTalus.ElasticBlockReboundsWhole",
        .bound = 1e-11,
-       .run = [](const Settings& s) { return elastic_restitution(s, 1e12); },
+       .run = [](const CaseSettings& s) { return elastic_restitution(s, 1e12); },
        .has_strains = true,
        .paper_dt = {1e-4, 1e-5, 1e-6}},
       {.name = "ghost",
@@ -220,7 +220,7 @@ std::vector<VerifyCase> single_block_cases() {
        .norm = "m",
        .test = "LawTalus.NothingToCollideWithOnAPlane",
        .bound = 1e-6,
-       .run = [](const Settings& s) { return ghost_collisions(s, 17); }},
+       .run = [](const CaseSettings& s) { return ghost_collisions(s, 17); }},
   };
 }
 
@@ -237,35 +237,35 @@ std::vector<VerifyCase> soil_cases() {
                .norm = "relative, largest of three",
                .test = "Soil.RestitutionFallsWithSpeedOrEnergy",
                .bound = 1e-6,
-               .run = [](const Settings& s) { return falling_restitution(s, false); }}),
+               .run = [](const CaseSettings& s) { return falling_restitution(s, false); }}),
       of_soil({.name = "soil_bounce_energy",
                .claim = "three rebounds from 5 m at a COR that falls with the energy of the hit",
                .reference = "closed form",
                .norm = "relative, largest of three",
                .test = "Soil.RestitutionFallsWithSpeedOrEnergy",
                .bound = 1e-6,
-               .run = [](const Settings& s) { return falling_restitution(s, true); }}),
+               .run = [](const CaseSettings& s) { return falling_restitution(s, true); }}),
       of_soil({.name = "soil_rolling",
                .claim = "a prism of 64 sides rolls to its stop, rolling resistance 0.1",
                .reference = "closed form of plastic hits of its edges",
                .norm = "relative",
                .test = "Soil.PrismRollsToItsStop",
                .bound = 0.01,
-               .run = [](const Settings& s) { return rolling_stop(s, 64, 0.1); }}),
+               .run = [](const CaseSettings& s) { return rolling_stop(s, 64, 0.1); }}),
       of_soil({.name = "soil_rolling_angle",
                .claim = "a prism of 6 sides starts to roll at 32.594 degrees, resistance 0.05",
                .reference = "closed form",
                .norm = "degrees",
                .test = "Soil.PrismStartsToRollAtItsAngle",
                .bound = 0.02,
-               .run = [](const Settings& s) { return resisted_rolling_angle(s, 6, 0.05); }}),
+               .run = [](const CaseSettings& s) { return resisted_rolling_angle(s, 6, 0.05); }}),
       of_soil({.name = "soil_edge",
                .claim = "a cube stands on its edge while its weight is within mu_r R_e of it",
                .reference = "closed form",
                .norm = "of that arm",
                .test = "Soil.CubeStandsOnItsEdgeWithinItsArm",
                .bound = 0.01,
-               .run = [](const Settings& s) { return standing_on_edge(s, 0.1); }}),
+               .run = [](const CaseSettings& s) { return standing_on_edge(s, 0.1); }}),
       of_soil({.name = "soil_pivoting",
                .claim = "a cube that pivots on its face stops in time, resistance 0.1",
                .reference = "closed form",
@@ -280,25 +280,26 @@ std::vector<VerifyCase> soil_cases() {
                .test = "Soil.ScarsStopASlab",
                .bound = 1e-3,
                .run =
-                   [](const Settings& s) {
+                   [](const CaseSettings& s) {
                      return scarring_stop(s, scarring_ground(0.25, 1.25, 100), 10);
                    }}),
-      of_soil(
-          {.name = "soil_creep",
-           .claim = "a slab let go on 35 degrees comes to rest on ground that it scars",
-           .reference = "closed form",
-           .norm = "relative, of its largest speed and its way",
-           .test = "Soil.ScarsHoldASlabThatCreeps",
-           .bound = 1e-3,
-           .run =
-               [](const Settings& s) { return scarring_creep(s, scarring_ground(0.35, 2, 150)); }}),
+      of_soil({.name = "soil_creep",
+               .claim = "a slab let go on 35 degrees comes to rest on ground that it scars",
+               .reference = "closed form",
+               .norm = "relative, of its largest speed and its way",
+               .test = "Soil.ScarsHoldASlabThatCreeps",
+               .bound = 1e-3,
+               .run =
+                   [](const CaseSettings& s) {
+                     return scarring_creep(s, scarring_ground(0.35, 2, 150));
+                   }}),
       of_soil({.name = "soil_weakening",
                .claim = "a slab at 10 m/s stops on ground whose friction falls with its speed",
                .reference = "integrated closed form",
                .norm = "relative",
                .test = "Soil.FrictionWeakensWithSpeed",
                .bound = 1e-3,
-               .run = [](const Settings& s) { return weakening_stop(s, 10); }}),
+               .run = [](const CaseSettings& s) { return weakening_stop(s, 10); }}),
       of_soil({.name = "soil_runaway",
                .claim = "a slab on 20 degrees runs away above 7.497 m/s where friction weakens",
                .reference = "closed form",
@@ -312,14 +313,14 @@ std::vector<VerifyCase> soil_cases() {
                .norm = "relative",
                .test = "Soil.DragSlowsASlide",
                .bound = 1e-3,
-               .run = [](const Settings& s) { return dragged_slide(s, false); }}),
+               .run = [](const CaseSettings& s) { return dragged_slide(s, false); }}),
       of_soil({.name = "soil_drag_way",
                .claim = "a slab slides down 40 degrees against drag of 0.02 per metre, 10 s",
                .reference = "closed form",
                .norm = "relative",
                .test = "Soil.DragSlowsASlide",
                .bound = 1e-3,
-               .run = [](const Settings& s) { return dragged_slide(s, true); }}),
+               .run = [](const CaseSettings& s) { return dragged_slide(s, true); }}),
       of_soil({.name = "soil_drag_stop",
                .claim = "a slab at 10 m/s stops by friction 0.3 and drag of 0.5 per second",
                .reference = "closed form",
@@ -378,14 +379,14 @@ std::vector<VerifyCase> block_cases() {
                     .norm = "relative",
                     .test = "StepIsland.HeadOnCollisionHasItsRestitution",
                     .bound = 4e-5,
-                    .run = [](const Settings& s) { return head_on(s, 0.5); }}),
+                    .run = [](const CaseSettings& s) { return head_on(s, 0.5); }}),
       of_blocks(8, {.name = "collision",
                     .claim = "eight tumbling boxes that collide keep momentum, also angular",
                     .reference = "conservation",
                     .norm = "share of what they bring",
                     .test = "ManyBlocks.CollidingBlocksKeepMomentum",
                     .bound = 1e-10,
-                    .run = [](const Settings& s) { return collision(s, 0.5); }}),
+                    .run = [](const CaseSettings& s) { return collision(s, 0.5); }}),
       of_blocks(14, {.name = "dominoes",
                      .claim = "the wave along fourteen dominoes takes its time",
                      .reference = "angles and projected Gauss-Seidel, steps of 2e-5 s",
@@ -430,7 +431,7 @@ std::vector<VerifyCase> block_cases() {
                      .norm = "m",
                      .test = "StepIsland/Stack.StandsStill",
                      .bound = 1e-6,
-                     .run = [](const Settings& s) { return stack_stands(s, 10, 5); }}),
+                     .run = [](const CaseSettings& s) { return stack_stands(s, 10, 5); }}),
       of_blocks(7, {.name = "arch",
                     .claim = "an arch of seven stones stands still, 5 s",
                     .reference = "rest",
@@ -465,7 +466,7 @@ std::vector<VerifyCase> event_cases() {
        .test = "Events.PrismsRollHitByHit",
        .bound = 1e-3,
        .run =
-           [](const Settings& s) {
+           [](const CaseSettings& s) {
              return prism_rolls(s, {64, 5, 0}, 2);
            },
        .shortest_strained_dt = 1},
@@ -475,14 +476,14 @@ std::vector<VerifyCase> event_cases() {
        .norm = "relative",
        .test = "Events.AFlatSlabBouncesDownASlope",
        .bound = 1e-3,
-       .run = [](const Settings& s) { return bouncing_slab(s, 0.8); }},
+       .run = [](const CaseSettings& s) { return bouncing_slab(s, 0.8); }},
       {.name = "top",
        .claim = "a top of twelve sides spins on its tip at 60 rad/s, 3 s",
        .reference = "Lagrange's top, integrated",
        .norm = "degrees",
        .test = "Events.ATopNutates",
        .bound = 0.1,
-       .run = [](const Settings& s) { return spinning_top(s, 60); },
+       .run = [](const CaseSettings& s) { return spinning_top(s, 60); },
        .shortest_strained_dt = 1},
       {.name = "lifted",
        .claim = "the ground drops away from a slab at twice gravity, stops, and is met again",
@@ -536,25 +537,26 @@ std::vector<VerifyCase> contact_cases() {
                      .test = "Piles/PileStands.UpToTheAngleOfARigidOne",
                      .bound = 1e-3,
                      .run =
-                         [](const Settings& s) {
+                         [](const CaseSettings& s) {
                            return pile_moves(s, {.across = 2, .high = 8, .share = 0.97}, 2);
                          }}),
-      of_blocks(
-          10,
-          {.name = "stack_of_1_cm",
-           .claim = "ten cubes of 1 cm on each other sag by no more, 1 s",
-           .reference = "rest",
-           .norm = "of a side",
-           .test = "Sides/Sag.OfAStackOfTenIsAPartOfItsSide",
-           .bound = 1e-4,
-           .run = [](const Settings& s) { return pile_moves(s, {.high = 10, .side = 0.01}, 1); }}),
+      of_blocks(10, {.name = "stack_of_1_cm",
+                     .claim = "ten cubes of 1 cm on each other sag by no more, 1 s",
+                     .reference = "rest",
+                     .norm = "of a side",
+                     .test = "Sides/Sag.OfAStackOfTenIsAPartOfItsSide",
+                     .bound = 1e-4,
+                     .run =
+                         [](const CaseSettings& s) {
+                           return pile_moves(s, {.high = 10, .side = 0.01}, 1);
+                         }}),
       of_blocks(2, {.name = "tumbling_pairs",
                     .claim = "cubes that tumble at up to 14 rad/s and meet return COR 0.9",
                     .reference = "what momentum and angular momentum say",
                     .norm = "COR, worst hit",
                     .test = "Hits.EveryHitOfATumblingPairReturnsItsRestitution",
                     .bound = 0.01,
-                    .run = [](const Settings& s) { return tumbling_pairs(s, 0.9); }}),
+                    .run = [](const CaseSettings& s) { return tumbling_pairs(s, 0.9); }}),
       of_blocks(2, {.name = "borne_slab",
                     .claim = "a cube rebounds from a slab that the ground bears, COR 0.7",
                     .reference = "hits in turn in one dimension",
@@ -568,7 +570,7 @@ std::vector<VerifyCase> contact_cases() {
                     .norm = "of the speed of the first",
                     .test = "Hits.AnUnequalRowPassesItsHitsOnInOrder",
                     .bound = 0.01,
-                    .run = [](const Settings& settings) { return unequal_row(settings); }}),
+                    .run = [](const CaseSettings& settings) { return unequal_row(settings); }}),
       of_blocks(6, {.name = "plastic_row",
                     .claim = "six cubes in a row hit and go on together",
                     .reference = "momentum",
@@ -589,7 +591,7 @@ std::vector<VerifyCase> contact_cases() {
                     .norm = "of its size",
                     .test = "PartsOnRidges.APlateOfTwoPartsDoesNotSinkIn",
                     .bound = 1e-4,
-                    .run = [](const Settings& s) { return parts_on_ridge(s, 10); }}),
+                    .run = [](const CaseSettings& s) { return parts_on_ridge(s, 10); }}),
       of_blocks(2, {.name = "parts_land_flat",
                     .claim = "a slab of two parts falls flat with friction and stays flat",
                     .reference = "symmetry",
@@ -621,7 +623,7 @@ Method law_talus(const Change& change, std::vector<double> dt) {
 Method law_paper(const Change& change, std::vector<double> dt) {
   Method method = law_talus(change, std::move(dt));
   method.name.replace(0, 5, "paper");
-  method.settings.law = Law::paper;
+  method.settings.paper.emplace();
   return method;
 }
 
@@ -671,7 +673,7 @@ std::vector<Method> methods_of(const VerifyCase& c, bool full) {
     methods.push_back(law_paper({paper_stiffness}, {1e-2, 1e-3}));
   }
   for (Method& method : methods)
-    if (method.settings.law == Law::paper && !c.paper_dt.empty()) method.dt = c.paper_dt;
+    if (method.settings.paper && !c.paper_dt.empty()) method.dt = c.paper_dt;
   return methods;
 }
 

@@ -22,7 +22,7 @@ struct VerifyCase {
   std::string norm;       ///< what the error is, with its unit
   std::string test;       ///< test that bounds it
   double bound = 0;       ///< law talus at the default step must stay below, unit of `norm`
-  std::function<cases::CaseResult(const Settings&)> run;
+  std::function<cases::CaseResult(const CaseSettings&)> run;
   int n_blocks = 1;
   /// Law talus with strains: shorter steps take minutes, or blur hits in a row; 1: is rigid [s].
   double shortest_strained_dt = 0;
@@ -36,7 +36,7 @@ struct VerifyCase {
 /// One way of running a case: law, stiffness, strains, solver tolerance, a ladder of time steps.
 struct Method {
   std::string name;  ///< in the legend
-  Settings settings;
+  CaseSettings settings;
   std::vector<double> dt;  ///< longest first [s]
 };
 

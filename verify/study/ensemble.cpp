@@ -49,7 +49,8 @@ std::array<double, 3> answer_of(const cases::Run& run, const Progress& progress)
 }  // namespace
 
 EnsembleResult run_ensemble(const std::function<Scene(std::uint64_t seed)>& scene, int n_runs,
-                            double duration, const Progress& progress, const Breaks& breaks) {
+                            double duration, const Progress& progress,
+                            const std::optional<PaperSettings>& paper, const Breaks& breaks) {
   EnsembleResult out;
   out.n_runs = n_runs;
   std::vector<std::array<double, 3>> answers;
@@ -58,12 +59,12 @@ EnsembleResult run_ensemble(const std::function<Scene(std::uint64_t seed)>& scen
     const double begin = processor_seconds();
     Scene started = scene(static_cast<std::uint64_t>(seed));
     out.set_up_cpu += (processor_seconds() - begin) / n_runs;
-    cases::Run run(std::move(started));
+    cases::Run run(std::move(started), paper);
     run.advance_to(duration);
     answers.push_back(answer_of(run, progress));
     out.n_broken += breaks && breaks(run) ? 1 : 0;
     cases::add_counts(run.counted(), out.sums);
-    out.settings = run.scene.settings;
+    out.settings = {run.scene.settings, paper};
     out.n_blocks = n_blocks(run.scene);
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_begin;
@@ -113,7 +114,7 @@ std::vector<VerifyRow> rows_of(const std::string& case_name, Quantity quantity,
     VerifyRow row;
     row.case_name = case_name;
     row.method = result.method;
-    row.law = result.settings.law == Law::talus ? "talus" : "paper";
+    row.law = result.settings.paper ? "paper" : "talus";
     row.strains = result.settings.strains;
     row.dof = result.n_blocks * (row.strains ? 12 : 6);
     row.dt = result.settings.dt;

@@ -24,7 +24,7 @@ using Progress = std::function<double(const Vec3& from, const Vec3& now)>;
 
 /// Means over the runs of one setting. Blocks count by their mass; arrays by Quantity.
 struct EnsembleResult {
-  Settings settings;
+  CaseSettings settings;
   std::string method;
   int n_blocks = 0, n_runs = 0;
   int n_broken = 0;              ///< runs that broke a limit, where run_ensemble() was given any
@@ -39,9 +39,10 @@ struct EnsembleResult {
 /// Whether a run that has ended broke a limit.
 using Breaks = std::function<bool(const cases::Run&)>;
 
-/// Runs the scene of each seed 1..n_runs for `duration` [s].
+/// Runs the scene of each seed 1..n_runs for `duration` [s], by law paper where it has settings.
 [[nodiscard]] EnsembleResult run_ensemble(const std::function<Scene(std::uint64_t seed)>& scene,
                                           int n_runs, double duration, const Progress& progress,
+                                          const std::optional<PaperSettings>& paper = {},
                                           const Breaks& breaks = {});
 
 /// What the answer tends to as the step does to nothing, and how far that can be trusted.

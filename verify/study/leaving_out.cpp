@@ -112,7 +112,7 @@ long anything(const State&) { return 1; }
 
 OmissionRun run_scene(Scene scene, double duration, const Shown& shown = anything) {
   OmissionRun out;
-  Run run(std::move(scene));
+  Run run(std::move(scene), {});
   run.advance_to(duration);
   out.cpu = run.counted().cpu;
   note_ends(run.scene, run.state, out);

@@ -44,7 +44,7 @@ std::string text_of(StepFlag flags) {
 }
 
 VerifyRow measure(const VerifyCase& c, const Method& method, double dt, double least_cpu) {
-  Settings settings = method.settings;
+  CaseSettings settings = method.settings;
   settings.dt = dt;
   std::vector<double> cpu, set_up, wall;
   cases::CaseResult result;
@@ -62,7 +62,7 @@ VerifyRow measure(const VerifyCase& c, const Method& method, double dt, double l
   VerifyRow row;
   row.case_name = c.name;
   row.method = method.name;
-  row.law = settings.law == Law::talus ? "talus" : "paper";
+  row.law = settings.paper ? "paper" : "talus";
   row.strains = settings.strains || c.has_strains;
   row.dof = c.n_blocks * (row.strains ? 12 : 6);
   row.dt = dt;

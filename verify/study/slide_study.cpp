@@ -12,7 +12,7 @@ namespace {
 Method law_paper(double stiffness, std::vector<double> dt, bool strains = false) {
   Method method{"paper, k_n " + text(stiffness), {}, std::move(dt)};
   if (strains) method.name += ", strains";
-  method.settings.law = Law::paper;
+  method.settings.paper.emplace();
   method.settings.normal_stiffness = stiffness;
   method.settings.strains = strains;
   return method;
@@ -44,7 +44,7 @@ std::vector<Method> slide_methods(bool full) {
 // what is compared with the reference, and the reference, are means of many.
 int slide_runs(const Method& method, bool full) {
   if (!full) return 1;
-  if (method.settings.law == Law::paper) return 6;
+  if (method.settings.paper) return 6;
   return method.name == "talus" ? 96 : 8;
 }
 
@@ -79,14 +79,14 @@ SlideStudy study_slide(const SlideData& data, bool full, const ProgressFunction&
                       [](std::size_t n, const Method& m) { return n + m.dt.size(); }));
   for (const Method& method : methods)
     for (const double dt : method.dt) {
-      Settings settings = method.settings;
+      CaseSettings settings = method.settings;
       settings.dt = dt;
       const auto scene = [&](std::uint64_t seed) {
         if (progress) progress(static_cast<double>(out.results.size()) / n_settings);
         return slide_scene(data, settings, seed);
       };
-      out.results.push_back(
-          run_ensemble(scene, slide_runs(method, full), full ? 20 : 4, down_the_slope));
+      out.results.push_back(run_ensemble(scene, slide_runs(method, full), full ? 20 : 4,
+                                         down_the_slope, settings.paper));
       out.results.back().method = method.name;
     }
   out.reference = reference_of(out.results);

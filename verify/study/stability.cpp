@@ -117,7 +117,8 @@ Seen slide(const SlideSpec& spec) {
   const Body body = body_of(box_in(frame, spec.offset, Vec3(-h, -h, 0), Vec3(h, h, spec.side)));
   const GroundClass ground = ground_of(spec.friction_deg);
   Run run(scene_of(plane_trn(frame, spec.side / 2, 12 * spec.side, spec.offset), ground, {body},
-                   spec.settings, spec.material));
+                   spec.settings, spec.material),
+          {});
   const Vec3 from = run.motion().pose.position;
   const double dt = spec.settings.dt;
   const double duration = std::max(2.0, std::ceil(std::sqrt(4 * spec.side / down) / dt)) * dt;
@@ -204,7 +205,7 @@ Seen throw_body(const ThrowSpec& spec) {
   const Body body = body_of(moved(box(-spec.edges / 2, spec.edges / 2), turn, Vec3::Zero(), at),
                             spec.velocity, spec.spin);
   const GroundClass ground = ground_of(spec.friction_deg, spec.restitution);
-  Run run(scene_of(trn, ground, {body}, {}));
+  Run run(scene_of(trn, ground, {body}, {}), {});
   return watch(run, 2);
 }
 
@@ -270,7 +271,7 @@ Seen on_feet(double ratio) {
       bodies.push_back(body_of(
           box(Vec3(x - small / 2, y - small / 2, 0), Vec3(x + small / 2, y + small / 2, small))));
   const GroundClass ground = ground_of(30);
-  Run run(scene_of(plane_trn(slope_frame(0, 0), 1, 2 + 3 * large), ground, bodies, {}));
+  Run run(scene_of(plane_trn(slope_frame(0, 0), 1, 2 + 3 * large), ground, bodies, {}), {});
   Seen seen = watch(run, 1);
   for (int b = 0; b < n_blocks(run.scene); ++b)
     seen.error =
@@ -284,7 +285,7 @@ Seen stack(int n, double dip_deg, double friction_deg, double dt) {
   Settings awake;
   awake.sleep = false;
   awake.dt = dt;
-  Run run(tower(n, dip_deg, friction_deg, awake));
+  Run run(tower(n, dip_deg, friction_deg, awake), {});
   Seen seen = watch(run, 4);
   for (int b = 0; b < n; ++b)
     seen.error = std::max(seen.error,
@@ -294,7 +295,7 @@ Seen stack(int n, double dip_deg, double friction_deg, double dt) {
 
 // A tower of eight at a share of the dip at which it topples, 3 s: how far a cube moves.
 Seen lean(double share, double dt) {
-  Run run(scene_of_pile({.high = 8, .share = share, .step = dt}));
+  Run run(scene_of_pile({.high = 8, .share = share, .step = dt}), {});
   Seen seen = watch(run, 3);
   for (int b = 0; b < n_blocks(run.scene); ++b)
     seen.error = std::max(seen.error,

@@ -1,4 +1,4 @@
-// libcore/step/island/step_island.hpp
+// libcore/step/island/step_island.hpp: public
 // Law talus for blocks within reach of each other: islands, their joint substeps and impacts.
 // in:    motion of all blocks; ground and hulls of the scene
 // out:   motion and contact memory of the blocks of an island at the end of the step

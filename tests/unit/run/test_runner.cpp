@@ -64,6 +64,7 @@ RunFile computed(const Scene& scene, const RunOptions& wanted, const std::vector
     if (!left.empty() && step == left.front()) {
       update_file(runner, true);
       Runner next = resume_run(scene, wanted, lines(), runner.file, "memory");
+      runner.law = next.law;
       runner.state = next.state;
       runner.work = make_work(scene);
       runner.passages = next.passages;
@@ -226,6 +227,21 @@ TEST(Runner, ResumedAnywhereGoesOnToTheSameBits) {
       EXPECT_EQ(whole.health[i].largest_penetration, resumed.health[i].largest_penetration);
     }
   }
+}
+
+// What a block rebounds with is found where it hits, and given to it where it lifts off.
+TEST(Runner, ResumesTheReboundsOfLawPaper) {
+  Scene scene = bouncing_scene();
+  scene.settings.dt = 1e-3;
+  scene.settings.normal_stiffness = 1e9;
+  scene.settings.block_contacts = false;
+  RunOptions wanted = options(0.1);
+  wanted.paper.emplace();
+  std::vector<int> often;
+  for (int step = 5; step < 4000; step += 5) often.push_back(step);
+  const RunFile whole = computed(scene, wanted), resumed = computed(scene, wanted, often);
+  EXPECT_GT(whole.health.back().impact, 1e3);
+  EXPECT_EQ(whole.frames.position, resumed.frames.position);
 }
 
 TEST(Runner, FramesStandAtTheirTimesAndAtTheEnd) {

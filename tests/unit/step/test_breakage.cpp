@@ -165,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(At, BreakageAtStep, testing::Values(0.005, 0.0025, 0.00
 // Test F3. Of a cube of 0.3, 1 and 3 m with cor 0.3, 2600 kg/m3 and 1e5 J/m2 across one face, the
 // threshold is at 16.786, 9.194, 5.308 m/s to 1e-3: larger blocks break at lower speed.
 TEST_P(BreakageAtStep, ThresholdSpeedFallsWithTheRootOfSize) {
-  Settings settings;
+  CaseSettings settings;
   settings.dt = GetParam();
   for (const auto& [side, threshold] : {std::pair{0.3, 16.786}, {1.0, 9.194}, {3.0, 5.308}}) {
     const CaseResult speed = breaking_speed(settings, side);

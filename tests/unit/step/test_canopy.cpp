@@ -54,7 +54,7 @@ double way_of(Run& run, double time) {
 
 class Canopies : public testing::TestWithParam<double> {
  protected:
-  Settings settings;
+  CaseSettings settings;
   void SetUp() override { settings.dt = GetParam(); }
 };
 INSTANTIATE_TEST_SUITE_P(Steps, Canopies,
@@ -65,7 +65,8 @@ TEST_P(Canopies, StopABlockInTheAir) { EXPECT_LT(dragged_flight(settings).error,
 
 TEST_P(Canopies, LeaveTheSpinAndTakeWhatTheyBook) {
   cases::Run run(in_forest(settings, {cube_at(Vec3(0, 0, 5), Vec3(15, 0, 0), Vec3(1, -3, 2))},
-                           canopy_on(-50, 50)));
+                           canopy_on(-50, 50)),
+                 {});
   const Vec3 spin = run.motion().angular_momentum;
   const double before = kinetic(run);
   run.advance_to(2);
@@ -78,7 +79,7 @@ TEST_P(Canopies, LeaveTheSpinAndTakeWhatTheyBook) {
 // A fall of 1 s from 15 m: v = g / nu (1 - exp(-nu t)).
 TEST_P(Canopies, SlowAFall) {
   cases::Run run(
-      in_forest(settings, {cube_at(Vec3(0, 0, 15), Vec3::Zero())}, canopy_on(-50, 50), g));
+      in_forest(settings, {cube_at(Vec3(0, 0, 15), Vec3::Zero())}, canopy_on(-50, 50), g), {});
   run.advance_to(1);
   const double nu = drag / heavy, v = g / nu * (1 - std::exp(-nu)),
                z = 15 - g / nu * (1 - (1 - std::exp(-nu)) / nu);
@@ -96,7 +97,7 @@ TEST_P(Canopies, StopASlide) {
   Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 40), ground, {slab}, settings);
   scene.canopies = {canopy_on(-50, 50)};
   scene.canopies[0].drag = nu * scene.blocks.mass[0];
-  cases::Run run(std::move(scene));
+  cases::Run run(std::move(scene), {});
   const double before = kinetic(run);
   run.advance_to(3);
   const double expected = speed / nu - mu * g / (nu * nu) * std::log(1 + nu * speed / (mu * g));
@@ -110,9 +111,11 @@ TEST_P(Canopies, StopASlide) {
 // than before.
 TEST_P(Canopies, StopAnIsland) {
   const Vec3 velocity(15, 0, 0);
-  cases::Run run(in_forest(
-      settings, {cube_at(Vec3(0, 0, 5), velocity), cube_at(Vec3(2 * half, 0, 5), velocity)},
-      canopy_on(-50, 50)));
+  cases::Run run(
+      in_forest(settings,
+                {cube_at(Vec3(0, 0, 5), velocity), cube_at(Vec3(2 * half, 0, 5), velocity)},
+                canopy_on(-50, 50)),
+      {});
   const double before = kinetic(run);
   EXPECT_NEAR(way_of(run, 40), 30, 1e-3);
   EXPECT_NEAR(run.motion(1).pose.position.x() - run.motion(0).pose.position.x(), 2 * half, 1e-6);
@@ -122,7 +125,8 @@ TEST_P(Canopies, StopAnIsland) {
 
 // A flight ends before the forest, and the block is dragged from its edge on.
 TEST_P(Canopies, AreNotFlownOver) {
-  cases::Run run(in_forest(settings, {cube_at(Vec3(0, 0, 5), Vec3(15, 0, 0))}, canopy_on(10, 50)));
+  cases::Run run(in_forest(settings, {cube_at(Vec3(0, 0, 5), Vec3(15, 0, 0))}, canopy_on(10, 50)),
+                 {});
   EXPECT_NEAR(way_of(run, 42), 40, 1e-3);
   EXPECT_GT(run.state.counters.flight_skips, 0);
 }
@@ -152,7 +156,7 @@ TEST_P(Canopies, TakeTheirDragOverTheWayInThem) {
     for (const bool is_alone : {true, false}) {
       std::vector<Body> bodies{cube_at(Vec3(0, 0, 5), velocity)};
       if (!is_alone) bodies.push_back(cube_at(Vec3(0, 0, 5 + 2 * half), velocity));
-      cases::Run run(in_forest(settings, bodies, canopy));
+      cases::Run run(in_forest(settings, bodies, canopy), {});
       run.advance_to(1.5);
       const Vec3 v = run.motion().velocity;
       EXPECT_NEAR(v.norm(), velocity.norm() - drag * way / heavy, 1e-4 * way) << is_alone;
@@ -164,8 +168,9 @@ TEST_P(Canopies, TakeTheirDragOverTheWayInThem) {
 TEST_P(Canopies, EndAtTheirTop) {
   for (const double up : {9.0, -9.0}) {
     const double from = up > 0 ? 1 : 12;
-    cases::Run run(in_forest(settings, {cube_at(Vec3(0, 0, from), Vec3(1, 0, up))},
-                             canopy_on(-50, 50, 6.013)));
+    cases::Run run(
+        in_forest(settings, {cube_at(Vec3(0, 0, from), Vec3(1, 0, up))}, canopy_on(-50, 50, 6.013)),
+        {});
     run.advance_to(0.9);
     const double z = run.motion().pose.position.z(), way = up > 0 ? 6.013 - from : 6.013 - z;
     EXPECT_NEAR(std::abs(run.motion().velocity.z()), 9 - drag * way / heavy, 1e-4 * way);
@@ -175,7 +180,7 @@ TEST_P(Canopies, EndAtTheirTop) {
 // Above a canopy and beside it a block moves as if there were none, over it step by step.
 TEST(Canopy, DragsNothingOutsideIt) {
   for (const Canopy& canopy : {canopy_on(-50, -1), canopy_on(30, 50), canopy_on(-50, 50, 4)}) {
-    cases::Run run(in_forest({}, {cube_at(Vec3(0, 0, 5), Vec3(15, 0, 0))}, canopy));
+    cases::Run run(in_forest({}, {cube_at(Vec3(0, 0, 5), Vec3(15, 0, 0))}, canopy), {});
     EXPECT_NEAR(way_of(run, 1.5), 22.5, 1e-11);
     EXPECT_EQ(run.state.ledger.drag, 0);
   }
@@ -214,7 +219,7 @@ TEST(Canopy, IsMetAlikeInTheFullPlan) {
   const auto run_with = [](const Settings& settings) {
     Scene scene = rough_scene(settings);
     scene.canopies = {canopy_on(-38, -20, 3)};
-    cases::Run run(std::move(scene));
+    cases::Run run(std::move(scene), {});
     run.advance_to(6);
     return run;
   };

@@ -9,8 +9,8 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-Settings with_step(double dt) {
-  Settings settings;
+CaseSettings with_step(double dt) {
+  CaseSettings settings;
   settings.dt = dt;
   return settings;
 }

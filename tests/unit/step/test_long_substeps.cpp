@@ -97,8 +97,8 @@ TEST(Step, SlidesFarInASubstepOnlyOverGroundOfOneKind) {
 
 // --- accuracy ----------------------------------------------------------------------------------
 
-Settings with_accuracy(double dt, double accuracy) {
-  Settings settings;
+CaseSettings with_accuracy(double dt, double accuracy) {
+  CaseSettings settings;
   settings.dt = dt;
   settings.accuracy = accuracy;
   return settings;

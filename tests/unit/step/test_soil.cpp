@@ -23,7 +23,7 @@ using namespace talus::cases;
 
 class Soil : public testing::TestWithParam<double> {
  protected:
-  Settings settings;
+  CaseSettings settings;
   void SetUp() override { settings.dt = GetParam(); }
 };
 INSTANTIATE_TEST_SUITE_P(Steps, Soil,
@@ -193,7 +193,7 @@ TEST_P(Soil, DragBeginsAndEndsAtTheBordersOfItsGround) {
         const double x = trn.node0.x() + (col + 0.5) * trn.cell_size;
         scene.ground.cell_class.push_back(x > 0 && x < 2 ? 1 : 0);
       }
-    cases::Run run(std::move(scene));
+    cases::Run run(std::move(scene), {});
     run.advance_to(2);
     ASSERT_GT(run.motion().pose.position.x(), 2);
     EXPECT_NEAR(run.motion().velocity.x(), speed - nu * 2, 2e-4);

@@ -13,8 +13,8 @@
 #include "unit/contact/ground_overlap.hpp"
 #include "unit/count_allocations.hpp"
 #include "unit/step/rough_scene.hpp"
+#include "verify/cases/case_run.hpp"
 #include "verify/cases/cases.hpp"
-#include "verify/cases/closed_form.hpp"
 
 namespace {
 
@@ -258,18 +258,18 @@ TEST(Step, BlocksThatLeaveAreStoppedAndCounted) {
   const auto cube = [&](double y) {
     return body_of(box_in(frame, Vec3(0, y, 0), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
   };
-  for (const Law law : {Law::talus, Law::paper})
+  for (const bool is_paper : {false, true})
     for (const std::size_t n : {1u, 2u}) {
       Settings settings;
-      settings.law = law;
-      if (law == Law::paper) settings.normal_stiffness = 1e9;
+      RunLaw law;
+      if (is_paper) law = PaperLaw{}, settings.normal_stiffness = 1e9;
       const Scene scene =
           scene_of(plane_trn(frame, 1, 10), {},
                    n == 1 ? std::vector{cube(0)} : std::vector{cube(0), cube(1)}, settings);
-      State state = start(scene);
       Work work = make_work(scene);
+      State state = start_by(law, scene, work);
       StepFlag flags = StepFlag::none;
-      for (int i = 0; i < 2000; ++i) flags = flags | step(scene, state, work).flags;
+      for (int i = 0; i < 2000; ++i) flags = flags | step_by(law, scene, state, work).flags;
       EXPECT_TRUE(has(flags, StepFlag::left_domain));
       EXPECT_FALSE(has(flags, StepFlag::fell_through));
       EXPECT_EQ(state.counters.left_domain, n);
@@ -277,7 +277,7 @@ TEST(Step, BlocksThatLeaveAreStoppedAndCounted) {
       for (std::size_t b = 0; b < n; ++b) {
         EXPECT_EQ(state.phase[b], Phase::left_domain);
         const Pose& pose = state.motion[b].pose;
-        const double beyond = law == Law::paper ? 0.1 : 0;  // by its last step
+        const double beyond = is_paper ? 0.1 : 0;  // by its last step
         for (const Vec3& X : vertices_of(scene.blocks.shapes, static_cast<int>(b)))
           EXPECT_LE((pose.position + pose.attitude * X).x(), 10 + beyond) << n << " " << b;
       }
@@ -290,15 +290,11 @@ TEST(Step, DeepPenetrationIsFlagged) {
   const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
   for (const auto& [depth, is_deep] : {std::pair{0.02, false}, {0.2, true}}) {
     Settings settings;
-    settings.law = Law::paper;
     settings.dt = 1e-3;
     settings.normal_stiffness = 2500 * 10 / (4 * depth);
-    const Scene scene = scene_of(plane_trn(frame, 1, 10), {}, {cube}, settings);
-    State state = start(scene);
-    Work work = make_work(scene);
-    StepFlag flags = StepFlag::none;
-    for (int i = 0; i < 1000; ++i) flags = flags | step(scene, state, work).flags;
-    EXPECT_EQ(has(flags, StepFlag::deep), is_deep) << depth;
+    cases::Run run(scene_of(plane_trn(frame, 1, 10), {}, {cube}, settings), PaperSettings{});
+    run.advance_to(1);
+    EXPECT_EQ(has(run.result.flags, StepFlag::deep), is_deep) << depth;
   }
 }
 

@@ -27,7 +27,7 @@ std::string name_of(const testing::TestParamInfo<VerifyCase>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Verify, EachCase, testing::ValuesIn(verify_cases()), name_of);
 
-void expect_within_bound(const VerifyCase& c, const Settings& settings) {
+void expect_within_bound(const VerifyCase& c, const CaseSettings& settings) {
   const cases::CaseResult result = c.run(settings);
   EXPECT_LT(result.error, c.bound) << c.norm;
   EXPECT_EQ(result.unconverged, 0);
@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Verify, EachCaseOfOneBlock, testing::ValuesIn(cases_of_
                          name_of);
 
 TEST_P(EachCaseOfOneBlock, IsWithinItsBoundWithStrains) {
-  Settings settings;
+  CaseSettings settings;
   settings.strains = true;
   expect_within_bound(GetParam(), settings);
 }

@@ -154,7 +154,7 @@ TEST(VerifyCases, AreNamedOnceAndEachHasItsDefaultStep) {
       std::vector<VerifyRow> rows;
       for (const Method& method : methods_of(c, full))
         for (const double dt : method.dt) {
-          rows.push_back(row(method.settings.law == Law::talus ? "talus" : "paper", 1, 1));
+          rows.push_back(row(method.settings.paper ? "paper" : "talus", 1, 1));
           rows.back().method = method.name;
           rows.back().dt = dt;
         }

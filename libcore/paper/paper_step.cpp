@@ -1,17 +1,21 @@
-#include "step/paper/step_paper.hpp"
+#include "paper/paper_step.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
 
+#include "base/error.hpp"
 #include "contact/search.hpp"
 #include "motion/displacement.hpp"
 #include "motion/rotation.hpp"
 #include "scene/bonds.hpp"
 #include "solver/flips.hpp"
 #include "step/deep_blocks.hpp"
+#include "step/island/step_island.hpp"
 #include "step/loads.hpp"
+#include "step/settle.hpp"
+#include "step/step.hpp"
 #include "step/substep.hpp"
 
 namespace talus {
@@ -92,11 +96,11 @@ ContactState judge(const PaperContact& contact, const Spring& spring, double k_n
 }
 
 template <int Dof>
-OpenCloseWork<Dof>& work_of(Work& work) {
+OpenCloseWork<Dof>& work_of(PaperWork& work) {
   if constexpr (Dof == 6)
-    return work.paper.rigid;
+    return work.rigid;
   else
-    return work.paper.strained;
+    return work.strained;
 }
 
 /// The blocks of an island over one step: Eq. (3) and the contacts among them and with the ground.
@@ -107,11 +111,12 @@ struct OpenClose {
   const Scene& scene;
   State& state;
   Work& work;
+  PaperLaw& paper;
   StepReport& report;
-  OpenCloseWork<Dof>& w;
-  std::span<const int> members;    // ascending
-  std::span<const int> manifolds;  // sorted by block A, then B
-  double k_n, k_s;
+  OpenCloseWork<Dof>& w = work_of<Dof>(paper.work);
+  std::span<const int> members = paper.work.members;      // ascending
+  std::span<const int> manifolds = paper.work.manifolds;  // sorted by block A, then B
+  double k_n = scene.settings.normal_stiffness, k_s = k_n * scene.settings.shear_ratio;
 
   static Eigen::Matrix<double, 3, Dof> T(const Vec3& arm) { return displacement<Dof>(arm); }
 
@@ -418,8 +423,7 @@ struct OpenClose {
     const Vec3 velocity_before = state.motion[first].velocity;
     remember();
     for (size_t k = 0; k < members.size(); ++k) move(k);
-    if (scene.settings.paper.post_adjustment &&
-        (n_blocks(scene) == 1 || !scene.settings.block_contacts))
+    if (paper.settings.post_adjustment && (n_blocks(scene) == 1 || !scene.settings.block_contacts))
       post_adjust(was_free, velocity_before);
     for (const int b : members)
       if (left_ground(scene, position(b)) ||
@@ -440,46 +444,63 @@ struct OpenClose {
       const double speed = -normal.dot(velocity_before);
       const double restitution = scene.ground.classes[w.contacts.front().ground_class].restitution;
       const double resting = 2 * scene.gravity.norm() * scene.settings.dt;
-      state.paper.rebound[i] =
+      paper.state.rebound[i] =
           speed > resting ? Vec3(restitution * speed * normal) : Vec3(Vec3::Zero());
     }
-    if (was_free || !is_free || state.paper.rebound[i].isZero(0)) return;
-    const double wanted = state.paper.rebound[i].norm();
-    const Vec3 normal = state.paper.rebound[i] / wanted;
+    if (was_free || !is_free || paper.state.rebound[i].isZero(0)) return;
+    const double wanted = paper.state.rebound[i].norm();
+    const Vec3 normal = paper.state.rebound[i] / wanted;
     Vec3& v = state.motion[i].velocity;
     const Vec3 adjusted = v + (wanted - normal.dot(v)) * normal;
     state.ledger.impact += 0.5 * scene.blocks.mass[i] * (v.squaredNorm() - adjusted.squaredNorm());
     v = adjusted;
     if (state.phase[i] != Phase::stopped) work.segments.back().end = state.motion[i];
-    state.paper.rebound[i].setZero();
+    paper.state.rebound[i].setZero();
   }
 };
 
-template <int Dof>
-void advance(const Scene& scene, std::span<const int> members, std::span<const int> manifolds,
-             State& state, Work& work, StepReport& report) {
-  const double k_n = scene.settings.normal_stiffness;
-  OpenClose<Dof>{scene,
-                 state,
-                 work,
-                 report,
-                 work_of<Dof>(work),
-                 members,
-                 manifolds,
-                 k_n,
-                 k_n * scene.settings.shear_ratio}
-      .run();
+// Members and pairs of blocks of the island that block b is the first of.
+void gather_island(const Scene& scene, int b, const PairSearch& search, PaperWork& w) {
+  const auto k = static_cast<size_t>(search.groups.island_of[b]);
+  w.members.assign(search.groups.blocks.begin() + search.groups.block_begin[k],
+                   search.groups.blocks.begin() + search.groups.block_begin[k + 1]);
+  for (int p = search.groups.pair_begin[k]; p < search.groups.pair_begin[k + 1]; ++p) {
+    const int m = search.joined_manifold[search.groups.pairs[p]];
+    if (!is_fixed(scene, search.pairs.manifolds[m].block_b)) w.manifolds.push_back(m);
+  }
 }
 
 }  // namespace
 
-void advance_island_paper(const Scene& scene, std::span<const int> members,
-                          std::span<const int> manifolds, State& state, Work& work,
-                          StepReport& report) {
-  if (scene.settings.strains)
-    advance<12>(scene, members, manifolds, state, work, report);
-  else
-    advance<6>(scene, members, manifolds, state, work, report);
+State paper_start(const Scene& scene, Work& work, PaperLaw& paper) {
+  if (!(scene.settings.normal_stiffness > 0))
+    throw InputError({}, "law paper needs a normal stiffness above 0 N/m",
+                     "give [solver] normal_stiffness_n_m; the paper takes k_n = E = 5e10");
+  State state = start_unsettled(scene);
+  paper.state.rebound.assign(state.motion.size(), Vec3::Zero());
+  for (int b = 0; b < n_blocks(scene); ++b) bond_block(scene, b, state, work);
+  return state;
+}
+
+StepReport paper_step(const Scene& scene, State& state, Work& work, PaperLaw& paper) {
+  StepReport report;
+  work.segments.clear();
+  const bool islands = n_blocks(scene) > 1 && scene.settings.block_contacts;
+  if (islands) form_islands(scene, state, work);
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const auto i = static_cast<size_t>(b);
+    if (does_not_move(state.phase[i])) continue;
+    if (islands && work.search.groups.local_index[i] > 0) continue;
+    paper.work.members.assign(1, b);
+    paper.work.manifolds.clear();
+    if (islands) gather_island(scene, b, work.search, paper.work);
+    if (scene.settings.strains)
+      OpenClose<12>{scene, state, work, paper, report}.run();
+    else
+      OpenClose<6>{scene, state, work, paper, report}.run();
+  }
+  end_step(scene, state, work, report);
+  return report;
 }
 
 }  // namespace talus

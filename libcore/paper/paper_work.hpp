@@ -1,4 +1,4 @@
-// libcore/step/paper/paper_work.hpp
+// libcore/paper/paper_work.hpp
 // What a step of law paper recomputes: equations, contacts, matrix.
 // paper: Zhang et al. 2018, Eq. (3), (8)-(24)
 #pragma once

@@ -1,4 +1,4 @@
-// libcore/scene/paper_state.hpp
+// libcore/paper/paper_state.hpp: public
 // What law paper alone asks for, and what it alone carries from step to step.
 #pragma once
 
@@ -13,7 +13,7 @@ struct PaperSettings {
 };
 
 struct PaperState {
-  std::vector<Vec3> rebound;  ///< v_a of the hit under way, (28); law talus: empty [m/s] (n_blocks)
+  std::vector<Vec3> rebound;  ///< v_a of the hit under way, (28) [m/s] (n_blocks)
 };
 
 }  // namespace talus
