@@ -40,16 +40,15 @@ struct Contact {
 /// What is carried from step to step for a contact that pressed or may press again.
 struct ContactMemory {
   ContactKey key;
-  Vec3 normal = Vec3::Zero();          ///< of the last step, unit, local axes
-  Vec3 shear = Vec3::Zero();           ///< elastic shear spring s_n, s_n . n = 0 [m]
-  Vec3 slip_direction = Vec3::Zero();  ///< unit tangent of the last slip, zero when it stuck
-  double offset = 0;        ///< overlap that presses nothing, >= 0; relaxed with time [m]
-  double gap_end = 0;       ///< gap + offset at the end of the last step [m]
-  double normal_force = 0;  ///< N of the last step, >= 0 [N]
-  double stiffness = 0;     ///< k_n of the last step; 0: of a bond, or of law paper [N/m]
-  double bond_area = 0;     ///< A_c, share of bonded area; 0 once the bond is broken [m2]
-  std::uint8_t state = 0;   ///< ContactState of the last step
-  std::uint8_t rests = 0;   ///< steps until it may stiffen again, since forces were hard to find
+  Vec3 normal = Vec3::Zero();  ///< of the last step, unit, local axes
+  Vec3 shear = Vec3::Zero();   ///< elastic shear spring s_n, s_n . n = 0 [m]
+  double offset = 0;           ///< overlap that presses nothing, >= 0; relaxed with time [m]
+  double gap_end = 0;          ///< gap + offset at the end of the last step [m]
+  double normal_force = 0;     ///< N of the last step, >= 0 [N]
+  double stiffness = 0;        ///< k_n of the last step; 0: of a bond [N/m]
+  double bond_area = 0;        ///< A_c, share of bonded area; 0 once the bond is broken [m2]
+  std::uint8_t state = 0;      ///< ContactState of the last step
+  std::uint8_t rests = 0;      ///< steps until it may stiffen again, since forces were hard to find
 };
 
 enum class ContactState : std::uint8_t { open = 0, slip = 1, stick = 2 };

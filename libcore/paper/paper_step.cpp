@@ -220,11 +220,13 @@ struct OpenClose {
   }
 
   static void inherit(const ContactMemory& last, PaperContact& contact) {
-    contact.shear = last.shear - contact.normal.dot(last.shear) * contact.normal;
-    contact.slip_direction = last.slip_direction;
+    contact.state = static_cast<ContactState>(last.state);
+    if (contact.state == ContactState::slip)
+      contact.slip_direction = last.shear;
+    else
+      contact.shear = last.shear - contact.normal.dot(last.shear) * contact.normal;
     contact.offset = last.offset;
     contact.held_friction = contact.friction * last.normal_force;
-    contact.state = static_cast<ContactState>(last.state);
     if (contact.bond < 0) contact.bond_area = last.bond_area;
     // a bond that has failed has no area
     if (contact.bond_area > 0) contact.state = ContactState::stick;
@@ -329,7 +331,8 @@ struct OpenClose {
     return thickness[b] < thickness[a] ? b : a;
   }
 
-  // What a closed contact keeps: a sticking one its spring, a slipping one its direction.
+  // What a closed contact keeps: in ContactMemory::shear a sticking one its spring, a slipping one
+  // its direction.
   void remember_contact(size_t r, std::vector<ContactMemory>& memories) {
     const PaperContact& contact = w.contacts[r];
     const bool sticks = contact.state == ContactState::stick;
@@ -346,8 +349,8 @@ struct OpenClose {
     memory.gap_end = contact.gap_start + contact.offset + along;
     memory.offset = std::max(0.0, contact.offset - offset_speed * scene.settings.dt);
     memory.normal_force = std::max(0.0, -k_n * memory.gap_end);
-    memory.slip_direction = contact.slip_direction;
-    if (sticks) memory.shear = contact.shear + path - along * contact.normal;
+    memory.shear =
+        sticks ? Vec3(contact.shear + path - along * contact.normal) : contact.slip_direction;
     memory.bond_area = sticks && contact.bond < 0 ? contact.bond_area : 0;
     memory.state = static_cast<std::uint8_t>(contact.state);
     memories.push_back(memory);

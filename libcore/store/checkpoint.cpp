@@ -14,7 +14,7 @@ namespace talus {
 // say that a list has to be looked at again.
 
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 72 && sizeof(RunCounters) == 64);
-static_assert(sizeof(ContactMemory) == 136 &&
+static_assert(sizeof(ContactMemory) == 112 &&
               sizeof(HealthRow) == 208 + 8 * substep_cut_names.size());
 static_assert(sizeof(State) == 8 + 22 * 24 + sizeof(HitChain) + sizeof(EnergyLedger) +
                                    sizeof(RunCounters) + sizeof(PairState) + sizeof(PlacedHulls) +
@@ -129,8 +129,8 @@ void fields(Fields<Archive>& archive, RunCounters& counters) {
 template <class Archive>
 void fields(Fields<Archive>& archive, ContactMemory& memory) {
   archive(memory.key.mode, memory.key.body_b, memory.key.feature_a, memory.key.feature_b,
-          memory.normal, memory.shear, memory.slip_direction, memory.offset, memory.gap_end,
-          memory.normal_force, memory.stiffness, memory.bond_area, memory.state, memory.rests);
+          memory.normal, memory.shear, memory.offset, memory.gap_end, memory.normal_force,
+          memory.stiffness, memory.bond_area, memory.state, memory.rests);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, Box& box) {
@@ -207,7 +207,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x33316b6365686374;  // "tcheck13"
+constexpr std::uint64_t format = 0x34316b6365686374;  // "tcheck14"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {
