@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "scene/blocky_slope.hpp"
 #include "slide_scene.hpp"
 #include "step/step.hpp"
+#include "verify/cases/blocky_slope.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/blocky_slope.hpp"
 #include "step/step.hpp"
+#include "verify/cases/blocky_slope.hpp"
 #include "verify/cases/cases.hpp"
 
 namespace {
@@ -21,13 +21,6 @@ State run(const Scene& scene, double time) {
   return state;
 }
 
-GroundClass rough(double phi_deg, double restitution = 0) {
-  GroundClass ground;
-  ground.friction = std::tan(phi_deg * degree);
-  ground.restitution = restitution;
-  return ground;
-}
-
 Scene blocky(Scene scene) {
   add_blocky_slope(scene, blocky_depth(scene));
   return scene;
@@ -38,7 +31,7 @@ TEST(BlockySlope, SlidesAsOnTheTrn) {
   const SlopeFrame frame = slope_frame(30, 25);
   Body body;
   body.parts = {box_in(frame, Vec3::Zero(), Vec3(-0.7, -0.5, 0), Vec3(0.7, 0.5, 0.6))};
-  const Scene trn = scene_of(plane_trn(frame, 1.5, 30), rough(20), {body}, {});
+  const Scene trn = scene_of(plane_trn(frame, 1.5, 30), ground_of(20), {body}, {});
   const Scene blocks = blocky(trn);
   EXPECT_EQ(n_fixed(blocks), n_triangles(trn.ground.trn));
   const State on_trn = run(trn, 2.5), on_blocks = run(blocks, 2.5);
@@ -57,7 +50,7 @@ TEST(BlockySlope, ThrowsBackByTheRestitutionOfTheGround) {
   Body body;
   body.parts = {box(Vec3(-0.5, -0.4, 1), Vec3(0.5, 0.6, 2))};
   const SlopeFrame flat = slope_frame(0, 0);
-  const Scene scene = blocky(scene_of(plane_trn(flat, 1.3, 20), rough(20, 0.5), {body}, {}));
+  const Scene scene = blocky(scene_of(plane_trn(flat, 1.3, 20), ground_of(20, 0.5), {body}, {}));
   const State state = run(scene, 0.6);  // it hits after sqrt(0.2) s
   EXPECT_NEAR(state.motion[0].velocity.z(), 0.5 * std::sqrt(20) - 10 * (0.6 - std::sqrt(0.2)),
               1e-3);
@@ -69,7 +62,7 @@ TEST(BlockySlope, BearsAStack) {
   std::vector<Body> bodies(3);
   for (int i = 0; i < 3; ++i)
     bodies[static_cast<std::size_t>(i)].parts = {box(Vec3(0.1, 0.2, i), Vec3(1.1, 1.2, i + 1))};
-  const Scene scene = blocky(scene_of(plane_trn(flat, 1, 10), rough(30), bodies, {}));
+  const Scene scene = blocky(scene_of(plane_trn(flat, 1, 10), ground_of(30), bodies, {}));
   const State state = run(scene, 3);
   for (std::size_t b = 0; b < 3; ++b)
     EXPECT_LT((state.motion[b].pose.position - scene.blocks.rest[b].position).norm(), 5e-3) << b;
@@ -83,7 +76,7 @@ TEST(BlockySlope, SaysThatABlockFellThrough) {
   Settings soft;
   soft.normal_stiffness = 100;
   const Scene scene =
-      blocky(scene_of(plane_trn(slope_frame(0, 0), 1, 10), rough(20), {body}, soft));
+      blocky(scene_of(plane_trn(slope_frame(0, 0), 1, 10), ground_of(20), {body}, soft));
   State state = start(scene);
   Work work = make_work(scene);
   StepFlag flags = StepFlag::none;
@@ -95,7 +88,7 @@ TEST(BlockySlope, SaysThatABlockFellThrough) {
 TEST(BlockySlope, LeavesOutUnknownGround) {
   Body body;
   body.parts = {box(Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1))};
-  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 5), rough(30), {body}, {});
+  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 5), ground_of(30), {body}, {});
   scene.ground.trn.elevation[0] = std::nan("");
   const int n = n_triangles(scene.ground.trn);
   add_blocky_slope(scene, 5);

@@ -1,4 +1,4 @@
-#include "scene/blocky_slope.hpp"
+#include "verify/cases/blocky_slope.hpp"
 
 #include <algorithm>
 #include <array>

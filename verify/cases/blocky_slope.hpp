@@ -1,4 +1,4 @@
-// libcore/scene/blocky_slope.hpp
+// verify/cases/blocky_slope.hpp
 // The slope as the original method models it: fixed polyhedral blocks, found by the general search
 // of block pairs. For comparison with the TRN, which finds the same contacts by the cell below.
 // paper: Zhang et al. 2018, Fig. 1 and Sect. 6
