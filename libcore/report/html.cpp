@@ -39,11 +39,6 @@ std::string html_svg(const std::string& svg, const std::string& alt) {
   return "<img alt=\"" + alt + "\" src=\"" + data_address("image/svg+xml", svg) + "\">";
 }
 
-std::string html_png(const std::string& png, const std::string& alt) {
-  return "<img loading=\"lazy\" alt=\"" + alt + "\" src=\"" + data_address("image/png", png) +
-         "\">";
-}
-
 std::string html_table(const std::vector<std::string>& headings,
                        const std::vector<std::vector<std::string>>& rows,
                        const std::vector<bool>& is_number) {

@@ -25,7 +25,6 @@ namespace talus {
 [[nodiscard]] std::string html_figure(const std::string& picture, const std::string& caption);
 /// A picture that stands in the page itself, from a file's content; `alt` is read out instead.
 [[nodiscard]] std::string html_svg(const std::string& svg, const std::string& alt);
-[[nodiscard]] std::string html_png(const std::string& png, const std::string& alt);
 
 /// A table with a line of headings. Columns of numbers are set right (`is_number`, one a column;
 /// empty: none).

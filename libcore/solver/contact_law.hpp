@@ -25,12 +25,6 @@
 
 namespace talus {
 
-/// What comes back of an approach at normal velocity `speed`: Newton's law of impact, not below
-/// `resting_speed` [m/s].
-[[nodiscard]] inline double returned_speed(double restitution, double speed, double resting_speed) {
-  return speed < -resting_speed ? -restitution * speed : 0.0;
-}
-
 namespace {
 
 // --- arithmetic of the number type -------------------------------------------------------------
