@@ -73,34 +73,15 @@ BlockEquations<Dof> equations(const Scene& scene, int b, const State& state) {
   return eq;
 }
 
-/// A contact during open-close: how it enters Eq. (3).
-struct Spring {
-  double gap = 0;  // at the pass's solution, > 0 open
-  Vec3 shear;      // s_n + P T D at the pass's solution
-  double N = 0;    // normal force of the pass before
-  Vec3 direction;  // e_s of the pass before
-};
-
-ContactState judge(const PaperContact& contact, const Spring& spring, double k_n, double k_s,
-                   ContactState before) {
-  if (spring.gap >= contact.tension_force / k_n) return ContactState::open;  // criterion 1
-  const double N = std::max(0.0, -k_n * spring.gap);
-  const double bound = contact.friction * N + contact.cohesion_force;
-  const double slip = spring.shear.norm();
-  if (before == ContactState::slip)  // sticks again when the sliding turns back
-    return spring.shear.dot(spring.direction) - contact.shear.dot(spring.direction) < 0 &&
-                   k_s * slip <= bound
-               ? ContactState::stick
-               : ContactState::slip;
-  return k_s * slip > bound ? ContactState::slip : ContactState::stick;  // criteria 2, 3
-}
-
-template <int Dof>
-OpenCloseWork<Dof>& work_of(PaperWork& work) {
-  if constexpr (Dof == 6)
-    return work.rigid;
-  else
-    return work.strained;
+// The pattern of a contact at a pass's solution: `gap` > 0 open, `shear` = s_n + P T D.
+ContactState judge(const PaperContact& contact, double gap, const Vec3& shear, double k_n,
+                   double k_s) {
+  if (gap >= contact.tension_force / k_n) return ContactState::open;  // criterion 1
+  const double bound = contact.friction * std::max(0.0, -k_n * gap) + contact.cohesion_force;
+  const Vec3& along = contact.slip_direction;  // of the pass before
+  const bool turns_back = shear.dot(along) - contact.shear.dot(along) < 0;
+  if (contact.state == ContactState::slip && !turns_back) return ContactState::slip;
+  return k_s * shear.norm() > bound ? ContactState::slip : ContactState::stick;  // criteria 2, 3
 }
 
 /// The blocks of an island over one step: Eq. (3) and the contacts among them and with the ground.
@@ -113,8 +94,8 @@ struct OpenClose {
   Work& work;
   PaperLaw& paper;
   StepReport& report;
-  OpenCloseWork<Dof>& w = work_of<Dof>(paper.work);
-  std::span<const int> members = paper.work.members;      // ascending
+  OpenCloseWork<Dof>& w;
+  std::span<const int> members;                           // ascending
   std::span<const int> manifolds = paper.work.manifolds;  // sorted by block A, then B
   double k_n = scene.settings.normal_stiffness, k_s = k_n * scene.settings.shear_ratio;
 
@@ -184,16 +165,14 @@ struct OpenClose {
       PaperContact& contact = w.contacts[r];
       const Vec3 path = moved(r);
       const Vec3& n = contact.normal;
-      Spring spring;
-      spring.gap = contact.gap_start + contact.offset + n.dot(path);
-      spring.shear = contact.shear + path - n.dot(path) * n;
-      spring.direction = contact.slip_direction;
-      const ContactState judged = judge(contact, spring, k_n, k_s, contact.state);
+      const double gap = contact.gap_start + contact.offset + n.dot(path);
+      const Vec3 shear = contact.shear + path - n.dot(path) * n;
+      const ContactState judged = judge(contact, gap, shear, k_n, k_s);
       switched += judged != contact.state;
       contact.state = judged;
-      const double slip = spring.shear.norm();
-      if (slip > 0) contact.slip_direction = spring.shear / slip;
-      contact.held_friction = contact.friction * std::max(0.0, -k_n * spring.gap);
+      const double slip = shear.norm();
+      if (slip > 0) contact.slip_direction = shear / slip;
+      contact.held_friction = contact.friction * std::max(0.0, -k_n * gap);
       if (judged == ContactState::stick) contact.held_friction += contact.cohesion_force;
     }
     return switched;
@@ -322,15 +301,6 @@ struct OpenClose {
     report.passes += passes;
   }
 
-  // The thinner of the two blocks of a contact.
-  [[nodiscard]] int thinner_of(const PaperContact& contact) const {
-    const std::vector<double>& thickness = scene.blocks.shapes.thickness;
-    const int a = members[contact.a];
-    if (contact.b < 0) return a;
-    const int b = members[contact.b];
-    return thickness[b] < thickness[a] ? b : a;
-  }
-
   // What a closed contact keeps: in ContactMemory::shear a sticking one its spring, a slipping one
   // its direction.
   void remember_contact(size_t r, std::vector<ContactMemory>& memories) {
@@ -340,8 +310,10 @@ struct OpenClose {
     const Vec3 path = moved(r);
     const double along = contact.normal.dot(path), overlap = -(contact.gap_start + along);
     if (contact.state == ContactState::open && contact.offset <= 0) return;
-    const int block = thinner_of(contact);
-    note_overlap(block, overlap, scene.blocks.shapes.thickness[block], work.deep, report);
+    const std::vector<double>& thickness = scene.blocks.shapes.thickness;
+    const int a = members[contact.a], b = contact.b < 0 ? a : members[contact.b];
+    const int thinner = thickness[b] < thickness[a] ? b : a;
+    note_overlap(thinner, overlap, thickness[thinner], work.deep, report);
     if (contact.state == ContactState::open) return;
     ContactMemory memory;
     memory.key = contact.key;
@@ -462,14 +434,13 @@ struct OpenClose {
   }
 };
 
-// Members and pairs of blocks of the island that block b is the first of.
-void gather_island(const Scene& scene, int b, const PairSearch& search, PaperWork& w) {
-  const auto k = static_cast<size_t>(search.groups.island_of[b]);
-  w.members.assign(search.groups.blocks.begin() + search.groups.block_begin[k],
-                   search.groups.blocks.begin() + search.groups.block_begin[k + 1]);
-  for (int p = search.groups.pair_begin[k]; p < search.groups.pair_begin[k + 1]; ++p) {
+// Pairs of blocks of island k, without those with fixed bodies.
+void gather_pairs(const Scene& scene, const PairSearch& search, int k,
+                  std::vector<int>& manifolds) {
+  const auto at = static_cast<size_t>(k);
+  for (int p = search.groups.pair_begin[at]; p < search.groups.pair_begin[at + 1]; ++p) {
     const int m = search.joined_manifold[search.groups.pairs[p]];
-    if (!is_fixed(scene, search.pairs.manifolds[m].block_b)) w.manifolds.push_back(m);
+    if (!is_fixed(scene, search.pairs.manifolds[m].block_b)) manifolds.push_back(m);
   }
 }
 
@@ -490,17 +461,18 @@ StepReport paper_step(const Scene& scene, State& state, Work& work, PaperLaw& pa
   work.segments.clear();
   const bool islands = n_blocks(scene) > 1 && scene.settings.block_contacts;
   if (islands) form_islands(scene, state, work);
+  const IslandGroups& groups = work.search.groups;
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
-    if (does_not_move(state.phase[i])) continue;
-    if (islands && work.search.groups.local_index[i] > 0) continue;
-    paper.work.members.assign(1, b);
+    if (does_not_move(state.phase[i]) || (islands && groups.local_index[i] > 0)) continue;
+    const std::span<const int> members =
+        islands ? blocks_of(groups, groups.island_of[i]) : std::span<const int>(&b, 1);
     paper.work.manifolds.clear();
-    if (islands) gather_island(scene, b, work.search, paper.work);
+    if (islands) gather_pairs(scene, work.search, groups.island_of[i], paper.work.manifolds);
     if (scene.settings.strains)
-      OpenClose<12>{scene, state, work, paper, report}.run();
+      OpenClose<12>{scene, state, work, paper, report, paper.work.strained, members}.run();
     else
-      OpenClose<6>{scene, state, work, paper, report}.run();
+      OpenClose<6>{scene, state, work, paper, report, paper.work.rigid, members}.run();
   }
   end_step(scene, state, work, report);
   return report;

@@ -62,7 +62,7 @@ struct OpenCloseWork {  // clang-format off
 struct PaperWork {
   OpenCloseWork<6> rigid;
   OpenCloseWork<12> strained;
-  std::vector<int> members, manifolds;  ///< of the island at hand
+  std::vector<int> manifolds;  ///< of the island at hand
 };
 
 }  // namespace talus
