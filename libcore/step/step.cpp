@@ -13,6 +13,7 @@
 #include "step/flight.hpp"
 #include "step/impact.hpp"
 #include "step/island/step_island.hpp"
+#include "step/island/untouched.hpp"
 #include "step/lone/step_talus.hpp"
 #include "step/mishaps.hpp"
 #include "step/settle.hpp"
@@ -24,13 +25,6 @@ namespace {
 using std::size_t;
 
 constexpr size_t expected_contacts = 16;  // of a block, before a buffer has to grow
-
-// A block that something bears and that stays in place is left out until something wakes it.
-void put_to_sleep(const Scene& scene, size_t b, State& state) {
-  watch_rest(scene, b, state);
-  if (state.rest_steps[b] >= law::steps_before_sleep && !state.memory[b].empty())
-    fall_asleep(scene, b, state);
-}
 
 // Whether block b shares its island with others, or may touch a fixed body.
 bool in_company(const State& state, const PairSearch& w, int b) {
@@ -112,29 +106,23 @@ namespace {
 
 void advance_talus(const Scene& scene, State& state, Work& work, StepReport& report) {
   const double t_end = state.time + scene.settings.dt;
-  const bool may_sleep = scene.settings.sleep && !shakes(scene.base);
   const bool islands = (n_blocks(scene) > 1 && scene.settings.block_contacts) ||
                        n_fixed(scene) > 0 || !scene.forest.stems.empty();
-  if (islands) form_islands(scene, state, work);
+  if (islands) {
+    form_islands(scene, state, work);
+    move_untouched(scene, t_end, state, work, report);
+  }
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
-    if (islands && in_company(state, work.search, b)) {
-      const int k = work.search.groups.island_of[i];
-      if (work.search.groups.local_index[i] > 0) continue;
-      advance_island(scene, k, t_end, state, work, report);
-      if (may_sleep) put_island_to_sleep(scene, k, state, work);
+    if (islands && work.untouched.alone[i] != 0) continue;
+    if (!islands || !in_company(state, work.search, b)) {
+      advance_lone(scene, b, t_end, state, work, report);
       continue;
     }
-    if (!state.mass.empty()) state.mass[i] = {};
-    if (does_not_move(state.phase[i])) continue;
-    if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end && scene.settings.flight) {
-      ++state.counters.flight_skips;
-      continue;
-    }
-    const Motion before = state.motion[i];
-    advance_block_talus(scene, b, t_end, state, work, report);
-    if (!is_finite(state.motion[i])) stop_at(before, i, state, report);
-    if (may_sleep && !does_not_move(state.phase[i])) put_to_sleep(scene, i, state);
+    const int k = work.search.groups.island_of[i];
+    if (work.search.groups.local_index[i] > 0) continue;
+    advance_island(scene, k, t_end, state, work, report);
+    if (may_sleep(scene)) put_island_to_sleep(scene, k, state, work);
   }
 }
 

@@ -55,6 +55,7 @@ struct Work {  // clang-format off
   std::vector<Segment> segments;
   // form_islands, advance_island
   PairSearch search;
+  UntouchedScratch untouched;                ///< move_untouched
   IslandScratch island;                      ///< at hand
   MassScratch mass;                          ///< ... where it is a mass
   // note_overlap, note_deep_blocks

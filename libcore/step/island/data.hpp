@@ -19,6 +19,7 @@
 #include "scene/bond_face.hpp"
 #include "scene/bonds.hpp"
 #include "scene/fixed_bodies.hpp"
+#include "scene/state.hpp"
 #include "solver/contact_row.hpp"
 #include "solver/impact_solve.hpp"
 #include "solver/island_groups.hpp"
@@ -56,6 +57,30 @@ struct PairSearch {  // clang-format off
   std::vector<int> joined_manifold;         ///< of each                                 (n_joined)
   std::vector<std::uint8_t> near_fixed;     ///< 1: within reach of a fixed body         (n_blocks)
   IslandGroups groups;
+};  // clang-format on
+
+/// What the step of a lone block may change, as it was before.
+struct LoneBefore {
+  int block = 0;
+  Phase phase = Phase::near_ground;
+  double local_time = 0, flight_end = 0;
+  Pose rest_pose;
+  int rest_steps = 0;
+  Motion motion;
+  Vec3 acceleration, spin_rate, support;
+  Vec6 strain, strain_rate;
+  std::vector<ContactMemory> memory;
+  SlidWay slid;
+  MassShare mass;
+  double hit_loss = 0;
+  std::uint8_t is_suspect = 0;  ///< of DeepWork
+};
+
+/// 2 find_pairs: which blocks move alone (step/island/untouched.hpp).
+struct UntouchedScratch {  // clang-format off
+  std::vector<std::uint8_t> alone;   ///< 1: moved already, as a lone block       (n_blocks)
+  std::vector<int> blocks;           ///< those of the island at hand that may move alone
+  std::vector<LoneBefore> before;    ///< what they were; grows to the largest island
 };  // clang-format on
 
 // --- of an island in a step --------------------------------------------------------------------

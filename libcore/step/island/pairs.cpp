@@ -349,10 +349,6 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   find_islands(n, search.joined, {}, search.groups);
   search.moving.assign(n, 0);
   search.is_of_step = true;
-  const auto end_flight_of = [&](int b) {
-    if (b >= 0 && state.phase[b] == Phase::flight) end_flight(scene, b, state.time, state, work);
-  };
-  for (const auto& [a, b] : search.joined) end_flight_of(a), end_flight_of(b);
 }
 
 void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& work) {

@@ -15,7 +15,7 @@ namespace talus {
 /// Groups the blocks into islands for the step from state.time on: work.search.groups.
 ///
 /// Two blocks are joined when parts of theirs are within reach of the step's relative motion. A
-/// flight ends, and a sleeping block wakes, where another block comes within reach.
+/// sleeping block wakes where another block comes within reach.
 void form_islands(const Scene& scene, State& state, Work& work);
 
 /// Moves the blocks of island `k`, two or more, from state.time to `t_end` together, in as many

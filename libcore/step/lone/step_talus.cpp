@@ -524,15 +524,32 @@ struct Advance {
   }
 };
 
+// A block that something bears and that stays in place is left out until something wakes it.
+void put_to_sleep(const Scene& scene, size_t b, State& state) {
+  watch_rest(scene, b, state);
+  if (state.rest_steps[b] >= law::steps_before_sleep && !state.memory[b].empty())
+    fall_asleep(scene, b, state);
+}
+
 }  // namespace
 
-void advance_block_talus(const Scene& scene, int b, double t_end, State& state, Work& work,
-                         StepReport& report) {
+void advance_lone(const Scene& scene, int b, double t_end, State& state, Work& work,
+                  StepReport& report) {
+  const auto i = static_cast<size_t>(b);
+  if (!state.mass.empty()) state.mass[i] = {};
+  if (does_not_move(state.phase[i])) return;
+  if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end && scene.settings.flight) {
+    ++state.counters.flight_skips;
+    return;
+  }
+  const Motion before = state.motion[i];
   Advance advance{scene, b, state, work, report, numbers_of(scene, b)};
   if (scene.settings.strains)
     advance.run<12>(t_end);
   else
     advance.run<6>(t_end);
+  if (!is_finite(state.motion[i])) stop_at(before, i, state, report);
+  if (may_sleep(scene) && !does_not_move(state.phase[i])) put_to_sleep(scene, i, state);
 }
 
 }  // namespace talus

@@ -11,9 +11,14 @@
 
 namespace talus {
 
-/// Moves block b from its local time to `t_end` in as many substeps as events and convergence ask
-/// for.
-void advance_block_talus(const Scene& scene, int b, double t_end, State& state, Work& work,
-                         StepReport& report);
+/// Whether blocks that stay in place are left out until something wakes them.
+[[nodiscard]] inline bool may_sleep(const Scene& scene) {
+  return scene.settings.sleep && !shakes(scene.base);
+}
+
+/// Moves block b until `t_end` as if nothing were there but the ground, in as many substeps as
+/// events and convergence ask for, and puts it to sleep where it has stayed in place long enough.
+void advance_lone(const Scene& scene, int b, double t_end, State& state, Work& work,
+                  StepReport& report);
 
 }  // namespace talus
