@@ -30,12 +30,14 @@ enum class SubstepCut : std::uint8_t {
   yielding_touched,  ///< a fixed body that gives way is first touched within it: ends there
   unconverged,       ///< its forces did not converge: half
   deep,              ///< a block would end deep in something: ends after the hit that does it
+  hit,               ///< a contact of a small island closes within it: ends there
   inaccurate,        ///< its forces change by more than Settings::accuracy allows: shorter
   bond_broken,       ///< a bond carries more than it holds: the same without it
   yielding_used_up,  ///< what gives way has taken all that it can: ends there
 };
-inline constexpr std::array<const char*, 6> substep_cut_names = {
-    "yielding_touched", "unconverged", "deep", "inaccurate", "bond_broken", "yielding_used_up"};
+inline constexpr std::array<const char*, 7> substep_cut_names = {
+    "yielding_touched", "unconverged",     "deep", "hit", "inaccurate",
+    "bond_broken",      "yielding_used_up"};
 
 struct StepReport {
   StepFlag flags = StepFlag::none;

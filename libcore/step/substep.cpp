@@ -353,6 +353,21 @@ BondCorner corner_of(const KeptContact& contact, const GroundClass& face, const 
   return corner;
 }
 
+double located_speed(const Scene& scene, const BlockNumbers& c, double speed) {
+  constexpr double of_resting = 2e-2;
+  return std::min(c.resting_speed,
+                  std::max(scene.settings.accuracy * speed, of_resting * c.resting_speed));
+}
+
+double time_to_touch(double gap, double speed, double gap_end, double touch, double h) {
+  if (gap_end > touch) return h + 1;
+  if (gap_end > -touch) return h;
+  const double g = gap + 0.5 * touch;
+  const double a = 2 * (gap_end + 0.5 * touch - g - speed * h) / (h * h);
+  const double root = std::sqrt(std::max(0.0, speed * speed - 2 * a * g));
+  return std::min(h, 2 * g / (root - speed));
+}
+
 void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row) {
   set_law(scene, c, s.h, mobility(c.per_mass, c.per_inertia, row.arm, row.normal), approach(row, s),
           row);

@@ -28,6 +28,16 @@ namespace talus {
 /// it open [m].
 [[nodiscard]] double search_margin(const BlockNumbers& c, double h);
 
+/// Approach of a contact that ends a substep, of a block of which no point is faster than `speed`
+/// [m/s]. A slower one closes within the substep, which errs by up to that speed in what the block
+/// does next, and by that times the substep in where it is.
+[[nodiscard]] double located_speed(const Scene& scene, const BlockNumbers& c, double speed);
+
+/// When a contact that approaches with `speed` < 0 and has `gap` when a substep of `h` begins, and
+/// `gap_end` at its end, touches: 0 < time <= h; h + 1 where it does not [s].
+[[nodiscard]] double time_to_touch(double gap, double speed, double gap_end, double touch,
+                                   double h);
+
 [[nodiscard]] Substep predict(const Scene& scene, int b, const BlockNumbers& c, const Motion& start,
                               double t, double h);
 

@@ -299,8 +299,8 @@ int close_waiting(const IslandMembers& members, const FreeMotions& free, IslandS
     if (gap_end > contact.touch) return false;
     const double speed =
         normal.dot(relative(system, r, [&](size_t k) { return system.island.velocity[k]; }));
-    if (speed < -members.of(contact.a).resting_speed &&
-        gap_end > -waits_within * thickness_of(members, contact))
+    if (speed < -members.of(contact.a).located_speed &&
+        (members.locates_hits || gap_end > -waits_within * thickness_of(members, contact)))
       return false;  // hit in the next substep
     stop(members, free, r, contact.gap_start, free.h, system, hits);
     return true;

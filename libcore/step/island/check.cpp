@@ -94,6 +94,24 @@ struct SubstepCheck {
     return h;
   }
 
+  // When the first contact that waits closes: that ends the substep of a small island, and the
+  // contact is hit when the next one begins. What was hit in free flight had its hit.
+  [[nodiscard]] double first_hit() const {
+    double first = free.h + 1;
+    for (const size_t r : system.waiting) {
+      const KeptContact& contact = system.contacts[r];
+      const auto p = static_cast<size_t>(contact.pair);
+      if (!contact.waits || contact.gap_start <= contact.touch || hits.n_pair_hits[p] > 0 ||
+          hits.is_closed[p] != 0)
+        continue;
+      const double gap_end =
+          contact.gap_start + lane_of(system, r).normal().dot(path_of_contact(system, end, r));
+      first = std::min(first, time_to_touch(contact.gap_start, contact.speed_start, gap_end,
+                                            contact.touch, free.h));
+    }
+    return first;
+  }
+
   // --- bonds -----------------------------------------------------------------------------------
 
   [[nodiscard]] const GroundClass& bond_class(const KeptContact& contact) const {
@@ -206,6 +224,9 @@ struct SubstepCheck {
       if (const double first = std::min(end_of_deepening_hit(), end_of_throw_into_ground());
           first < h)
         return SubstepVerdict::again(SubstepCut::deep, first);
+    if (members.locates_hits)
+      if (const double first = first_hit(); first < h)
+        return SubstepVerdict::again(SubstepCut::hit, first);
     end.error = error_over_way();
     if (const double shorter = accurate_substep(scene.settings, end.error, h); shorter < h)
       return SubstepVerdict::again(SubstepCut::inaccurate, shorter);

@@ -109,10 +109,12 @@ struct ContactMaker {
     contact.gap_free = contact.gap_start + along_path;
     contact.approach = std::min(contact.speed_start, along_path / free.h);
     // what comes from so far that it must be fast, wherever another hit throws it, waits too
-    const double resting_speed = members.of(contact.a).resting_speed;
-    contact.waits = contact.memory < 0 && !never_waits &&
-                    (contact.approach < -resting_speed ||
-                     contact.gap_start > contact.touch + free.h * resting_speed);
+    const BlockNumbers& c = members.of(contact.a);
+    contact.waits =
+        contact.memory < 0 && !never_waits &&
+        (contact.approach < -c.resting_speed || contact.speed_start < -c.located_speed ||
+         (contact.gap_start > contact.touch && contact.approach < -c.located_speed) ||
+         contact.gap_start > contact.touch + free.h * c.resting_speed);
     if (contact.waits) system.waiting.push_back(system.contacts.size());
     system.has_bonds |= contact.bond_area != 0;
     if (contact.memory >= 0) {

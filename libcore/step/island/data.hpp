@@ -92,6 +92,7 @@ struct IslandMembers {  // clang-format off
   std::vector<int> place;                   ///< of a body in `blocks`, -1: not in it    (n_bodies)
   bool is_small = false;                    ///< the island's matrix is cheap to factor
   bool is_soft = false;                     ///< no load makes its contacts stiffer
+  bool locates_hits = false;                ///< a hit ends the substep, as of a lone block
   std::vector<double> bearing;              ///< mass of the heaviest block touched [kg] (n_members)
   // clang-format on
   [[nodiscard]] std::size_t size() const { return blocks.size(); }
@@ -288,6 +289,7 @@ struct SubstepTries {
   double longest = 0;  ///< the next one is not tried longer, because of its error [s]
   int eased = 0;       ///< contacts are softer, because it did not converge
   int deep_cuts = 0;   ///< because a block would end deep in something
+  int hits = 0;        ///< substeps that ended with one
 };
 
 /// The island at hand: nothing of it outlives its step.

@@ -166,6 +166,19 @@ double HitLooks::size_of(size_t p) const {
   return pair.b < 0 ? a : std::min(a, members.numbers[pair.b].radius);
 }
 
+// Approach above which a pair is hit at `time`: what touches when the substep begins, and closed
+// slowly in the one before, is located; later ones end this substep.
+double HitLooks::hit_speed(size_t k, double time) const {
+  const BlockNumbers& c = members.numbers[k];
+  return time == 0 ? c.located_speed : c.resting_speed;
+}
+
+// Whether something presses member k until its first hit: then it is not in free flight.
+bool HitLooks::is_pressed(size_t k) const {
+  const FlyingMember& flying = hits.members[k];
+  return !flying.was_hit && !flying.borne.isZero(0);
+}
+
 void HitLooks::look_ahead(size_t p, double from, double not_before) const {
   if (hits.is_closed[p] != 0) return;
   if (++hits.n_looks[p] > most_pair_looks) {
@@ -192,7 +205,7 @@ void HitLooks::look_ahead(size_t p, double from, double not_before) const {
     of_row.time = h + 1;
     of_row.speed = std::max(-now.speed, -then.speed);
     if (now.gap <= open) {
-      if (now.speed < -resting) {
+      if (now.speed < -hit_speed(ka, from)) {
         of_row.time = from;
       } else if (then.speed < -resting && then.gap <= open) {
         const double change = now.speed - then.speed;
@@ -212,6 +225,8 @@ void HitLooks::look_ahead(size_t p, double from, double not_before) const {
     look.gap = 0;
   }
   if (look.time >= h) return;
+  if (look.time > 0 && members.locates_hits && (is_pressed(ka) || (pair.b >= 0 && is_pressed(kb))))
+    return;  // ends the substep, with all that presses
   look.pair = static_cast<int>(p);
   look.version = version_of(p);
   push(look);
@@ -345,7 +360,7 @@ void HitLooks::look_at(const PairLook& look) const {
       pair.b < 0 ? nullptr : &member_at(static_cast<size_t>(pair.b), look.time).placed;
   // what comes fast enough to be hit: what was hit already, or slides, tells nothing of its time
   constexpr double none = std::numeric_limits<double>::infinity();
-  const double resting = members.numbers[ka].resting_speed;
+  const double resting = hit_speed(ka, look.time);
   double least = none, approach_of_least = 0;
   for (TouchingContact& touching : hits.touching) {
     ImpactContact& c = touching.of;

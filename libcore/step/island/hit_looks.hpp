@@ -44,6 +44,8 @@ struct HitLooks {
   [[nodiscard]] const PlacedMotion& end_of_member(std::size_t k) const;
   [[nodiscard]] int version_of(std::size_t p) const;
   void push(const PairLook& look) const;
+  [[nodiscard]] double hit_speed(std::size_t k, double time) const;
+  [[nodiscard]] bool is_pressed(std::size_t k) const;
   [[nodiscard]] double size_of(std::size_t p) const;
   void find_touching(std::size_t p, double time) const;
   TouchingContact& add_touching(std::size_t p, const Vec3& normal, const Vec3& point, double gap,

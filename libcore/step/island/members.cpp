@@ -98,4 +98,18 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
   }
 }
 
+void locate_hits(const Scene& scene, const State& state, const SubstepTries& tries,
+                 IslandMembers& members) {
+  members.locates_hits = members.size() <= small_island && tries.hits < law::most_events;
+  for (size_t k = 0; k < members.size(); ++k) {
+    BlockNumbers& c = members.numbers[k];
+    c.located_speed = c.resting_speed;
+    if (!members.locates_hits) continue;
+    const Motion& m = state.motion[members.block(k)];
+    const Vec3 body = m.pose.attitude.conjugate() * m.angular_momentum;
+    const double spin = body.cwiseProduct(c.per_inertia).norm();
+    c.located_speed = located_speed(scene, c, m.velocity.norm() + spin * c.radius);
+  }
+}
+
 }  // namespace talus

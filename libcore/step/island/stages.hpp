@@ -48,6 +48,11 @@ void see_size(const Scene& scene, const State& state, const PairSearch& search,
 /// Fills the stiffness of the members' numbers; `eased`: SubstepTries.
 void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
                       std::span<const int> manifolds, int eased, IslandMembers& members);
+/// Fills IslandMembers::locates_hits and the members' located speed. Hits end a substep in islands
+/// of at most law::small_island blocks, but for those between blocks that nothing presses, until
+/// the step has had too many.
+void locate_hits(const Scene& scene, const State& state, const SubstepTries& tries,
+                 IslandMembers& members);
 
 // --- 4 predict (step/island/predict.cpp)
 /// Fills `free` for the substep of `h` from `t`; `workers` share the members, or none.

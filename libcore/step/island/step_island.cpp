@@ -71,6 +71,9 @@ void note_cut(SubstepCut reason, const SubstepEnd& end, const IslandMembers& mem
     case SubstepCut::yielding_used_up:
       ++tries.used_up_cuts;
       break;
+    case SubstepCut::hit:
+      ++tries.hits;
+      break;
   }
 }
 
@@ -154,6 +157,7 @@ double prepare_substep(const Scene& scene, int k, bool is_mass, double t, double
   if (is_mass) return longest_mass_substep(scene, search, w.members, w.manifolds, ahead);
   if (begins) see_size(scene, state, search, w.manifolds, w.members);
   choose_stiffness(scene, state, search, w.manifolds, w.tries.eased, w.members);
+  locate_hits(scene, state, w.tries, w.members);
   return longest_substep(scene, state, search, w.members, w.manifolds, ahead);
 }
 
@@ -178,7 +182,7 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
     const StageTimer timer(w.clock, IslandStage::gather_members);
     gather_members(scene, blocks_of(work.search.groups, k), w.members);
   }
-  w.tries.deep_cuts = w.tries.eased = 0;
+  w.tries.deep_cuts = w.tries.eased = w.tries.hits = 0;
   w.tries.last_h = t_end - state.time;
   w.tries.longest = no_normal_limit;
   double t = state.time, ahead = t_end - t;

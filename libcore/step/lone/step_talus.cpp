@@ -29,11 +29,7 @@ double first_hit(const BlockNumbers& c, const Substep& s, const Solved<Dof>& sol
     if (!row.waits) continue;
     const double gap_end =
         work.contacts[row.contact].gap + row.normal.dot(solved.moved(row.arm, s.h));
-    if (gap_end > c.touch) continue;
-    const double v = row.speed_start, g = row.gap_start + 0.5 * c.touch;
-    const double a = 2 * (gap_end + 0.5 * c.touch - g - v * s.h) / (s.h * s.h);
-    const double root = std::sqrt(std::max(0.0, v * v - 2 * a * g));
-    first = std::min(first, gap_end > -c.touch ? s.h : std::min(s.h, 2 * g / (root - v)));
+    first = std::min(first, time_to_touch(row.gap_start, row.speed_start, gap_end, c.touch, s.h));
   }
   return first;
 }
@@ -422,14 +418,9 @@ struct Advance {
   // No point of the block is faster [m/s].
   double top_speed() { return motion().velocity.norm() + spin_speed() * c.radius; }
 
-  // Approach of a contact that ends a substep. A slower one closes within it, which errs by up to
-  // that speed in what the block does next, and by that times the substep in where it is. A block
-  // that strains comes to rest by its strains, of which an impact knows nothing.
+  // A block that strains comes to rest by its strains, of which an impact knows nothing.
   void locate_hits() {
-    constexpr double of_resting = 2e-2;
-    const double slow =
-        std::max(scene.settings.accuracy * top_speed(), of_resting * c.resting_speed);
-    c.located_speed = state.strain.empty() ? std::min(c.resting_speed, slow) : c.resting_speed;
+    c.located_speed = state.strain.empty() ? located_speed(scene, c, top_speed()) : c.resting_speed;
   }
 
   // Where gravity alone drives a block that slides, that and what bears it change its path by no

@@ -155,4 +155,31 @@ TEST(Untouched, APrismRollsPastAStackAsAlone) {
   EXPECT_GT(steps_as_alone(alone, beside, 400, [](const State&) { return false; }), 100);
 }
 
+// Two prisms that touch by smooth end faces roll side by side as each does alone: slow hits of
+// their edges are located in a small island too.
+TEST(Untouched, PrismsThatTouchBySmoothFacesRollAsAlone) {
+  for (const int n_sides : {24, 64}) {
+    const SlopeFrame frame = slope_frame(10, 0);
+    const auto prism_at = [&](double y) {
+      return body_of(prism_on(frame, y * frame.strike, n_sides, 0.5, 1));
+    };
+    const auto scene = [&](const std::vector<Body>& bodies) {
+      Scene out = scene_of(plane_trn(frame, 5, 50), ground_of(40), bodies, {});
+      out.joint = ground_of(0);
+      return out;
+    };
+    const Scene alone = scene({prism_at(0)}), beside = scene({prism_at(0), prism_at(2)});
+    State of_alone = start(alone), of_beside = start(beside);
+    Work work_alone = make_work(alone), work_beside = make_work(beside);
+    for (int i = 0; i < 600; ++i) {
+      step(alone, of_alone, work_alone);
+      step(beside, of_beside, work_beside);
+    }
+    const double path = of_alone.motion[0].pose.position.x();
+    EXPECT_GT(path, 3);
+    for (const Motion& m : of_beside.motion)
+      EXPECT_NEAR(m.pose.position.x(), path, 2e-3 * path) << n_sides;
+  }
+}
+
 }  // namespace
