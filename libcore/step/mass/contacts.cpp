@@ -53,7 +53,7 @@ struct MassMaker {
   std::vector<NearFeatures>& near_ground;
   MassScratch& w;  // members
   MassPart& out;
-  double reach = 0, recovery_time = 0;
+  double reach = 0, recovery_time = 0, compliance = 0;
 
   void clear_part() {
     out.rows.clear();
@@ -116,23 +116,44 @@ struct MassMaker {
     return false;
   }
 
+  // Stiffness of a contact in the mass, as its memory has it [N/m].
+  [[nodiscard]] double stiffness_of(const Vec3& n, const PointMotion& motion,
+                                    const MassContact& contact) const {
+    const auto mobility = [&](int b, const Vec3& arm) {
+      const size_t k = members.at(b);
+      const Vec3 turn = arm.cross(n);
+      return members.numbers[k].per_mass + turn.dot(w.members[k].per_inertia * turn);
+    };
+    double W = mobility(contact.a, motion.arm_a);
+    if (contact.b >= 0) W += mobility(contact.b, motion.arm_b);
+    return 1 / (compliance * W * members.of(contact.a).recovery_time * free.h);
+  }
+
   // Overlap that presses nothing: what the last step left of it, or what a new contact begins with.
-  // It is pressed out slowly, so that nothing is lifted; what is deep faster.
-  [[nodiscard]] double offset_of(const PointMotion& motion, const Faces& faces,
-                                 const ContactMemory* then) const {
-    const double left = then != nullptr ? then->offset : std::max(0.0, -motion.gap);
+  // A contact that was softer, since it comes from the exact step, keeps its force: what it was
+  // pressed in beyond that presses nothing. It is pressed out slowly, so that nothing is lifted;
+  // what is deep faster.
+  [[nodiscard]] double offset_of(const Vec3& n, const PointMotion& motion, const Faces& faces,
+                                 const ContactMemory* then, const MassContact& contact) const {
+    double left = then != nullptr ? then->offset : std::max(0.0, -motion.gap);
+    if (then != nullptr && then->stiffness > 0) {
+      const double stiffness = stiffness_of(n, motion, contact);
+      if (stiffness > law::same_law * then->stiffness)
+        left += (1 - then->stiffness / stiffness) * std::max(0.0, -(motion.gap + left));
+    }
     const double deep = std::clamp(left / (law::relaxes_anyway * faces.thickness) - 1, 0.0, 1.0);
     const double relaxed = offset_relaxed(scene.gravity.norm(), free.h);
     return std::max(0.0, left - relaxed - deep * (free.h * mass::fastest_push - relaxed));
   }
 
   // Velocity below which the row presses, less that of its point.
-  [[nodiscard]] double bias_of(const PointMotion& motion, const Faces& faces, double approach,
-                               bool is_hit, const ContactMemory* then) const {
-    if (is_hit) return faces.restitution * approach;
+  [[nodiscard]] double bias_of(const Vec3& n, const PointMotion& motion, const Faces& faces,
+                               double approach, const ContactMemory* then,
+                               const MassContact& contact) const {
+    if (contact.is_hit) return faces.restitution * approach;
     if (motion.gap >= 0) return motion.gap / free.h;
     if (faces.yields) return 0;  // the overlap of what gave way presses nothing
-    return std::min(0.0, motion.gap + offset_of(motion, faces, then)) / recovery_time;
+    return std::min(0.0, motion.gap + offset_of(n, motion, faces, then, contact)) / recovery_time;
   }
 
   // Adds the row of a contact that moves so; the rest of `contact` is filled. `then`: what it
@@ -152,8 +173,7 @@ struct MassMaker {
     set_floats(n, row.normal);
     set_floats(motion.arm_a, row.arm_a);
     set_floats(motion.arm_b, row.arm_b);
-    set_floats(motion.end + bias_of(motion, faces, approach, contact.is_hit, then) * n,
-               row.velocity);
+    set_floats(motion.end + bias_of(n, motion, faces, approach, then, contact) * n, row.velocity);
     if (slip_speed > 0) set_floats(slip / slip_speed, row.slip_start);
     row.friction = static_cast<float>(faces.friction);
     row.limit = static_cast<float>(std::min(faces.limit, law_limit));
@@ -358,6 +378,9 @@ struct MassMaker {
     clear_part();
     reach = mass_reach(scene, free.h);
     recovery_time = members.numbers.front().recovery_time;
+    // without shares of a mass it is the first step: nothing is remembered
+    compliance =
+        mass_compliance(scene, state.mass.empty() ? MassShare{} : state.mass[members.block(0)]);
   }
   // Members [from, to), and what they have with the ground.
   void add_members(size_t from, size_t to) {
