@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "motion/rotation.hpp"
+#include "scene/bonds.hpp"
 #include "scene/stems.hpp"
 #include "scene/worlds.hpp"
 #include "solver/law_numbers.hpp"
@@ -217,12 +218,16 @@ struct UntouchedCheck {
   }
 };
 
-// Whether a block knows the other body of a manifold, or a point of it presses.
+// Whether a block knows the other body of a manifold, is bonded to it, or presses it.
 bool touches_now(const Scene& scene, const State& state, const PairSearch& search,
                  const PairManifold& m) {
   const int name = name_of_body(scene, m.block_b);
   for (const ContactMemory& memory : state.memory[m.block_a])
     if (memory.key.body_b == name) return true;
+  if (!is_fixed(scene, m.block_b) &&
+      find_bond(state.bonds, m.block_a, m.block_b, state.motion[m.block_a].pose.attitude,
+                m.normal) >= 0)
+    return true;
   for (int p = m.point_begin; p < m.point_end; ++p)
     if (search.pairs.points[p].gap <= 0) return true;
   return false;

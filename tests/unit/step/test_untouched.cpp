@@ -155,6 +155,23 @@ TEST(Untouched, APrismRollsPastAStackAsAlone) {
   EXPECT_GT(steps_as_alone(alone, beside, 400, [](const State&) { return false; }), 100);
 }
 
+// A cube hangs at the side of a larger one by a bond across a narrow gap.
+TEST(Untouched, WhatIsBondedAcrossAGapIsTouched) {
+  const SlopeFrame flat = slope_frame(0, 0);
+  constexpr double gap = 5e-5;
+  Body large = body_of(box_in(flat, Vec3::Zero(), Vec3(-3, -1.5, 0), Vec3(0, 1.5, 3)));
+  Body small = body_of(box_in(flat, Vec3(gap, 0, 1), Vec3(0, -0.5, 0), Vec3(1, 0.5, 1)));
+  for (Body* body : {&large, &small}) body->parts[0].face_tag.assign(6, 0);
+  Scene scene = scene_of(plane_trn(flat, 1, 30), ground_of(40), {large, small}, {});
+  scene.joints.of_set = {ground_of(20)};
+  scene.joints.of_set[0].cohesion = scene.joints.of_set[0].tension = 1e7;
+  State state = start(scene);
+  ASSERT_EQ(state.bonds.size(), 1u);
+  Work work = make_work(scene);
+  while (state.time < 0.5) step(scene, state, work);
+  EXPECT_NEAR(state.motion[1].pose.position.z(), 1.5, 1e-3);
+}
+
 // Two prisms that touch by smooth end faces roll side by side as each does alone: slow hits of
 // their edges are located in a small island too.
 TEST(Untouched, PrismsThatTouchBySmoothFacesRollAsAlone) {
