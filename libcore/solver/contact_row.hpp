@@ -80,7 +80,7 @@ struct KeptContact {  // clang-format off
   int bond = -1;                  ///< index into State::bonds, -1: none
   int memory = -1;                ///< index into A's memory, -1: new
   int pair = 0;                   ///< island: index into its pairs
-  int lane = 0;                   ///< island: its number among the rows of the solver
+  int row = 0;                    ///< island: its number among the rows of the solver
   int hit = -1;                   ///< island: index into the hits of the substep, -1: not hit
   int rests = 0;                  ///< ContactMemory::rests
   bool waits = false;             ///< approaches too fast to press without being hit: presses nothing

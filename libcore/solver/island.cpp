@@ -40,9 +40,9 @@ int add_row(const ContactRow& contact, Island& island) {
     make_room(island.rows);
     island.rows.emplace_back();
   }
-  const RowIn<RowGroup> lane = row_of(island, r);
-  lane.set_law(law_in_lane(contact));
-  lane.set_vector(&RowGroup::arm, contact.arm);
+  const IslandRow row = row_of(island, r);
+  row.set_law(law_in_lane(contact));
+  row.set_arm(contact.arm);
   return r;
 }
 

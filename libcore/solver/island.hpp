@@ -46,11 +46,6 @@ class RowIn {
  public:
   RowIn(Group& group, int lane) : group_(group), lane_(lane) {}
 
-  [[nodiscard]] Vec3 vector(const Two (RowGroup::*field)[3]) const {
-    const auto& of = group_.*field;
-    return {of[0][lane_], of[1][lane_], of[2][lane_]};
-  }
-  [[nodiscard]] double value(Two RowGroup::*field) const { return (group_.*field)[lane_]; }
   [[nodiscard]] Vec3 normal() const { return vector(&RowGroup::normal); }
   [[nodiscard]] Vec3 arm() const { return vector(&RowGroup::arm); }
   [[nodiscard]] Vec3 impulse() const { return vector(&RowGroup::impulse); }
@@ -83,16 +78,43 @@ class RowIn {
     });
   }
 
+  /// Impulse per velocity, normal and tangential, from now on [kg].
+  void set_damping(double normal, double shear) const {
+    set(&RowGroup::normal_damping, normal);
+    set(&RowGroup::shear_damping, shear);
+  }
+  void set_bias(double bias) const { set(&RowGroup::bias, bias); }
+  void set_shear_velocity(const Vec3& v) const { set_vector(&RowGroup::shear_velocity, v); }
+  void set_slip_start(const Vec3& direction) const { set_vector(&RowGroup::slip_start, direction); }
+  void set_arm(const Vec3& arm) const { set_vector(&RowGroup::arm, arm); }
+  void set_friction(double friction) const { set(&RowGroup::friction, friction); }
+  /// A contact without an impulse, which presses by this damping when it closes; 0: never.
+  void begin_open(double normal, double shear) const {
+    set_damping(normal, shear);
+    set(&RowGroup::normal_tangent, normal);
+    set(&RowGroup::state, static_cast<double>(ContactState::open));
+    set_vector(&RowGroup::impulse, Vec3::Zero());
+  }
+
+  // for the solver alone
+  [[nodiscard]] double value(Two RowGroup::*field) const { return (group_.*field)[lane_]; }
+  void set(Two RowGroup::*field, double value) const { (group_.*field)[lane_] = value; }
+
+ private:
   void set_vector(Two (RowGroup::*field)[3], const Vec3& value) const {
     for (int k = 0; k < 3; ++k) (group_.*field)[k][lane_] = value[k];
   }
-  void set(Two RowGroup::*field, double value) const { (group_.*field)[lane_] = value; }
-  void set_state(ContactState state) const { set(&RowGroup::state, static_cast<double>(state)); }
+  [[nodiscard]] Vec3 vector(const Two (RowGroup::*field)[3]) const {
+    const auto& of = group_.*field;
+    return {of[0][lane_], of[1][lane_], of[2][lane_]};
+  }
 
- private:
   Group& group_;
   int lane_;
 };
+/// What a step sees of a row. It knows nothing of groups and lanes.
+using IslandRow = RowIn<RowGroup>;
+using ConstIslandRow = RowIn<const RowGroup>;
 
 /// Contacts of one pair of bodies, or of one body with the ground: consecutive rows, in groups of
 /// their own.
@@ -126,12 +148,10 @@ struct Island {  // clang-format off
   return static_cast<int>(island.mass.size());
 }
 
-[[nodiscard]] inline RowIn<const RowGroup> row_of(const Island& island, int r) {
+[[nodiscard]] inline ConstIslandRow row_of(const Island& island, int r) {
   return {island.rows[r / 2], r % 2};
 }
-[[nodiscard]] inline RowIn<RowGroup> row_of(Island& island, int r) {
-  return {island.rows[r / 2], r % 2};
-}
+[[nodiscard]] inline IslandRow row_of(Island& island, int r) { return {island.rows[r / 2], r % 2}; }
 
 /// The groups of a pair.
 [[nodiscard]] inline std::span<RowGroup> groups_of(Island& island, const BodyPair& pair) {
@@ -145,7 +165,7 @@ struct Island {  // clang-format off
   CoupleBounds bounds;
   const auto arm_begin = static_cast<std::size_t>(island.angular[pair.angular].arm_begin);
   for (int r = pair.row_begin; r < pair.row_end; ++r) {
-    const RowIn<const RowGroup> row = row_of(island, r);
+    const ConstIslandRow row = row_of(island, r);
     const auto i = static_cast<std::size_t>(r - pair.row_begin);
     bounds.add(island.arms[arm_begin + i], row.normal_impulse(), row.normal());
   }
@@ -154,7 +174,7 @@ struct Island {  // clang-format off
 
 /// Adds a pair without rows, its bodies where they are.
 void open_pair(int a, int b, Island& island);
-/// Adds the lane of a contact to the last pair and returns its number. One that waits gets the
+/// Adds the row of a contact to the last pair and returns its number. One that waits gets the
 /// place alone and presses nothing until it is hit.
 int add_row(const ContactRow& contact, Island& island);
 

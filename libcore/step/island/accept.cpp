@@ -37,8 +37,8 @@ struct SubstepAcceptance {
   // Energy that contacts took, by kind; push_bodies() adds that of bodies that give way.
   void account(size_t r) {
     const KeptContact& contact = system.contacts[r];
-    const RowIn<const RowGroup> lane = lane_of(system, r);
-    const Vec3 normal = lane.normal(), impulse = lane.impulse();
+    const ConstIslandRow row = row_of(system, r);
+    const Vec3 normal = row.normal(), impulse = row.impulse();
     const double p_n = normal.dot(impulse);
     const Vec3 p_t = impulse - p_n * normal;
     const Vec3 path = path_of_impulse(members, free, system, hits, r);
@@ -54,11 +54,11 @@ struct SubstepAcceptance {
   // Normal energy that the contact of a hit took; below zero where others drove its bodies apart.
   [[nodiscard]] double hit_loss_of(size_t r) const {
     if (system.contacts[r].hit < 0 || system.contacts[r].waits || gives_way(system, r) ||
-        lane_of(system, r).state() == ContactState::open)
+        row_of(system, r).state() == ContactState::open)
       return 0;
-    const RowIn<const RowGroup> lane = lane_of(system, r);
+    const ConstIslandRow row = row_of(system, r);
     const Vec3 path = path_of_impulse(members, free, system, hits, r);
-    return -lane.normal().dot(lane.impulse()) * lane.normal().dot(path);
+    return -row.normal().dot(row.impulse()) * row.normal().dot(path);
   }
 
   // Calls take(block a, block b, loss) for every contact that was hit, and where hits were stopped.
@@ -109,8 +109,8 @@ struct SubstepAcceptance {
   void remember_contact(size_t r, const Vec3& path, double overlap) {
     const double h = free.h;
     const KeptContact& contact = system.contacts[r];
-    const RowIn<const RowGroup> lane = lane_of(system, r);
-    const Vec3 normal = lane.normal(), impulse = lane.impulse();
+    const ConstIslandRow row = row_of(system, r);
+    const Vec3 normal = row.normal(), impulse = row.impulse();
     const bool was_hit = contact.hit >= 0;
     if (was_hit &&
         (gives_way(system, r) || overlap <= law::remembered_hit * thickness_of(members, contact)))
@@ -130,15 +130,15 @@ struct SubstepAcceptance {
     const double along = normal.dot(path);
     memory.gap_end = contact.gap_start + contact.offset + along - (contact.offset - memory.offset);
     if (was_hit) return;  // it bears nothing
-    const ContactState stays = lane.state();
+    const ContactState stays = row.state();
     memory.normal_force = p_n / h;
     const double per_time = members.of(contact.a).recovery_time * h;
     if (contact.bond < 0 && contact.bond_area == 0)
-      memory.stiffness = lane.normal_damping() / per_time;
+      memory.stiffness = row.normal_damping() / per_time;
     memory.rests = rests_of(contact);
     memory.state = static_cast<std::uint8_t>(stays);
     memory.bond_area = contact.bond >= 0 ? 0 : contact.bond_area;  // of the ground
-    const double k_t = lane.shear_damping() / per_time;
+    const double k_t = row.shear_damping() / per_time;
     if (stays == ContactState::open) return;  // a bond without tensile strength, hardly open
     memory.shear = stays == ContactState::slip ? Vec3((impulse - p_n * normal) / (-h * k_t))
                                                : Vec3(contact.shear + path - along * normal);
@@ -152,11 +152,11 @@ struct SubstepAcceptance {
     end.ground_impulse.assign(members.size(), Vec3::Zero());
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
-      const RowIn<const RowGroup> lane = lane_of(system, r);
+      const ConstIslandRow row = row_of(system, r);
       const Vec3 path = path_of_contact(system, end, r);
-      const double overlap = -(contact.gap_start + lane.normal().dot(path));
+      const double overlap = -(contact.gap_start + row.normal().dot(path));
       if (contact.waits) continue;
-      const bool is_open = lane.state() == ContactState::open;
+      const bool is_open = row.state() == ContactState::open;
       if (!is_open || contact.offset > 0)
         note_overlap(thinner_of(members, contact), overlap, thickness_of(members, contact), deep,
                      report);
@@ -171,7 +171,7 @@ struct SubstepAcceptance {
       ++report.n_closed;
       report.sum_penetration += std::max(overlap, 0.0);
       // what blocks give each other they keep: only the ground may go on to bear one alone
-      if (pair.b < 0 && !gives_way(system, r)) end.ground_impulse[pair.a] += lane.impulse();
+      if (pair.b < 0 && !gives_way(system, r)) end.ground_impulse[pair.a] += row.impulse();
       remember_contact(r, path, overlap);
     }
     if (!state.hit_loss.empty())
@@ -248,7 +248,7 @@ struct SubstepAcceptance {
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
       if (contact.fixed < 0 || panel_number(scene, contact.fixed) < 0) continue;
-      if (contact.hit < 0 && (contact.waits || lane_of(system, r).state() == ContactState::open))
+      if (contact.hit < 0 && (contact.waits || row_of(system, r).state() == ContactState::open))
         continue;
       const size_t k = members.at(contact.a);
       const Motion& before = free.substeps[k].start;
@@ -264,7 +264,7 @@ struct SubstepAcceptance {
     if (scene.forest.stems.empty()) return;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
-      if (contact.fixed < n_fixed(scene) || lane_of(system, r).state() == ContactState::open)
+      if (contact.fixed < n_fixed(scene) || row_of(system, r).state() == ContactState::open)
         continue;
       const size_t k = members.at(contact.a);
       const Motion& before = free.substeps[k].start;

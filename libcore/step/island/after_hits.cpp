@@ -26,7 +26,7 @@ Mobility relative_mobility(const IslandMembers& members, const FreeMotions& free
   const KeptContact& contact = system.contacts[r];
   const BodyPair& pair = system.island.pairs[contact.pair];
   const auto ka = static_cast<size_t>(pair.a);
-  const Vec3 normal = lane_of(system, r).normal(), arm = lane_of(system, r).arm();
+  const Vec3 normal = row_of(system, r).normal(), arm = row_of(system, r).arm();
   Mobility W = mobility_at(members, free, ka, arm, normal);
   if (pair.b < 0) return W;
   const auto kb = static_cast<size_t>(pair.b);
@@ -52,12 +52,11 @@ Vec3 drift_of(const FreeMotions& free, const IslandSystem& system, size_t r) {
          });
 }
 
-void set_drift(const Vec3& drift, double bias, const Vec3& shear_velocity,
-               const RowIn<RowGroup>& lane) {
-  const Vec3 normal = lane.normal();
+void set_drift(const Vec3& drift, double bias, const Vec3& shear_velocity, const IslandRow& row) {
+  const Vec3 normal = row.normal();
   const double along = normal.dot(drift);
-  lane.set(&RowGroup::bias, bias + along);
-  lane.set_vector(&RowGroup::shear_velocity, shear_velocity + (drift - along * normal));
+  row.set_bias(bias + along);
+  row.set_shear_velocity(shear_velocity + (drift - along * normal));
 }
 
 // Contact `r`, which waits, presses from now on as far as that stops it. `gap`, with which it
@@ -65,32 +64,25 @@ void set_drift(const Vec3& drift, double bias, const Vec3& shear_velocity,
 void stop(const IslandMembers& members, const FreeMotions& free, size_t r, double gap, double rest,
           IslandSystem& system, SubstepHits& hits) {
   KeptContact& contact = system.contacts[r];
-  const RowIn<RowGroup> lane = lane_of(system, r);
+  const IslandRow row = row_of(system, r);
   contact.waits = false;
   if (contact.hit < 0) {
     contact.hit = static_cast<int>(hits.hits.size());
     hits.hits.push_back({r, free.h - rest, std::min(contact.approach, 0.0)});
   }
   const Mobility W = relative_mobility(members, free, system, r);
-  lane.set(&RowGroup::normal_damping, stopping_stiffness / W.normal);
-  lane.set(&RowGroup::shear_damping, stopping_stiffness / W.tangent);
-  lane.set(&RowGroup::normal_tangent, stopping_stiffness / W.normal);
-  lane.set_state(ContactState::open);
-  lane.set_vector(&RowGroup::impulse, Vec3::Zero());
-  set_drift(drift_of(free, system, r), std::max(0.0, gap) / rest, Vec3::Zero(), lane);
+  row.begin_open(stopping_stiffness / W.normal, stopping_stiffness / W.tangent);
+  set_drift(drift_of(free, system, r), std::max(0.0, gap) / rest, Vec3::Zero(), row);
   note_change(system, r);
 }
 
 // Contact `r` presses nothing: what comes fast is hit, in the next substep where this one did not
 // find it.
 void wait_for_hit(size_t r, IslandSystem& system) {
-  const RowIn<RowGroup> lane = lane_of(system, r);
+  const IslandRow row = row_of(system, r);
   system.contacts[r].waits = true;
-  for (Two RowGroup::*field : {&RowGroup::normal_damping, &RowGroup::shear_damping,
-                               &RowGroup::normal_tangent, &RowGroup::bias})
-    lane.set(field, 0);
-  lane.set_state(ContactState::open);
-  lane.set_vector(&RowGroup::impulse, Vec3::Zero());
+  row.begin_open(0, 0);
+  row.set_bias(0);
   system.waiting.push_back(r);
 }
 
@@ -177,13 +169,13 @@ void take_row(const HitLooks& looks, size_t r, const PairRest& of, const FreeMot
   const double rest = of.length;
   const RowMotion now = row_motion(free, system, r, of.a, of.has_b ? &of.b : nullptr);
   const RowMotion then = row_motion(free, system, r, of.end_a, of.has_b ? &of.end_b : nullptr);
-  const RowIn<RowGroup> lane = lane_of(system, r);
-  const Vec3 normal = lane.normal();
+  const IslandRow row = row_of(system, r);
+  const Vec3 normal = row.normal();
   contact.free_move = then.point_a - then.point_b - contact.gap_start * normal;
   contact.gap_free = then.gap;
   contact.arm = (now.point_a + then.point_a + now.point_b + then.point_b) / 4 -
                 place_of_impulse(of.end_a, rest);
-  lane.set_vector(&RowGroup::arm, contact.arm);
+  row.set_arm(contact.arm);
   if (contact.waits) {
     const bool is_over = hits.is_closed[contact.pair] != 0;
     if (then.gap <= contact.touch &&
@@ -192,7 +184,7 @@ void take_row(const HitLooks& looks, size_t r, const PairRest& of, const FreeMot
     return;
   }
   const bool is_new =
-      contact.memory < 0 && contact.bond_area == 0 && lane.normal_limit() >= no_normal_limit;
+      contact.memory < 0 && contact.bond_area == 0 && row.normal_limit() >= no_normal_limit;
   if (is_new && then.speed < -looks.members.numbers[ka].resting_speed &&
       hits.is_closed[contact.pair] == 0)
     return wait_for_hit(r, system);
@@ -200,11 +192,10 @@ void take_row(const HitLooks& looks, size_t r, const PairRest& of, const FreeMot
   const double per_recovery = 1 / looks.members.numbers[ka].recovery_time;
   const double x = now.gap + contact.offset;
   const double bias = x < 0 || contact.bond_area != 0 ? x * per_recovery : x / rest;
-  set_drift(drift_of(free, system, r), bias, per_recovery * contact.shear, lane);
+  set_drift(drift_of(free, system, r), bias, per_recovery * contact.shear, row);
   const Vec3 slip = now.velocity - now.speed * normal;
   const double slip_speed = slip.norm();
-  lane.set_vector(&RowGroup::slip_start,
-                  slip_speed > 0 ? Vec3(slip / slip_speed) : Vec3(Vec3::Zero()));
+  row.set_slip_start(slip_speed > 0 ? Vec3(slip / slip_speed) : Vec3(Vec3::Zero()));
 }
 
 // The pair acts in the middle of the time over which it presses.
@@ -224,10 +215,10 @@ Vec6 change_by_pair(const IslandSystem& system, size_t p, int k) {
   const BodyPair& pair = system.island.pairs[p];
   Vec6 sum = Vec6::Zero();
   for (const size_t r : contacts_of(system, p)) {
-    const RowIn<const RowGroup> lane = lane_of(system, r);
-    const Vec3 impulse = lane.impulse();
+    const ConstIslandRow row = row_of(system, r);
+    const Vec3 impulse = row.impulse();
     if (impulse.isZero(0)) continue;
-    const Vec3 arm = k == pair.a ? lane.arm() : Vec3(lane.arm() + pair.shift);
+    const Vec3 arm = k == pair.a ? row.arm() : Vec3(row.arm() + pair.shift);
     const double sign = k == pair.a ? 1 : -1;
     sum.head<3>() += sign * impulse;
     sum.tail<3>() += sign * arm.cross(impulse);
@@ -291,7 +282,7 @@ int close_waiting(const IslandMembers& members, const FreeMotions& free, IslandS
     const auto p = static_cast<size_t>(contact.pair);
     // where it was looked for, the features that its gap tells of did not meet
     if (hits.n_looks[p] > 0 && hits.is_closed[p] == 0) return false;
-    const Vec3 normal = lane_of(system, r).normal();
+    const Vec3 normal = row_of(system, r).normal();
     const double gap_end =
         contact.gap_free + normal.dot(relative(system, r, [&](size_t k) -> const Vec6& {
           return hits.displacement[k];

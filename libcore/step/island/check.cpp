@@ -43,7 +43,7 @@ struct SubstepCheck {
       const KeptContact& contact = system.contacts[hit.contact];
       const double gap_end =
           contact.gap_start +
-          lane_of(system, hit.contact).normal().dot(path_of_contact(system, end, hit.contact));
+          row_of(system, hit.contact).normal().dot(path_of_contact(system, end, hit.contact));
       const double thickness = thickness_of(members, contact);
       if (gap_end < std::min(-deep_end * thickness, contact.gap_start - deepened * thickness))
         first = std::min(first, hit.time + after_hit * free.h);
@@ -56,7 +56,7 @@ struct SubstepCheck {
     if (system.ground_pair[k] < 0) return false;
     for (const size_t r : contacts_of(system, static_cast<size_t>(system.ground_pair[k]))) {
       const double gap_end = system.contacts[r].gap_start +
-                             lane_of(system, r).normal().dot(path_of_contact(system, end, r));
+                             row_of(system, r).normal().dot(path_of_contact(system, end, r));
       if (system.contacts[r].key == contact.key && gap_end < contact.gap + least) return true;
     }
     return false;
@@ -105,7 +105,7 @@ struct SubstepCheck {
           hits.is_closed[p] != 0)
         continue;
       const double gap_end =
-          contact.gap_start + lane_of(system, r).normal().dot(path_of_contact(system, end, r));
+          contact.gap_start + row_of(system, r).normal().dot(path_of_contact(system, end, r));
       first = std::min(first, time_to_touch(contact.gap_start, contact.speed_start, gap_end,
                                             contact.touch, free.h));
     }
@@ -126,13 +126,13 @@ struct SubstepCheck {
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
       if (contact.bond_area == 0 || contact.hit >= 0) continue;
-      const RowIn<const RowGroup> lane = lane_of(system, r);
-      const Vec3 normal = lane.normal();
+      const ConstIslandRow row = row_of(system, r);
+      const Vec3 normal = row.normal();
       BondFace& face = face_of(contact.bond, contact.a, normal, end.bond_faces);
-      Vec3 impulse = lane.impulse();
+      Vec3 impulse = row.impulse();
       if (!hits.bond_impulse.empty()) impulse += hits.bond_impulse[r];
       BondCorner corner = corner_of(contact, bond_class(contact), impulse, free.h);
-      if (lane.state() == ContactState::open) {
+      if (row.state() == ContactState::open) {
         double radius = members.of(contact.a).radius;
         if (contact.b >= 0) radius = std::min(radius, members.of(contact.b).radius);
         const double gap_end = contact.gap_start + normal.dot(path_of_contact(system, end, r));
@@ -160,18 +160,18 @@ struct SubstepCheck {
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       if (!gives_way(system, r)) continue;
       const KeptContact& contact = system.contacts[r];
-      const RowIn<const RowGroup> lane = lane_of(system, r);
-      const Vec3 normal = lane.normal();
+      const ConstIslandRow row = row_of(system, r);
+      const Vec3 normal = row.normal();
       const Yielding& yielding = *giving_way(scene, contact.fixed, normal);
       YieldPush push;
       push.along = yield_direction(yielding, normal);
-      const double p_n = lane.normal_impulse(), cosine = normal.dot(push.along);
+      const double p_n = row.normal_impulse(), cosine = normal.dot(push.along);
       push.block = contact.a;
       push.yielding = yielding_number(scene, contact.fixed);
       push.work = -p_n * normal.dot(path_of_impulse(members, free, system, hits, r));
       push.power = -p_n / free.h * contact.speed_start;
       const double gap_end = contact.gap_start + normal.dot(path_of_contact(system, end, r));
-      if (p_n >= (1 - 1e-12) * lane.normal_limit() || follows_block(scene, members, system, r))
+      if (p_n >= (1 - 1e-12) * row.normal_limit() || follows_block(scene, members, system, r))
         push.shift = std::min(0.0, gap_end) * cosine;
       push.to = push.shift + push.along.dot(pushed_before(contact.a, contact.fixed));
       add_push(push, end.pushes);

@@ -102,7 +102,7 @@ struct ContactMaker {
     system.first_contact.push_back(static_cast<int>(system.contacts.size()));
   }
 
-  // Takes a contact of the last pair, filled but for this, and makes its lane.
+  // Takes a contact of the last pair, filled but for this, and makes its row.
   void add_contact(ContactRow& contact, bool never_waits) {
     const double along_path = contact.normal.dot(contact.free_move);
     contact.pair = static_cast<int>(system.island.pairs.size()) - 1;
@@ -122,7 +122,7 @@ struct ContactMaker {
       contact.impulse = free.h * then.normal_force * contact.normal;
       contact.state = static_cast<ContactState>(then.state);
     }
-    contact.lane = add_row(contact, system.island);
+    contact.row = add_row(contact, system.island);
     make_room(system.contacts);
     system.contacts.push_back(contact);
   }
@@ -372,7 +372,7 @@ double first_touch(const Scene& scene, const State& state, const IslandSystem& s
   for (size_t r = 0; r < system.contacts.size(); ++r) {
     const KeptContact& contact = system.contacts[r];
     const double v = contact.speed_start, g = contact.gap_start;
-    if (lane_of(system, r).normal_limit() >= no_normal_limit || g <= contact.touch ||
+    if (row_of(system, r).normal_limit() >= no_normal_limit || g <= contact.touch ||
         contact.gap_free > -contact.touch ||
         knows_body(state, contact.a, name_of_fixed(contact.fixed)))
       continue;

@@ -309,11 +309,11 @@ struct IslandScratch {
 // --- what the stages ask of these --------------------------------------------------------------
 
 /// Row of contact `r` for the solver.
-[[nodiscard]] inline RowIn<RowGroup> lane_of(IslandSystem& system, std::size_t r) {
-  return row_of(system.island, system.contacts[r].lane);
+[[nodiscard]] inline IslandRow row_of(IslandSystem& system, std::size_t r) {
+  return row_of(system.island, system.contacts[r].row);
 }
-[[nodiscard]] inline RowIn<const RowGroup> lane_of(const IslandSystem& system, std::size_t r) {
-  return row_of(system.island, system.contacts[r].lane);
+[[nodiscard]] inline ConstIslandRow row_of(const IslandSystem& system, std::size_t r) {
+  return row_of(system.island, system.contacts[r].row);
 }
 
 /// Contacts of a pair of the island.
@@ -330,8 +330,8 @@ inline void note_change(IslandSystem& system, std::size_t r) {
 
 /// Presses on a fixed body that gives way.
 [[nodiscard]] inline bool gives_way(const IslandSystem& system, std::size_t r) {
-  const RowIn<const RowGroup> lane = lane_of(system, r);
-  return lane.normal_limit() < no_normal_limit && lane.state() != ContactState::open;
+  const ConstIslandRow row = row_of(system, r);
+  return row.normal_limit() < no_normal_limit && row.state() != ContactState::open;
 }
 
 /// Relative motion of the points of contact `r`, `of` being a motion of members.
@@ -339,7 +339,7 @@ template <class Of>
 [[nodiscard]] Vec3 relative(const IslandSystem& system, std::size_t r, Of&& of) {
   const Island& island = system.island;
   const BodyPair& pair = island.pairs[system.contacts[r].pair];
-  const Vec3 arm = lane_of(system, r).arm();
+  const Vec3 arm = row_of(system, r).arm();
   Vec3 v = point_velocity<6>(of(static_cast<std::size_t>(pair.a)), arm);
   if (pair.b >= 0) {
     const auto kb = static_cast<std::size_t>(pair.b);

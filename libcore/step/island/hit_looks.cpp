@@ -57,7 +57,7 @@ RowMotion row_motion(const FreeMotions& free, const IslandSystem& system, size_t
                      const PlacedMotion& a, const PlacedMotion* b) {
   const KeptContact& contact = system.contacts[r];
   const BodyPair& pair = system.island.pairs[contact.pair];
-  const Vec3 normal = lane_of(system, r).normal();
+  const Vec3 normal = row_of(system, r).normal();
   const Vec3& start_a = free.substeps[pair.a].start.pose.position;
   const Vec3 arm_a = a.turn * contact.arm_start;
   RowMotion out;
@@ -198,7 +198,7 @@ void HitLooks::look_ahead(size_t p, double from, double not_before) const {
   look.time = h + 1;
   for (const size_t r : contacts_of(system, p)) {
     const KeptContact& contact = system.contacts[r];
-    if (contact.bond_area != 0 || lane_of(system, r).normal_limit() < no_normal_limit) continue;
+    if (contact.bond_area != 0 || row_of(system, r).normal_limit() < no_normal_limit) continue;
     const RowMotion now = row_motion(free, system, r, a, b);
     const RowMotion then = row_motion(free, system, r, end_a, end_b);
     PairLook of_row;

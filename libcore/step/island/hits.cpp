@@ -33,7 +33,7 @@ struct HitPhase {
       const auto p = static_cast<size_t>(contact.pair);
       if (p == last) continue;
       const BodyPair& pair = system.island.pairs[p];
-      const Vec3 normal = lane_of(system, r).normal();
+      const Vec3 normal = row_of(system, r).normal();
       double gap_end = contact.gap_free;
       const auto borne = [&](int k) -> Vec3 {
         const FlyingMember& m = hits.members[k];
@@ -78,7 +78,7 @@ struct HitPhase {
           TouchingContact bond;
           bond.of.a = pair.a;
           bond.of.b = pair.b;
-          bond.of.normal = lane_of(system, r).normal();
+          bond.of.normal = row_of(system, r).normal();
           bond.of.point = (at_hit.point_a + at_hit.point_b) / 2;
           bond.of.is_bond = true;
           bond.key = contact.key;

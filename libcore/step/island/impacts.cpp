@@ -52,7 +52,7 @@ bool stiffen_to_load(const IslandMembers& members, double h, IslandSystem& syste
   bool any = false;
   for (size_t r = 0; r < system.contacts.size(); ++r) {
     const KeptContact& contact = system.contacts[r];
-    const RowIn<RowGroup> lane = lane_of(system, r);
+    const IslandRow row = row_of(system, r);
     if (contact.hit >= 0 || contact.waits || contact.bond_area != 0 || gives_way(system, r))
       continue;
     const BlockNumbers& a = members.of(contact.a);
@@ -61,12 +61,11 @@ bool stiffen_to_load(const IslandMembers& members, double h, IslandSystem& syste
       const BlockNumbers& b = members.of(contact.b);
       sag = std::min(sag, b.sag), most = std::min(most, b.most_stiffness);
     }
-    const double per_stiffness = h * a.recovery_time, damping = lane.normal_damping();
-    const double needed = lane.normal_impulse() / h / sag * per_stiffness;
+    const double per_stiffness = h * a.recovery_time, damping = row.normal_damping();
+    const double needed = row.normal_impulse() / h / sag * per_stiffness;
     const double next = std::min(law::ample_at_start * needed, most * per_stiffness);
     if (!(sag > 0) || needed <= damping || next <= damping) continue;
-    lane.set(&RowGroup::normal_damping, next);
-    lane.set(&RowGroup::shear_damping, next / damping * lane.shear_damping());
+    row.set_damping(next, next / damping * row.shear_damping());
     note_change(system, r);
     any = true;
   }

@@ -34,7 +34,7 @@ Vec6 start_of(const FreeMotions& free, const SubstepHits& hits, const Island& is
 double mean_slip(const FreeMotions& free, const SubstepHits& hits, const IslandSystem& system,
                  size_t r) {
   const Island& island = system.island;
-  const Vec3 normal = lane_of(system, r).normal();
+  const Vec3 normal = row_of(system, r).normal();
   const auto start = [&](size_t k) { return start_of(free, hits, island, k); };
   const auto end = [&](size_t k) -> const Vec6& { return island.velocity[k]; };
   return (across(normal, relative(system, r, start)) + across(normal, relative(system, r, end))) /
@@ -50,7 +50,7 @@ bool is_pressed(const IslandSystem& system, size_t k) {
   const int pair = system.ground_pair[k];
   if (pair < 0) return false;
   for (const size_t r : contacts_of(system, static_cast<size_t>(pair)))
-    if (!system.contacts[r].waits && lane_of(system, r).state() != ContactState::open) return true;
+    if (!system.contacts[r].waits && row_of(system, r).state() != ContactState::open) return true;
   return false;
 }
 
@@ -66,7 +66,7 @@ size_t pressed_most(const IslandSystem& system, size_t k) {
   size_t found = system.contacts.size();
   double most = 0;
   for (const size_t r : contacts_of(system, static_cast<size_t>(system.ground_pair[k]))) {
-    const double p_n = lane_of(system, r).normal_impulse();
+    const double p_n = row_of(system, r).normal_impulse();
     if (!system.contacts[r].waits && p_n > most) most = p_n, found = r;
   }
   return found;
@@ -78,7 +78,7 @@ void slide_member(const Scene& scene, const IslandMembers& members, const FreeMo
   const size_t r = pressed_most(system, k);
   if (r == system.contacts.size()) return;
   const GroundClass& ground = class_of_contact(scene, system.contacts[r]);
-  const bool slips = lane_of(system, r).state() == ContactState::slip;
+  const bool slips = row_of(system, r).state() == ContactState::slip;
   const double speed = slips ? mean_slip(free, hits, system, r) : 0;
   const double path = speed > creep_speed(scene, free.h) ? pressed_time(free, hits, k) * speed : 0;
   const int b = members.blocks[k];
@@ -117,12 +117,11 @@ bool renew_friction(const Scene& scene, const State& state, const IslandMembers&
     for (const size_t r : contacts_of(system, static_cast<size_t>(system.ground_pair[k]))) {
       const GroundClass& ground = class_of_contact(scene, system.contacts[r]);
       if (system.contacts[r].waits || !varies_friction(ground) ||
-          lane_of(system, r).state() != ContactState::slip)
+          row_of(system, r).state() != ContactState::slip)
         continue;
       const double speed = mean_slip(free, hits, system, r);
       const double way = way_slid(state, ground, members.blocks[k], free.t);
-      lane_of(system, r).set(
-          &RowGroup::friction,
+      row_of(system, r).set_friction(
           mean_friction(ground, speed, way, pressed_time(free, hits, k) * speed));
       note_change(system, r);
       any = true;

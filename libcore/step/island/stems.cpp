@@ -112,10 +112,10 @@ double time_to_stop(const Scene& scene, const IslandMembers& members, const Isla
   if (scene.forest.stems.empty()) return first;
   for (size_t r = 0; r < system.contacts.size(); ++r) {
     if (!follows_block(scene, members, system, r)) continue;
-    const RowIn<const RowGroup> lane = lane_of(system, r);
-    const double share = lane.normal_impulse() / lane.normal_limit();
+    const ConstIslandRow row = row_of(system, r);
+    const double share = row.normal_impulse() / row.normal_limit();
     // a soft contact slows the block down, as long as it takes, and does not stop it
-    const double speed_end = -lane.normal_impulse() / lane.normal_damping() - lane.bias();
+    const double speed_end = -row.normal_impulse() / row.normal_damping() - row.bias();
     const bool stops = speed_end > still_moves * system.contacts[r].speed_start;
     if (stops && share > as_good_as_none && share < as_good_as_all)
       first = std::min(first, h * share);

@@ -18,7 +18,7 @@ inline std::vector<int> row_numbers(const Island& island) {
 }
 
 inline ContactRow row_at(const Island& island, int r) {
-  const RowIn<const RowGroup> of = row_of(island, r);
+  const ConstIslandRow of = row_of(island, r);
   ContactRow out;
   static_cast<LawRow<double>&>(out) = of.law();
   out.arm = of.arm();
