@@ -60,7 +60,8 @@ void list_pairs(const Island& island, IslandMatrix& matrix) {
 void begin_sums(const Island& island, IslandMatrix& matrix) {
   matrix.changed_pairs.fill();
   matrix.pair_closed.assign(island.pairs.size(), 0);
-  for (size_t i = 0; i < island.mass.size(); ++i) matrix.diagonal[i] = packed<6>(island.mass[i]);
+  for (size_t i = 0; i < island.mass.size(); ++i)
+    matrix.diagonal[i] = packed<6>(matrix.mass_scale * island.mass[i]);
 }
 
 void add_to_diagonals(const BodyPair& pair, const Packed<6>& W, const Vec3& shift,
@@ -182,6 +183,11 @@ void update_tangents(Island& island, Tangent tangent, IslandMatrix& matrix) {
   matrix.changed_pairs.clear();
 }
 
+void scale_masses(double scale, IslandMatrix& matrix) {
+  matrix.mass_scale = scale;
+  matrix.tangent = Tangent::none;
+}
+
 void activate(const Island& island, std::span<const int> bodies, IslandMatrix& matrix) {
   matrix.active.bodies.clear();
   for (const int body : bodies) matrix.active.bodies.add(body);
@@ -215,7 +221,7 @@ namespace {
 void sum_blocks(const Island& island, IslandMatrix& matrix) {
   BlockLu<6>& lu = matrix.lu;
   const auto diagonal_of = [&](int body) -> Mat6& { return lu.diagonal[lu.pattern.place[body]]; };
-  for (int i = 0; i < n_bodies(island); ++i) diagonal_of(i) = island.mass[i];
+  for (int i = 0; i < n_bodies(island); ++i) diagonal_of(i) = matrix.mass_scale * island.mass[i];
   for (size_t p = 0; p < island.pairs.size(); ++p) {
     if (!matrix.pair_closed[p]) continue;
     const BodyPair& pair = island.pairs[p];

@@ -51,6 +51,7 @@ struct IslandMatrix {
                                          ///< pairs_of[pair_begin[i + 1]], ascending
   std::vector<Vec3> shift;         ///< x_A - x_B [m]                                   (n_pairs)
   IndexSet changed_pairs;          ///< whose tangent has to be summed again
+  double mass_scale = 1;           ///< K has M times this
   // update_tangents
   Tangent tangent = Tangent::none;         ///< what `pair` and `rest` hold
   std::vector<Packed<6>> pair;     ///< W of pair p, its symmetric part                 (n_pairs)
@@ -81,6 +82,9 @@ void prepare_pair(const Island& island, std::size_t pair, IslandMatrix& matrix);
 /// Brings pairs marked as changed, and the diagonal blocks of their bodies, up to date with the
 /// rows' states.
 void update_tangents(Island& island, Tangent tangent, IslandMatrix& matrix);
+
+/// Makes K = scale M + sum B_c^T K_c B_c from the next update_tangents() on.
+void scale_masses(double scale, IslandMatrix& matrix);
 
 /// Makes `bodies`, which may repeat, active and no others.
 void activate(const Island& island, std::span<const int> bodies, IslandMatrix& matrix);

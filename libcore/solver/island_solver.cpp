@@ -14,8 +14,7 @@ namespace {
 
 using std::size_t;
 
-using law::all_every, law::few, law::first_ratio, law::hopeless, law::ratio_growth, law::slack,
-    law::soft_tolerance;
+using law::all_every, law::few, law::hopeless, law::slack;
 
 constexpr size_t least_shared = 128;  // pairs: below, threads wait more than they spare
 
@@ -28,7 +27,6 @@ struct Solve {
   double tolerance = 0, held_goal = 0;
   double best_residual = std::numeric_limits<double>::infinity();
   bool direct = false;
-  bool tracking = true;
   Evaluation law = Evaluation::coupled;
   bool inherits = false;  // a row comes with a state: the first evaluation is not the law's
   int n_linear = 0;       // linear solutions by conjugate gradients
@@ -224,7 +222,7 @@ struct Solve {
       add_to(work.touched_bodies, bodies->items);
     }
     result.residual = residual_speed();
-    if (tracking && evaluation == Evaluation::coupled && result.residual < best_residual) {
+    if (evaluation == Evaluation::coupled && result.residual < best_residual) {
       best_residual = result.residual;
       keep_best();
     } else {
@@ -280,7 +278,7 @@ struct Solve {
       solve_direct(island, work.matrix, work.residual, work.step);
       return;
     }
-    if (few_move())
+    if (work.matrix.mass_scale == 1 && few_move())
       choose_active(island, work.moving, work.matrix);
     else
       activate_all(island, work.matrix);
@@ -353,26 +351,9 @@ struct Solve {
     for (RowGroup& group : island.rows) group.held_share = Two{};
   }
 
-  // Near the solution steps with the law get there sooner than renewals do: as long as each gets
-  // much closer. Else the velocities are those of before.
-  bool finish_held() {
-    work.held = work.velocity;
-    for (double before = result.residual;; before = result.residual) {
-      const double residual = advance(true);
-      if (residual <= tolerance) return true;
-      if (!(residual <= law::finishing * before)) break;
-      work.held = work.velocity;
-    }
-    work.velocity = work.held;
-    work.at_best = false;
-    activate_all(island, work.matrix);
-    evaluate(Evaluation::coupled);
-    return false;
-  }
-
   // Newton with friction that is held, then renewed from the law at what it finds.
   bool solve_held() {
-    direct = n_bodies(island) <= settings.direct_bodies;
+    direct = false;
     work.velocity = std::isfinite(best_residual) ? work.best : island.free_velocity;
     activate_all(island, work.matrix);
     work.at_best = false;
@@ -389,7 +370,7 @@ struct Solve {
       if (!std::isfinite(residual)) break;
       activate_all(island, work.matrix);
       residual = evaluate(law);
-      if (residual <= tolerance || (direct && finish_held())) break;
+      if (residual <= tolerance) break;
       share = residual > law::renews_well * before ? std::max(share / 2, law::least_renewal) : 1;
       hold(share);
     }
@@ -431,64 +412,56 @@ struct Solve {
     return false;
   }
 
-  // Newton with the exact tangent from the best velocities so far: friction bounds that follow the
-  // normal forces couple the rows, and renewals of bounds get close but settle slowly. Not for
-  // islands that are factored in any case: they have had it.
-  bool solve_exact() {
-    const int n = n_bodies(island);
-    if (n <= settings.direct_bodies || n > settings.direct_fallback) return false;
-    if (!std::isfinite(best_residual)) return false;
-    direct = true;
-    work.velocity = work.best;
-    work.matrix.changed_pairs.fill();
-    activate_all(island, work.matrix);
-    work.at_best = false;
-    double residual = evaluate(Evaluation::coupled);
-    const int most_passes = result.passes + settings.max_passes / law::exact_share;
-    for (int steps = 0; steps < law::exact_steps && result.passes < most_passes; ++steps) {
-      residual = advance(true);
-      if (residual <= tolerance) return true;
+  // A step of pseudo-time `step_time` from work.from, whose residual has the energy `before`: the
+  // implicit Euler step of M dv/dt = -residual by one step of Newton. Returns the share of that
+  // residual which the step leaves of its own equation, as a root of energies.
+  double relax(double step_time, double before) {
+    scale_masses(1 + 1 / step_time, work.matrix);
+    find_step();
+    keep_from();
+    go_along(1);
+    evaluate(Evaluation::coupled);
+    double left = 0;
+    for (size_t i = 0; i < work.residual.size(); ++i) {
+      const Mat6& mass = island.mass[i];
+      const Vec6 r = work.residual[i] + times_mass(mass, work.step[i]) / step_time;
+      left += r.dot(solve_mass(mass, r));
     }
-    return false;
+    return std::sqrt(left / before);
   }
 
-  // The law with D_n and D_t at most `ratio` times the reduced mass.
-  double soften(double ratio) {
-    for (const BodyPair& pair : island.pairs) {
-      const double limit = ratio * reduced_mass(island, pair);
-      const Two most = {limit, limit};
-      for (int g = pair.row_begin / 2; 2 * g < pair.row_end; ++g) {
-        const auto [normal, shear] = work.damping[g];
-        island.rows[g].normal_damping = normal < most ? normal : most;
-        island.rows[g].shear_damping = shear < most ? shear : most;
-      }
-    }
-    work.matrix.changed_pairs.fill();
-    activate_all(island, work.matrix);
-    work.at_best = false;
-    return evaluate(Evaluation::coupled);
+  [[nodiscard]] double energy_of_residual() const {
+    double sum = 0;
+    for (size_t i = 0; i < work.residual.size(); ++i)
+      sum += work.residual[i].dot(solve_mass(island.mass[i], work.residual[i]));
+    return sum;
   }
 
-  // From rest in the free motion, at a stiffness where Newton converges, then at higher ones
-  // from there; factored, since slipping contacts that are stiff couple through their friction
-  // bounds.
-  bool solve_stiffening() {
-    work.velocity = island.free_velocity;
-    work.damping.clear();
-    for (const RowGroup& group : island.rows)
-      work.damping.push_back({group.normal_damping, group.shear_damping});
+  // The free motion comes to rest under the residual, in a time of its own that has nothing to do
+  // with the step: what that settles on is a solution, and one that is stable. Where a light body
+  // is jammed by a heavy one, forces differ by orders of magnitude between solutions that are next
+  // to each other, and steps of Newton do not get there. Steps of that time are as long as one step
+  // of Newton gets their implicit equation right, and become steps of Newton near the end.
+  bool solve_relaxing() {
     direct = n_bodies(island) <= settings.direct_fallback;
-    const int left = static_cast<int>((1 - law::held_share) * settings.max_passes);
-    const int most_passes = std::max(settings.max_passes, result.passes + left);
-    for (double ratio = first_ratio;; ratio *= ratio_growth) {
-      tracking = ratio >= work.stiffness_ratio;
-      double residual = soften(std::min(ratio, settings.stiffest));
-      const double goal = tracking ? tolerance : tolerance + soft_tolerance * residual;
-      for (int steps = 0; residual > goal && result.passes < most_passes; ++steps)
-        residual = advance(steps >= law::island_free_steps);
-      if (tracking) return residual <= tolerance;
-      if (!std::isfinite(residual) || result.passes >= most_passes) return false;
+    work.velocity = island.free_velocity;
+    work.at_best = false;
+    work.matrix.changed_pairs.fill();
+    activate_all(island, work.matrix);
+    double residual = evaluate(Evaluation::coupled);
+    double time = 1 / std::max(1.0, work.stiffness_ratio);
+    for (int steps = 0; residual > tolerance && steps < 3 * settings.max_passes; ++steps) {
+      const double left = relax(time, energy_of_residual());
+      residual = result.residual;
+      if (!(left < 1)) {
+        go_along(0);
+        residual = evaluate(Evaluation::coupled);
+      }
+      const double next = std::isfinite(left) ? std::sqrt(law::usually_left / left) : 0;
+      time *= std::clamp(next, 1 / law::longer, law::longer);
     }
+    scale_masses(1, work.matrix);
+    return residual <= tolerance;
   }
 
   // Velocities that are handed back: v - M^-1 residual, so that what the bodies exchange adds up to
@@ -507,15 +480,14 @@ struct Solve {
     else
       prepare();
     tolerance = std::max(settings.tolerance, work.rounding);
-    direct = n_bodies(island) <= settings.direct_bodies;
-    const int share = direct ? law::coupled_share_if_factored : law::coupled_share;
-    result.converged = solve_coupled(settings.max_passes / share) || solve_held() ||
-                       solve_exact() || solve_stiffening();
+    const bool is_factored = n_bodies(island) <= settings.direct_bodies;
+    direct = is_factored;
+    const int share = is_factored ? law::coupled_share_if_factored : law::coupled_share;
+    result.converged = solve_coupled(settings.max_passes / share) ||
+                       (!is_factored && solve_held()) || solve_relaxing();
     if (result.converged) {
       keep_momentum();
     } else {
-      work.velocity = std::isfinite(best_residual) ? work.best : island.free_velocity;
-      result.residual = soften(settings.stiffest);
       island.velocity = work.velocity;
     }
     for (const int p : work.touched_pairs.items) island.pairs[p].changed = false;

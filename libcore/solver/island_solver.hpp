@@ -13,7 +13,8 @@ namespace talus {
 
 struct IslandSettings {
   double tolerance = 0;        ///< largest residual, as a velocity of a body's points, > 0 [m/s]
-  int max_passes = 200;        ///< evaluations of all contacts
+  int max_passes = 200;        ///< evaluations of all contacts; then three times as many steps
+                               ///< of pseudo-time
   Vec3 down = -Vec3::UnitZ();  ///< along gravity: the order in which bodies are eliminated
   double linear_tolerance = 1e-2;   ///< of conjugate gradients, relative to the step's start
   int max_linear_iterations = 250;  ///< of conjugate gradients in one step
@@ -39,11 +40,6 @@ struct IslandResult {
   int n_lowered = 0;  ///< rows stiffer than IslandSettings::stiffest, of pairs that changed
 };
 
-/// D_n and D_t of two rows [kg].
-struct Damping {
-  Two normal, shear;
-};
-
 /// What an evaluation finds for a pair.
 struct PairImpulse {
   Vec6 impulse;
@@ -66,14 +62,12 @@ struct IslandWork {  // clang-format off
   std::vector<Vec6> step;          ///< of Newton                                        (n_bodies)
   std::vector<Vec6> from;          ///< velocity before the step                         (n_bodies)
   std::vector<Vec6> best;          ///< velocity with the smallest residual so far       (n_bodies)
-  std::vector<Vec6> held;          ///< velocity found with bounds that were held        (n_bodies)
   bool at_best = false;            ///< `best` is `velocity`
   std::vector<int> start;          ///< their bodies
   IndexSet touched_bodies;         ///< whose residual this solution computed anew
   IndexSet touched_pairs;          ///< that this solution evaluated
   double rounding = 0;             ///< of velocities and of the stiffest impulse [m/s]
   double stiffness_ratio = 0;      ///< largest D / m
-  std::vector<Damping> damping;    ///< of the rows, while they are softer               (n_groups)
 };  // clang-format on
 
 /// Solves the island: sets velocity, impulse and state of the rows.
@@ -82,15 +76,15 @@ struct IslandWork {  // clang-format off
 /// impulses; where none is inherited and the first guess is right, there is no step. Steps follow
 /// with the law at the iterate, from the fourth on with a line search: with the exact derivative
 /// where the matrix is factored, with a symmetric one for conjugate gradients, which move only the
-/// bodies that have not settled and their neighbours. Where that gets no closer, friction is held
-/// while the forces are sought, which then are those of a convex function (solver/held_law.hpp),
-/// and renewed until it is right; where that does not settle, the island is solved with softer
-/// contacts first and then with ever stiffer ones.
+/// bodies that have not settled and their neighbours. Where conjugate gradients get no closer,
+/// friction is held while the forces are sought, which then are those of a convex function
+/// (solver/held_law.hpp), and renewed until it is right. Where neither finds them, the bodies come
+/// to rest from their free motion under the residual, in a time of its own.
 /// At last the velocities are made those that the impulses give, so that momentum and angular
 /// momentum are kept to rounding.
 ///
-/// Not finite input, or no convergence: `converged` is false and the velocities are those of the
-/// smallest residual found.
+/// Not finite input, or no convergence: `converged` is false and the velocities are those that the
+/// bodies have come to.
 IslandResult solve_island(Island& island, const IslandSettings& settings, IslandWork& work);
 
 }  // namespace talus

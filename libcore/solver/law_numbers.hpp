@@ -236,12 +236,6 @@ inline constexpr int island_free_steps = 3;
 inline constexpr int most_step_halvings = 8;
 /// [slip stiffness] Change before a pair's tangent is summed again.
 inline constexpr double slack = 0.5;
-/// [-] D / m at which stiffening starts ...
-inline constexpr double first_ratio = 1;
-/// [-] ... and its growth from stage to stage.
-inline constexpr double ratio_growth = 4;
-/// [start of the stage] Residual of a stage before the last.
-inline constexpr double soft_tolerance = 1e-3;
 /// [-] Every so many linear solutions all bodies move.
 inline constexpr int all_every = 8;
 /// [-] The neighbourhood alone is solved where fewer than one in so many move.
@@ -268,13 +262,10 @@ inline constexpr double held_share_of_error = 0.1;
 inline constexpr double renews_well = 0.9;
 /// [-] ... at least so far.
 inline constexpr double least_renewal = 0.25;
-/// [-] Steps by the law from what they give go on while each leaves no more of the residual.
-inline constexpr double finishing = 0.3;
-/// [-] Newton steps with the exact tangent from what held bounds leave. Tried: none; that mass
-/// takes twice as long. 8: a tenth longer.
-inline constexpr int exact_steps = 16;
-/// [passes allowed] ... and in one in so many.
-inline constexpr int exact_share = 4;
+/// [residual] The next step of pseudo-time is as long as leaves so much of its own equation ...
+inline constexpr double usually_left = 0.1;
+/// [-] ... but at most so many times as long, or as short. Tried: 10; half as many steps again.
+inline constexpr double longer = 4;
 /// [slope at the start] A step with held bounds ends where the slope along it is less.
 inline constexpr double level = 0.3;
 /// [-] Places looked at along it, ...

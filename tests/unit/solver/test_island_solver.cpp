@@ -318,6 +318,58 @@ TEST(SolveIsland, PilesConvergeByHeldFriction) {
   EXPECT_GT(renewals, 0);
 }
 
+// Cobbles between the ground and an overhanging face of a block 5,000 times as heavy, which presses
+// them into the wedge of the two: friction jams them, so that forces are a thousand times as large
+// in one solution as in another that is next to it.
+Island jammed_cobbles(talus::Random& random, int n_cobbles) {
+  LawOfScene law;
+  law.step = 5e-3;
+  law.friction = random.uniform(0.36, 1.2);
+  Island island;
+  const int heavy = add_box({Vec3(0, 0, 2.2), Vec3::Constant(2)}, law, island);
+  const auto velocity = [&] { return Vec3(random.normal(), random.normal(), random.normal()); };
+  island.free_velocity[0].head<3>() = velocity() - Vec3(0, 0, 0.5);
+  island.free_velocity[0].tail<3>() = 0.2 * velocity();
+  for (int i = 0; i < n_cobbles; ++i) {
+    const double angle = random.uniform(0, 6.283), tilt = random.uniform(0.35, 1.0);
+    const Vec3 outwards(std::cos(angle), std::sin(angle), 0);
+    const Vec3 centre = 2.2 * outwards + Vec3(0, 0, 0.15);
+    const int cobble = add_box({centre, Vec3(0.12, 0.11, 0.13)}, law, island);
+    const auto k = static_cast<std::size_t>(cobble);
+    island.free_velocity[k].head<3>() = 0.5 * velocity();
+    island.free_velocity[k].tail<3>() = 2 * velocity();
+    const auto near = [&](double height) {
+      return Vec3(centre + Vec3(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), height));
+    };
+    const Vec3 face = std::sin(tilt) * outwards - std::cos(tilt) * Vec3::UnitZ();
+    const double overlap = 1e-5 * random.uniform();
+    add_contacts(cobble, -1, Vec3::UnitZ(), {near(-0.13), near(-0.13), near(-0.13)}, overlap, law,
+                 island);
+    add_contacts(cobble, heavy, face, {near(0.12), near(0.12)}, overlap, law, island);
+  }
+  for (const int r : row_numbers(island)) {
+    const double stiffness = 3e5 * island.mass[1](0, 0);
+    row_of(island, r).set(&RowGroup::normal_damping, stiffness);
+    row_of(island, r).set(&RowGroup::shear_damping, 0.4 * stiffness);
+  }
+  return island;
+}
+
+TEST(SolveIsland, FindsWhatJamsLightBlocksUnderAHeavyOne) {
+  talus::Random random(51, "jam");
+  IslandWork work;
+  int n_found = 0;
+  for (int round = 0; round < 60; ++round) {
+    Island island = jammed_cobbles(random, 1 + round % 4);
+    IslandSettings settings;
+    settings.tolerance = 5e-10;
+    if (!solve_island(island, settings, work).converged) continue;
+    ++n_found;
+    EXPECT_LT(dense_error(island), 1e-6) << round;
+  }
+  EXPECT_GE(n_found, 58);
+}
+
 // A push at one end of 200 blocks in a row travels through all of them in one step when they are
 // hard.
 TEST(SolveIsland, PushTravelsThroughALongChain) {
