@@ -655,4 +655,29 @@ TEST(MassStep, ReboundsOnceWhereHitsInTurnLoseAll) {
   EXPECT_NEAR(kept[1], 0.7 * 0.7, 0.05);
 }
 
+// Small rocks that rain on each other at 9 m/s: a hit acts within a step, so that the substep, not
+// the rebound, bounds how deep it leaves them.
+TEST(MassStep, RainLeavesNothingDeep) {
+  Random random(7, "rain");
+  const Vec3 half(0.16, 0.13, 0.11);
+  std::vector<Body> bodies;
+  for (int layer = 0; layer < 6; ++layer)
+    for (int i = 0; i < 36; ++i) {
+      const Mat3 turn = Quat(random.normal(), random.normal(), random.normal(), random.normal())
+                            .normalized()
+                            .toRotationMatrix();
+      const Vec3 at(0.5 * (i % 6) + 0.2 * (layer % 2), 0.5 * (i / 6), 0.3 + 0.6 * layer);
+      const double falls = layer == 0 ? 0 : 9;
+      bodies.push_back(
+          body_of(moved(box(-half, half), turn, Vec3::Zero(), at), Vec3(0, 0, -falls)));
+    }
+  const Scene scene =
+      scene_of(plane_trn(slope_frame(0, 0), 1, 40), ground_of(30, 0.3), bodies, with_masses(true));
+  State state = start(scene);
+  Work work = make_work(scene);
+  while (state.time < 0.6) step(scene, state, work);
+  EXPECT_GT(n_in_mass(state), 100);
+  for (const DeepBlock& deep : state.deep) EXPECT_EQ(deep.steps, 0) << deep.depth;
+}
+
 }  // namespace
