@@ -98,15 +98,15 @@ class RowIn {
 
   // for the solver alone
   [[nodiscard]] double value(Two RowGroup::*field) const { return (group_.*field)[lane_]; }
+  [[nodiscard]] Vec3 vector(const Two (RowGroup::*field)[3]) const {
+    const auto& of = group_.*field;
+    return {of[0][lane_], of[1][lane_], of[2][lane_]};
+  }
   void set(Two RowGroup::*field, double value) const { (group_.*field)[lane_] = value; }
 
  private:
   void set_vector(Two (RowGroup::*field)[3], const Vec3& value) const {
     for (int k = 0; k < 3; ++k) (group_.*field)[k][lane_] = value[k];
-  }
-  [[nodiscard]] Vec3 vector(const Two (RowGroup::*field)[3]) const {
-    const auto& of = group_.*field;
-    return {of[0][lane_], of[1][lane_], of[2][lane_]};
   }
 
   Group& group_;
