@@ -18,10 +18,8 @@ inline constexpr double no_normal_limit = 1e150;
 
 /// How contacts are evaluated: with the states they came with and friction bounded by the last
 /// step's normal impulses (a bound from the predicted overlap has no limit), a new contact and one
-/// that would pull more than it pressed by the law; all with the law; or with friction bounds that
-/// are held whatever the normal impulses, so that the forces are those of a convex function (in an
-/// island alone: RowGroup::bound).
-enum class Evaluation : std::uint8_t { inherited, coupled, held };
+/// that would pull more than it pressed by the law; or all with the law.
+enum class Evaluation : std::uint8_t { inherited, coupled };
 
 /// A vector and a state of one contact (Number = double), or of several side by side (a vector type
 /// of the compiler); either way axis k of a vector is v[k].

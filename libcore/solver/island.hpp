@@ -32,10 +32,6 @@ struct RowGroup : LawRow<Two> {
   Two arm[3]{};        ///< from the centroid of A [m]
   Two slip_tangent{};  ///< of a slipping contact across its direction [kg]
   Two used_tangent{};  ///< slip_tangent when the tangent was last summed [kg]
-  // while friction is held (solver/held_law.hpp)
-  Two bound{};       ///< of the tangential impulse [N s]
-  Two held_bound{};  ///< c [N s]
-  Two held_share{};  ///< s, 0 where nothing is held [-]
 
   RowGroup() { normal_limit = Two{no_normal_limit, no_normal_limit}; }
 };

@@ -194,20 +194,6 @@ void activate(const Island& island, std::span<const int> bodies, IslandMatrix& m
   read_active(island, matrix);
 }
 
-void choose_active(const Island& island, std::span<const int> moving, IslandMatrix& matrix) {
-  IndexSet& bodies = matrix.active.bodies;
-  bodies.clear();
-  for (const int body : moving) {
-    bodies.add(body);
-    for (const int p : pairs_of(matrix, static_cast<size_t>(body))) {
-      const BodyPair& pair = island.pairs[p];
-      if (!matrix.pair_closed[p] || pair.b < 0) continue;
-      bodies.add(pair.a == body ? pair.b : pair.a);
-    }
-  }
-  read_active(island, matrix);
-}
-
 void activate_all(const Island& island, IslandMatrix& matrix) {
   ActiveBodies& active = matrix.active;
   active.bodies.fill();

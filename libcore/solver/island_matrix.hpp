@@ -59,7 +59,7 @@ struct IslandMatrix {
   std::vector<std::uint8_t> pair_closed;   ///< W != 0                                  (n_pairs)
   std::vector<Packed<6>> change;   ///< scratch: of W, of pairs that changed
   std::vector<Packed<6>> diagonal; ///< of K, symmetric tangents [kg .. kg m2]          (n_bodies)
-  // activate, choose_active, activate_all
+  // activate, activate_all
   ActiveBodies active;
   // solve_direct
   std::vector<std::pair<int, int>> edges;  ///< graph for the factorisation
@@ -89,10 +89,6 @@ void scale_masses(double scale, IslandMatrix& matrix);
 /// Makes `bodies`, which may repeat, active and no others.
 void activate(const Island& island, std::span<const int> bodies, IslandMatrix& matrix);
 void activate_all(const Island& island, IslandMatrix& matrix);
-
-/// Makes those bodies active that are to move, and their neighbours over a pressing
-/// contact.
-void choose_active(const Island& island, std::span<const int> moving, IslandMatrix& matrix);
 
 struct LinearResult {
   bool converged = false;

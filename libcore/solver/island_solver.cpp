@@ -14,7 +14,7 @@ namespace {
 
 using std::size_t;
 
-using law::all_every, law::few, law::hopeless, law::slack;
+using law::slack;
 
 constexpr size_t least_shared = 128;  // pairs: below, threads wait more than they spare
 
@@ -24,12 +24,10 @@ struct Solve {
   const IslandSettings& settings;
   IslandWork& work;
   IslandResult result;
-  double tolerance = 0, held_goal = 0;
+  double tolerance = 0;
   double best_residual = std::numeric_limits<double>::infinity();
   bool direct = false;
-  Evaluation law = Evaluation::coupled;
   bool inherits = false;  // a row comes with a state: the first evaluation is not the law's
-  int n_linear = 0;       // linear solutions by conjugate gradients
 
   // Lowers the rows of pair `p` that are too stiff, and notes what tolerance they and the
   // velocities allow: in a very short substep contacts press with little more than rounding.
@@ -48,20 +46,10 @@ struct Solve {
           stiffness = limit;
         }
         work.stiffness_ratio = std::max(work.stiffness_ratio, stiffness / mass);
-        set_bound(group, lane);
         const double changed = stiffness / mass * (std::abs(group.bias[lane]) + free_speed);
         work.rounding = std::max(
             work.rounding, 8 * std::numeric_limits<double>::epsilon() * (changed + free_speed));
       }
-  }
-
-  // What holds friction at first: the normal impulse of the last step, < 0: nothing is known of it.
-  static void set_bound(RowGroup& group, int lane) {
-    double p_n = 0;
-    for (int k = 0; k < 3; ++k) p_n += group.normal[k][lane] * group.impulse[k][lane];
-    group.bound[lane] = group.state[lane] == 0
-                            ? -1
-                            : group.friction[lane] * std::max(p_n, 0.0) + group.cohesion[lane];
   }
 
   void prepare() {
@@ -70,8 +58,7 @@ struct Solve {
     for (size_t p = 0; p < n_pairs; ++p) prepare_pair(p);
     prepare_matrix(island, work.matrix);
     set_heights(island, settings.down, work.factor);
-    for (auto* vectors : {&work.residual, &work.step, &work.from, &work.best}) vectors->resize(n);
-    work.at_best = false;
+    for (auto* vectors : {&work.residual, &work.step, &work.from}) vectors->resize(n);
     work.speed.resize(n);
     work.per_impulse.resize(n);
     for (size_t i = 0; i < n; ++i) {
@@ -128,8 +115,7 @@ struct Solve {
       if (pair.b >= 0)
         now[i].motion = relative_motion(now[i].motion, work.velocity[pair.b], work.matrix.shift[p]);
     }
-    evaluate_pairs(std::span(now).first(pairs.size()), evaluation,
-                   direct || evaluation == Evaluation::held ? 0 : slack);
+    evaluate_pairs(std::span(now).first(pairs.size()), evaluation, direct ? 0 : slack);
     if (!island.angular.empty()) evaluate_couples(pairs, now);
   }
 
@@ -199,15 +185,6 @@ struct Solve {
     return n == 0 ? 0 : Eigen::ArrayXd::Map(work.speed.data(), n).maxCoeff<Eigen::PropagateNaN>();
   }
 
-  // Keeps the velocities: all, or those that moved from where they were kept last.
-  void keep_best() {
-    if (!work.at_best)
-      work.best = work.velocity;
-    else
-      for (const int body : work.matrix.active.bodies.items) work.best[body] = work.velocity[body];
-    work.at_best = true;
-  }
-
   [[gnu::flatten]] double evaluate(Evaluation evaluation) {
     ++result.passes;
     const ActiveBodies& active = work.matrix.active;
@@ -222,32 +199,8 @@ struct Solve {
       add_to(work.touched_bodies, bodies->items);
     }
     result.residual = residual_speed();
-    if (evaluation == Evaluation::coupled && result.residual < best_residual) {
-      best_residual = result.residual;
-      keep_best();
-    } else {
-      work.at_best = false;
-    }
+    if (evaluation == Evaluation::coupled) best_residual = std::min(best_residual, result.residual);
     return result.residual;
-  }
-
-  // Do so few bodies move that their neighbourhood is worth a linear solution of its own? Not in
-  // every step: a push that travels far needs them all.
-  bool few_move() {
-    work.moving.clear();
-    const double goal = law == Evaluation::held ? held_goal : tolerance;
-    const auto note = [&](size_t i) {
-      if (!(work.speed[i] <= goal)) work.moving.push_back(static_cast<int>(i));
-    };
-    // most bodies do not: eight of them are looked at together
-    size_t i = 0;
-    for (; i + 8 <= work.speed.size(); i += 8) {
-      const auto eight = Eigen::Array<double, 8, 1>::Map(&work.speed[i]);
-      if (eight.maxCoeff<Eigen::PropagateNaN>() <= goal) continue;
-      for (size_t k = i; k < i + 8; ++k) note(k);
-    }
-    for (; i < work.speed.size(); ++i) note(i);
-    return ++n_linear % all_every != 0 && few * work.moving.size() < work.speed.size();
   }
 
   // Takes off the residual what couples that are about to hold ask for.
@@ -270,18 +223,14 @@ struct Solve {
     work.residual.swap(work.unaimed);
   }
   void find_step_to_residual() {
-    const bool exact = direct && law == Evaluation::coupled;
-    update_tangents(island, exact ? Tangent::exact : Tangent::symmetric, work.matrix);
+    update_tangents(island, direct ? Tangent::exact : Tangent::symmetric, work.matrix);
     if (direct) {
       activate_all(island, work.matrix);
       ++result.factorisations;
       solve_direct(island, work.matrix, work.residual, work.step);
       return;
     }
-    if (work.matrix.mass_scale == 1 && few_move())
-      choose_active(island, work.moving, work.matrix);
-    else
-      activate_all(island, work.matrix);
+    activate_all(island, work.matrix);
     eliminate(island, work.matrix, work.factor);
     const LinearResult linear =
         solve_conjugate_gradients(work.factor, work.residual, settings.linear_tolerance,
@@ -309,75 +258,6 @@ struct Solve {
       work.from[static_cast<size_t>(body)] = work.velocity[static_cast<size_t>(body)];
   }
 
-  // A Newton step to where the forces do no work along it, about: the lowest place there of the
-  // function that they are the gradient of while friction is held. The slope has kinks: a false
-  // position that keeps an end halves the slope there (Illinois).
-  double advance_held() {
-    find_step();
-    keep_from();
-    struct Place {
-      double fraction, slope;
-    };
-    Place low = {0, slope()}, high = {0, 0};
-    const double goal = law::level * std::abs(low.slope);
-    double fraction = 1;
-    for (int i = 0, kept = 0;; ++i) {
-      go_along(fraction);
-      const double residual = evaluate(law), at = slope();
-      if (std::abs(at) <= goal || i >= law::most_trials || residual <= held_goal ||
-          !std::isfinite(at))
-        return residual;
-      const int side = at < 0 ? -1 : 1;
-      (at < 0 ? low : high) = {fraction, at};
-      if (high.fraction == 0) {
-        fraction *= law::farther;
-        continue;
-      }
-      if (side == kept) (at < 0 ? high : low).slope /= 2;
-      kept = side;
-      const double secant =
-          (low.fraction * high.slope - high.fraction * low.slope) / (high.slope - low.slope);
-      const double margin = law::off_ends * (high.fraction - low.fraction);
-      fraction = std::clamp(secant, low.fraction + margin, high.fraction - margin);
-    }
-  }
-
-  // Holds friction as the law has it at the velocities, the bounds all or `share` of the way there.
-  void hold(double share) {
-    for (RowGroup& group : island.rows) hold_friction(group, share);
-  }
-
-  void let_go() {
-    for (RowGroup& group : island.rows) group.held_share = Two{};
-  }
-
-  // Newton with friction that is held, then renewed from the law at what it finds.
-  bool solve_held() {
-    direct = false;
-    work.velocity = std::isfinite(best_residual) ? work.best : island.free_velocity;
-    activate_all(island, work.matrix);
-    work.at_best = false;
-    double residual = evaluate(Evaluation::coupled);
-    hold(settings.continues ? 1 : 0);
-    const int most_passes = static_cast<int>(law::held_share * settings.max_passes);
-    for (double share = 1; result.passes < most_passes; ++result.renewals) {
-      const double before = residual;
-      held_goal = std::max(law::held_goal * tolerance, law::held_share_of_error * before);
-      law = Evaluation::held;
-      residual = evaluate(law);
-      while (residual > held_goal && result.passes < most_passes) residual = advance_held();
-      law = Evaluation::coupled;
-      if (!std::isfinite(residual)) break;
-      activate_all(island, work.matrix);
-      residual = evaluate(law);
-      if (residual <= tolerance) break;
-      share = residual > law::renews_well * before ? std::max(share / 2, law::least_renewal) : 1;
-      hold(share);
-    }
-    let_go();
-    return result.residual <= tolerance;
-  }
-
   // A Newton step; with `search` it is shortened: with the exact derivative until the residual
   // falls, else until the residual's work along the step is at most half of what it was at the
   // start.
@@ -396,15 +276,15 @@ struct Solve {
   }
 
   // Given up where the smallest residual does not fall by half within some steps.
-  bool solve_coupled(int max_passes) {
+  bool solve_coupled() {
     const double at_start =
         evaluate(settings.continues ? Evaluation::coupled : Evaluation::inherited);
     if ((settings.continues || !inherits) && at_start <= tolerance) return true;
     double before = std::numeric_limits<double>::infinity();
-    for (int steps = 0; result.passes < max_passes; ++steps) {
+    for (int steps = 0; result.passes < settings.max_passes; ++steps) {
       const double residual = advance(steps >= law::island_free_steps);
       if (residual <= tolerance) return true;
-      if (!(residual < hopeless * best_residual)) return false;
+      if (!std::isfinite(residual)) return false;
       if (steps % law::patience != law::patience - 1) continue;
       if (best_residual > 0.5 * before) return false;
       before = best_residual;
@@ -445,7 +325,6 @@ struct Solve {
   bool solve_relaxing() {
     direct = n_bodies(island) <= settings.direct_fallback;
     work.velocity = island.free_velocity;
-    work.at_best = false;
     work.matrix.changed_pairs.fill();
     activate_all(island, work.matrix);
     double residual = evaluate(Evaluation::coupled);
@@ -480,11 +359,8 @@ struct Solve {
     else
       prepare();
     tolerance = std::max(settings.tolerance, work.rounding);
-    const bool is_factored = n_bodies(island) <= settings.direct_bodies;
-    direct = is_factored;
-    const int share = is_factored ? law::coupled_share_if_factored : law::coupled_share;
-    result.converged = solve_coupled(settings.max_passes / share) ||
-                       (!is_factored && solve_held()) || solve_relaxing();
+    direct = n_bodies(island) <= settings.direct_bodies;
+    result.converged = solve_coupled() || solve_relaxing();
     if (result.converged) {
       keep_momentum();
     } else {

@@ -24,8 +24,8 @@ struct IslandSettings {
   /// to it. Beyond, the mass is lost in the rounding of the matrix.
   double stiffest = 1e8;
   /// Goes on from the last solution of the same IslandWork, which converged, and to which only what
-  /// BodyPair::changed says is not the same: no step with friction bounds that are held. Costs go
-  /// with what changed.
+  /// BodyPair::changed says is not the same: no step with the states they came with. Costs go with
+  /// what changed.
   bool continues = false;
 };
 
@@ -36,7 +36,6 @@ struct IslandResult {
   int passes = 0;       ///< evaluations of all contacts
   int linear_iterations = 0;  ///< of conjugate gradients, summed
   int factorisations = 0;
-  int renewals = 0;   ///< of friction bounds that were held
   int n_lowered = 0;  ///< rows stiffer than IslandSettings::stiffest, of pairs that changed
 };
 
@@ -56,13 +55,10 @@ struct IslandWork {  // clang-format off
   std::vector<Vec6> unaimed;       ///< the same, where couples aim at holding           (n_bodies)
   std::vector<Vec6> per_impulse;   ///< speed of a body's points per impulse [1/kg, 1/(kg m)]
   std::vector<double> speed;       ///< of the residual [m/s]                            (n_bodies)
-  std::vector<int> moving;         ///< bodies whose residual is above the tolerance
   std::vector<PairImpulse> evaluated;  ///< scratch, of active pairs; threads only
   std::vector<Vec6> pair_impulse;  ///< sum B^T p of a pair, about A                     (n_pairs)
   std::vector<Vec6> step;          ///< of Newton                                        (n_bodies)
   std::vector<Vec6> from;          ///< velocity before the step                         (n_bodies)
-  std::vector<Vec6> best;          ///< velocity with the smallest residual so far       (n_bodies)
-  bool at_best = false;            ///< `best` is `velocity`
   std::vector<int> start;          ///< their bodies
   IndexSet touched_bodies;         ///< whose residual this solution computed anew
   IndexSet touched_pairs;          ///< that this solution evaluated
@@ -75,11 +71,9 @@ struct IslandWork {  // clang-format off
 /// The first step keeps the inherited states and bounds friction by the last step's normal
 /// impulses; where none is inherited and the first guess is right, there is no step. Steps follow
 /// with the law at the iterate, from the fourth on with a line search: with the exact derivative
-/// where the matrix is factored, with a symmetric one for conjugate gradients, which move only the
-/// bodies that have not settled and their neighbours. Where conjugate gradients get no closer,
-/// friction is held while the forces are sought, which then are those of a convex function
-/// (solver/held_law.hpp), and renewed until it is right. Where neither finds them, the bodies come
-/// to rest from their free motion under the residual, in a time of its own.
+/// where the matrix is factored, with a symmetric one for conjugate gradients. Where that
+/// gets no closer, the bodies come to rest from their free motion under the residual, in a time of
+/// its own.
 /// At last the velocities are made those that the impulses give, so that momentum and angular
 /// momentum are kept to rounding.
 ///

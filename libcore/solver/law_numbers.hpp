@@ -236,44 +236,12 @@ inline constexpr int island_free_steps = 3;
 inline constexpr int most_step_halvings = 8;
 /// [slip stiffness] Change before a pair's tangent is summed again.
 inline constexpr double slack = 0.5;
-/// [-] Every so many linear solutions all bodies move.
-inline constexpr int all_every = 8;
-/// [-] The neighbourhood alone is solved where fewer than one in so many move.
-inline constexpr std::size_t few = 2;
-/// [-] Growth of the residual at which coupled steps are given up.
-inline constexpr double hopeless = 1e5;
-/// [-] In so many steps the smallest residual has to fall by half.
+/// [-] In so many steps the smallest residual has to fall by half; else motion is relaxed.
 inline constexpr int patience = 6;
-/// [passes allowed] One in so many are coupled steps; then friction bounds are held ... Tried: 8; a
-/// mass of 873 blocks that starts takes 1.4 times as long; 4: half of the steps of 3,900 blocks
-/// that fall get close and no closer.
-inline constexpr int coupled_share = 2;
-/// [passes allowed] ... of an island that is factored. Tried: 4; columns that topple do so at 0.9
-/// degrees less friction.
-inline constexpr int coupled_share_if_factored = 8;
-/// [passes allowed] ... until so much of them is spent.
-inline constexpr double held_share = 2.0 / 3;
-/// [tolerance] Residual while bounds are held: what is left is for the bounds.
-inline constexpr double held_goal = 0.5;
-/// [residual by the law] ... or that, where it is more: bounds that are far off are worth no more.
-inline constexpr double held_share_of_error = 0.1;
-/// [residual] Renewals of bounds go all the way while each leaves no more than this; else half as
-/// far as the last, ...
-inline constexpr double renews_well = 0.9;
-/// [-] ... at least so far.
-inline constexpr double least_renewal = 0.25;
 /// [residual] The next step of pseudo-time is as long as leaves so much of its own equation ...
 inline constexpr double usually_left = 0.1;
 /// [-] ... but at most so many times as long, or as short. Tried: 10; half as many steps again.
 inline constexpr double longer = 4;
-/// [slope at the start] A step with held bounds ends where the slope along it is less.
-inline constexpr double level = 0.3;
-/// [-] Places looked at along it, ...
-inline constexpr int most_trials = 12;
-/// [-] ... each so many times as far while it goes down, ...
-inline constexpr double farther = 3;
-/// [-] ... then so much of the bracket off its ends.
-inline constexpr double off_ends = 0.02;
 
 // --- solution of a lone block ------------------------------------------------------------------
 

@@ -83,17 +83,10 @@ void add_exact_slip(const RowGroup& g, int lane, Mat6& rest) {
         g.friction[lane] * g.normal_tangent[lane] * generalised<6>(arm, bound) * q_n.transpose();
 }
 
-// The stiffness across the slip, s a a^T with a = n x x / |x|, x the velocity against which
-// friction acts; while friction is held (held_law.hpp), that of a contact that sticks along the
-// start.
+// The stiffness across the slip, s a a^T with a = n x t / |t|, t the friction.
 [[gnu::always_inline]] inline void add_across(const RowGroup& g, Two (&out)[Packed<6>::size]) {
-  Two across[3], against[3], q[6], along, length_sq;
-  // t = -A x and A^-1 = 1 - s / (1 + s) e e^T where x goes along e
-  dot(g.slip_start, g.impulse, along);
-  const Two back = (along < zero ? along : zero) * g.held_share / (one + g.held_share);
-  for (int k = 0; k < 3; ++k) against[k] = g.impulse[k] - back * g.slip_start[k];
-  cross(g.normal, against, across);
-  for (int k = 0; k < 3; ++k) across[k] = g.state == stick_lanes ? g.slip_start[k] : across[k];
+  Two across[3], q[6], length_sq;
+  cross(g.normal, g.impulse, across);
   dot(across, across, length_sq);
   const Two k = g.slip_tangent / (length_sq > zero ? length_sq : one);
   generalised_lanes(g.arm, across, q);
@@ -101,29 +94,6 @@ void add_exact_slip(const RowGroup& g, int lane, Mat6& rest) {
 }
 
 }  // namespace
-
-// f / |A x| of the direction A x of friction, which is that of f^2 = x A x.
-void hold_friction(RowGroup& group, double share) {
-  constexpr double slips = static_cast<double>(ContactState::slip);
-  for (int lane = 0; lane < n_lanes; ++lane) {
-    const Vec3 n = lane_of(group.normal, lane), impulse = lane_of(group.impulse, lane);
-    const double p_n = n.dot(impulse);
-    const double strength = group.friction[lane] * std::max(p_n, 0.0) + group.cohesion[lane];
-    const double bound = group.state[lane] != open_lanes[lane] ? strength : 0;
-    const double before = group.bound[lane];
-    const double held = before < 0 ? bound : before + share * (bound - before);
-    group.bound[lane] = held;
-    group.held_share[lane] = 0;
-    group.held_bound[lane] = held;
-    const Vec3 friction = p_n * n - impulse;
-    const double cap = friction.norm(), at = group.shear_damping[lane] * group.trial_speed[lane];
-    if (group.state[lane] != slips || !(cap > 0 && at > cap)) continue;
-    const double by_start = 1 - cap / at;
-    const double cosine = std::max(0.0, friction.dot(lane_of(group.slip_start, lane)) / cap);
-    group.held_share[lane] = by_start;
-    group.held_bound[lane] *= std::sqrt(1 - by_start / (1 + by_start) * cosine * cosine);
-  }
-}
 
 [[gnu::flatten]] void evaluate_pairs(std::span<PairEvaluation> pairs, Evaluation evaluation,
                                      double slack, RowWidth width) {

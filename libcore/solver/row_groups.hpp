@@ -29,10 +29,6 @@ void evaluate_pairs(std::span<PairEvaluation> pairs, Evaluation evaluation, doub
 /// The same where has_four_lanes() (row_groups_avx2.cpp).
 void evaluate_pairs_by_four(std::span<PairEvaluation> pairs, Evaluation evaluation, double slack);
 
-/// Holds the friction of a group's contacts as the law found it at its last, coupled evaluation:
-/// what bounds it, all or `share` of the way from what was held before, and its directions.
-void hold_friction(RowGroup& group, double share = 1);
-
 /// W = sum T^T K T of a pair, symmetric; and with `rest`, what the exact derivative has instead of
 /// the stiffness across the slip. False when no contact presses.
 bool sum_tangents(std::span<RowGroup> groups, Packed<6>& W, Mat6* rest);

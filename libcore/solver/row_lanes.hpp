@@ -6,7 +6,6 @@
 #pragma once
 
 #include "solver/contact_law.hpp"
-#include "solver/held_law.hpp"
 #include "solver/pair_evaluation.hpp"
 
 namespace talus {
@@ -84,10 +83,7 @@ template <class V>
   rows.read(&RowGroup::used_tangent, used);
   velocity_at(arm, u, w);
   found.trial_speed = V{};
-  if (evaluation == Evaluation::held)
-    held_law(rows, w, found);
-  else
-    contact_law(rows, w, state_before, evaluation, found);
+  contact_law(rows, w, state_before, evaluation, found);
   rows.write(found.impulse, &RowGroup::impulse);
   rows.write(found.state, &RowGroup::state);
   rows.write(found.normal_tangent, &RowGroup::normal_tangent);

@@ -290,15 +290,13 @@ TEST(SolveIsland, AColumnIsEliminatedExactly) {
   }
 }
 
-// Contacts that stick, slide and open at random: the impulses found with friction that is held and
-// renewed are those of the law.
-TEST(SolveIsland, PilesConvergeByHeldFriction) {
+// Contacts that stick, slide and open at random, up to a hundred times as stiff as masses ask for.
+TEST(SolveIsland, PilesConvergeByRelaxing) {
   struct Try {
     double ratio;
     int passes;
   };
   talus::Random random(53, "held");
-  int renewals = 0;
   for (const auto& [ratio, passes] : {Try{10, 200}, Try{100, 1000}})
     for (const int direct_bodies : {0, 100}) {
       LawOfScene law;
@@ -313,9 +311,7 @@ TEST(SolveIsland, PilesConvergeByHeldFriction) {
       const IslandResult result = solve_island(island, settings, work);
       EXPECT_TRUE(result.converged) << ratio << ' ' << direct_bodies << ' ' << result.residual;
       EXPECT_LT(dense_error(island), 2 * settings.tolerance) << ratio;
-      renewals += result.renewals;
     }
-  EXPECT_GT(renewals, 0);
 }
 
 // Cobbles between the ground and an overhanging face of a block 5,000 times as heavy, which presses
