@@ -27,9 +27,9 @@ Vec3 turned_into(const Vec3& normal, const Vec3& velocity) {
 
 }  // namespace
 
-Slide slide_from(const Trn& ground, const SlidingFriction& friction, const Vec2& start,
-                 bool with_points) {
-  Slide slide;
+SliderPath slide_from(const Trn& ground, const SlidingFriction& friction, const Vec2& start,
+                      bool with_points) {
+  SliderPath slide;
   slide.end = start;
   if (with_points) slide.points.push_back(start);
   Vec3 velocity = Vec3::Zero();

@@ -18,7 +18,7 @@ struct SlidingFriction {
   std::vector<std::uint8_t> cell_class;  ///< empty: one class                          (n_cells)
 };
 
-struct Slide {
+struct SliderPath {
   double time = 0;           ///< to rest, or to where it left the known ground [s]
   double path = 0;           ///< in plan [m]
   Vec2 end = Vec2::Zero();   ///< where it is then
@@ -30,8 +30,8 @@ inline constexpr double slider_step_s = 0.1;
 inline constexpr double longest_slide_s = 600;
 
 /// From rest at `start`. The speed is kept where the slope bends.
-[[nodiscard]] Slide slide_from(const Trn& ground, const SlidingFriction& friction,
-                               const Vec2& start, bool with_points = false);
+[[nodiscard]] SliderPath slide_from(const Trn& ground, const SlidingFriction& friction,
+                                    const Vec2& start, bool with_points = false);
 
 /// How long to compute, from the times of sliders all over a source: 1.7 times their 95th
 /// percentile, 10 s at least. Nine runs of masses ended within 1.6 times that percentile [s].

@@ -268,7 +268,7 @@ void look_at_fences(Look& look) {
           look.work.has_source() && contains(look.work.area, Vec2(post.head<2>()));
     }
     fence.nearest = std::numeric_limits<double>::infinity();
-    for (const Slide& slide : look.slides) {
+    for (const SliderPath& slide : look.slides) {
       const bool comes = crosses(slide.points, line);
       fence.n_fall_lines += comes;
       fence.nearest = std::min(fence.nearest, comes ? 0 : gap(slide.points, line));
@@ -301,7 +301,8 @@ void look_at_objects(Look& look) {
       found.distance = std::min(found.distance, gap_to(object, convex_outline(corners)));
     }
     found.is_in_source = found.distance <= 0;
-    for (const Slide& slide : look.slides) found.n_fall_lines += comes_to(slide.points, object);
+    for (const SliderPath& slide : look.slides)
+      found.n_fall_lines += comes_to(slide.points, object);
     look.objects.push_back(std::move(found));
   }
 }
@@ -394,7 +395,7 @@ void find_doubts(Look& look) {
   facts.travel_duration = look.travel_duration;
   if (!look.slides.empty()) {
     const auto n_left = std::count_if(look.slides.begin(), look.slides.end(),
-                                      [](const Slide& slide) { return slide.left; });
+                                      [](const SliderPath& slide) { return slide.left; });
     facts.left_share = static_cast<double>(n_left) / static_cast<double>(look.slides.size());
   }
   if (look.work.has_source()) {

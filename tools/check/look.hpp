@@ -72,7 +72,7 @@ struct Look {
   std::vector<OutlinedSurface> surfaces;  ///< that the mass could leave on
 
   // the way down
-  std::vector<Slide> slides;
+  std::vector<SliderPath> slides;
   double travel_duration = 0;  ///< that they ask for [s]
   std::vector<FenceLook> fences;
   std::vector<ObjectLook> objects;

@@ -135,8 +135,8 @@ std::vector<Vec2> section_line(const Look& look) {
   const Vec2 down = direction_of_motion(look), middle = middle_of(look);
   const double half = half_of_source(look);
   std::vector<Vec2> line = {middle - 1.6 * half * down, middle};
-  const auto nearest =
-      std::min_element(look.slides.begin(), look.slides.end(), [&](const Slide& a, const Slide& b) {
+  const auto nearest = std::min_element(
+      look.slides.begin(), look.slides.end(), [&](const SliderPath& a, const SliderPath& b) {
         return (a.points.front() - middle).norm() < (b.points.front() - middle).norm();
       });
   const bool has_path = nearest != look.slides.end() && nearest->path > half;
@@ -155,7 +155,7 @@ CheckView view_of(const Look& look) {
   view.source = look.work.area.rings;
   for (const FenceLook& fence : look.fences) view.fences.push_back({fence.line, fence.height});
   view.cell_class = look.inputs.parts.cell_class;
-  for (const Slide& slide : look.slides)
+  for (const SliderPath& slide : look.slides)
     if (slide.points.size() > 1) view.fall_lines.push_back(slide.points);
   view.blocks = outlined_blocks(look);
   for (const FootStep& at : look.foot)

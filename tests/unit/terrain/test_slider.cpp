@@ -33,7 +33,7 @@ TEST(Slider, StopsWhereItsEnergyIsSpent) {
   const double slope = std::tan(40 * degree), mu = std::tan(30 * degree);
   const Trn ground =
       grid(201, 4, [&](double, double y) { return std::max(0.0, slope * (y - 500)); });
-  const Slide slide = slide_from(ground, friction_of(30), {400, 600});
+  const SliderPath slide = slide_from(ground, friction_of(30), {400, 600});
   ASSERT_FALSE(slide.left);
   const double fall = slope * 100, way = 100 / std::cos(40 * degree);
   const double a = 9.80665 * (std::sin(40 * degree) - mu * std::cos(40 * degree));
@@ -54,7 +54,7 @@ TEST(Slider, EndsWhereTheGroundIsNotKnown) {
   const Trn ground = grid(51, 4, [](double, double y) {
     return y < 40 ? std::numeric_limits<double>::quiet_NaN() : y;
   });
-  const Slide slide = slide_from(ground, friction_of(30), {100, 100}, true);
+  const SliderPath slide = slide_from(ground, friction_of(30), {100, 100}, true);
   EXPECT_TRUE(slide.left);
   EXPECT_GT(slide.points.size(), 5u);
 }
@@ -65,7 +65,7 @@ TEST(Slider, FrictionIsThatOfTheCell) {
   SlidingFriction friction{{std::tan(20 * degree), std::tan(70 * degree)}, {}};
   for (int r = 0; r < 50; ++r)
     for (int c = 0; c < 50; ++c) friction.cell_class.push_back(r >= 35 ? 1 : 0);
-  const Slide slide = slide_from(ground, friction, {100, 150});
+  const SliderPath slide = slide_from(ground, friction, {100, 150});
   EXPECT_FALSE(slide.left);
   EXPECT_LT(slide.end.y(), 60);
 }
