@@ -155,4 +155,13 @@ struct State : BlockLives {  // clang-format off
   RunCounters counters;
 };  // clang-format on
 
+/// What a block has slid up to now; `way` nullptr: no ground keeps it.
+struct Slide {
+  const SlidWay* way = nullptr;
+  double t = 0;  ///< now [s]
+};
+[[nodiscard]] inline Slide slide_of(const State& state, int b, double t) {
+  return {state.slid.empty() ? nullptr : &state.slid[static_cast<std::size_t>(b)], t};
+}
+
 }  // namespace talus

@@ -27,17 +27,15 @@ ImpactBody body_of(const Scene& scene, size_t i, const Motion& motion, const Mat
 }
 
 ImpactContact contact_of(const Scene& scene, int b, const Contact& found, const Mat3& R,
-                         const ImpactBody& body, const SoilWork& soil, double resting_speed) {
+                         const ImpactBody& body, const Slide& slide, double resting_speed) {
   const GroundClass& ground = scene.ground.classes[found.ground_class];
   ImpactContact contact;
   contact.normal = R.transpose() * found.normal;
   contact.point = found.point_a;
   contact.friction = ground.friction;
-  if (varies_friction(ground)) {
-    const Vec3 u = body.velocity.head<3>() + body.velocity.tail<3>().cross(contact.point);
-    contact.friction = friction_on(ground, (u - contact.normal.dot(u) * contact.normal).norm(),
-                                   way_slid(soil.slid, ground, soil.hit_time));
-  }
+  const Vec3 u = body.velocity.head<3>() + body.velocity.tail<3>().cross(contact.point);
+  vary_friction(ground, slide, (u - contact.normal.dot(u) * contact.normal).norm(), 0,
+                contact.friction);
   contact.restitution = ground.restitution;
   contact.fall = fall_on(ground, scene.blocks.mass[static_cast<size_t>(b)]);
   contact.arm = arm_on(scene, ground, b);
@@ -105,7 +103,8 @@ ImpactResult apply_impact(const Scene& scene, int b, const HitSpeeds& speeds, Mo
   ImpactScratch& scratch = work.impact;
   scratch.touching.clear();
   for (const Contact& found : work.contacts)
-    scratch.touching.push_back(contact_of(scene, b, found, R, body, work.soil, speeds.resting));
+    scratch.touching.push_back(
+        contact_of(scene, b, found, R, body, work.soil.slide, speeds.resting));
   for (int round = 1; round <= most_rounds; ++round)
     if (!hit_once(scratch.touching, speeds, round == most_rounds, body, scratch, result)) break;
   if (!result.hit) return result;

@@ -133,21 +133,33 @@ double mean_friction(const GroundClass& ground, double speed, double way, double
   return (scar_work(ground, way + path) - scar_work(ground, way)) / path;
 }
 
-double way_slid(const State& state, const GroundClass& ground, int b, double t) {
-  return state.slid.empty() ? 0 : way_slid(state.slid[static_cast<size_t>(b)], ground, t);
+double way_slid(const Slide& slide, const GroundClass& ground) {
+  if (slide.way == nullptr) return 0;
+  return slide.way->way * std::exp(-ground.scar_decay * std::max(0.0, slide.t - slide.way->time));
 }
 
-double way_slid(const SlidWay& slid, const GroundClass& ground, double t) {
-  return slid.way * std::exp(-ground.scar_decay * std::max(0.0, t - slid.time));
+void vary_friction(const GroundClass& ground, const Slide& slide, double speed, double time,
+                   double& friction) {
+  if (varies_friction(ground))
+    friction = mean_friction(ground, speed, way_slid(slide, ground), time * speed);
 }
 
-void slide_on(int b, double way, double path, double t, State& state) {
-  if (!state.slid.empty()) state.slid[static_cast<size_t>(b)] = {way + path, t};
+void slide_on(const Scene& scene, const GroundClass& ground, int b, double speed, double time,
+              double t, double h, State& state) {
+  constexpr double creeps = 1e-2;  // g h
+  if (state.slid.empty()) return;
+  const double path = speed > creeps * scene.gravity.norm() * h ? time * speed : 0;
+  state.slid[static_cast<size_t>(b)] = {way_slid(slide_of(state, b, t), ground) + path, t + h};
 }
 
-double creep_speed(const Scene& scene, double h) {
-  constexpr double of_gravity = 1e-2;
-  return of_gravity * scene.gravity.norm() * h;
+int begin_soil(const Scene& scene, int b, const BlockNumbers& c, double h, const Slide& slide,
+               std::span<ContactRow> rows, std::vector<AngularRow>& turns,
+               std::vector<RowArm>& arms) {
+  const int turn = add_turn(scene, b, c, h, rows, turns, arms);
+  for (ContactRow& row : rows)
+    vary_friction(scene.ground.classes[static_cast<size_t>(row.ground_class)], slide,
+                  row.slip_speed, h, row.friction);
+  return turn;
 }
 
 const GroundClass* class_below(const Scene& scene, const Vec3& x) {

@@ -49,22 +49,31 @@ int add_turn(const Scene& scene, int b, const BlockNumbers& c, double h,
              std::span<const ContactRow> rows, std::vector<AngularRow>& turns,
              std::vector<RowArm>& arms);
 
-/// tan(phi) at slip `speed`, after a way slid of `way`.
+/// tan(phi) of ground at slip `speed` after a way slid of `way`; and its mean over a path that goes
+/// on from there, exact in the work of friction that follows the way.
 [[nodiscard]] double friction_on(const GroundClass& ground, double speed, double way);
-/// Its mean over a substep that goes on from `way` by `path`, at the mean speed of slip `speed`:
-/// exact in the work of friction that follows the way.
 [[nodiscard]] double mean_friction(const GroundClass& ground, double speed, double way,
                                    double path);
 
-/// Way that block b has slid on ground whose friction follows it, at time t: less what it has
-/// forgotten off the ground [m].
-[[nodiscard]] double way_slid(const State& state, const GroundClass& ground, int b, double t);
-[[nodiscard]] double way_slid(const SlidWay& slid, const GroundClass& ground, double t);
-/// The block goes on sliding by `path` up to time t, from `way`.
-void slide_on(int b, double way, double path, double t, State& state);
+/// Way slid on ground whose friction follows it: less what has been forgotten off the ground [m].
+[[nodiscard]] double way_slid(const Slide& slide, const GroundClass& ground);
 
-/// Speed of slip below which a way is not slid: what sticks creeps [m/s].
-[[nodiscard]] double creep_speed(const Scene& scene, double h);
+/// The one place that friction comes from where it varies, for every solver: makes `friction` its
+/// mean over a `time` of slip at the mean speed `speed`; 0: at that speed now. Leaves it where it
+/// does not vary.
+void vary_friction(const GroundClass& ground, const Slide& slide, double speed, double time,
+                   double& friction);
+
+/// The block goes on sliding for a `time` at the mean speed `speed`, to the end of a substep of `h`
+/// from t. What sticks creeps: that is not slid.
+void slide_on(const Scene& scene, const GroundClass& ground, int b, double speed, double time,
+              double t, double h, State& state);
+
+/// Rows of block b with the ground that are made: adds their angular row, as add_turn(), and makes
+/// their friction that at the speed of the start.
+int begin_soil(const Scene& scene, int b, const BlockNumbers& c, double h, const Slide& slide,
+               std::span<ContactRow> rows, std::vector<AngularRow>& turns,
+               std::vector<RowArm>& arms);
 
 /// The class of ground below the centroid of a block; nullptr: none is known there.
 [[nodiscard]] const GroundClass* class_below(const Scene& scene, const Vec3& position);

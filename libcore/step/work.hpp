@@ -30,12 +30,10 @@ struct Segment {
 
 /// What ground that gives way does over a substep of one block (step/soil.hpp).
 struct SoilWork {
-  std::vector<AngularRow> turns;    ///< one, or none
-  std::vector<RowArm> arms;         ///< of the rows; empty: no turn
-  std::vector<double> speed_start;  ///< of slip of the rows; empty: friction does not vary [m/s]
-  bool varies = false;              ///< friction of a row does
-  SlidWay slid;                     ///< of the block, for a hit
-  double hit_time = 0;              ///< of that [s]
+  std::vector<AngularRow> turns;  ///< one, or none
+  std::vector<RowArm> arms;       ///< of the rows; empty: no turn
+  bool varies = false;            ///< friction of a row does
+  Slide slide;                    ///< of the block, for a hit
 };
 
 struct Work {  // clang-format off

@@ -162,7 +162,9 @@ struct ContactMaker {
     if (making.rows.empty()) return true;
     system.ground_pair.back() = static_cast<int>(system.island.pairs.size());
     begin_pair(static_cast<int>(k), -1, -1);
-    begin_soil(scene, state, b, c, s, free.t, making.rows, system.island);
+    Island& island = system.island;
+    island.pairs.back().angular = begin_soil(scene, b, c, s.h, slide_of(state, b, free.t),
+                                             making.rows, island.angular, island.arms);
     for (ContactRow& row : making.rows) {
       for (Vec3* v : {&row.normal, &row.arm, &row.drift, &row.shear, &row.shear_velocity,
                       &row.slip_start, &row.free_move, &row.arm_start})

@@ -301,9 +301,8 @@ void HitLooks::find_touching_ground(size_t p, double time) const {
     const int b = members.blocks[k];
     touching.of.fall = fall_on(ground, c.mass);
     touching.of.arm = arm_on(scene, ground, b);
-    if (varies_friction(ground))
-      touching.of.friction = friction_on(ground, slip_of(touching.of, place(k, m)),
-                                         way_slid(state, ground, b, free.t + time));
+    vary_friction(ground, slide_of(state, b, free.t + time), slip_of(touching.of, place(k, m)), 0,
+                  touching.of.friction);
   }
 }
 

@@ -80,9 +80,8 @@ void slide_member(const Scene& scene, const IslandMembers& members, const FreeMo
   const GroundClass& ground = class_of_contact(scene, system.contacts[r]);
   const bool slips = row_of(system, r).state() == ContactState::slip;
   const double speed = slips ? mean_slip(free, hits, system, r) : 0;
-  const double path = speed > creep_speed(scene, free.h) ? pressed_time(free, hits, k) * speed : 0;
-  const int b = members.blocks[k];
-  slide_on(b, way_slid(state, ground, b, free.t), path, free.t + free.h, state);
+  slide_on(scene, ground, members.blocks[k], speed, pressed_time(free, hits, k), free.t, free.h,
+           state);
 }
 
 }  // namespace
@@ -92,20 +91,6 @@ Motion begin_drag(const Scene& scene, const State& state, size_t b, double h) {
   if (!any_drags(scene)) return motion;
   return after_drag(scene, static_cast<int>(b), motion, first_half(motion, h),
                     remembers_ground(state, b), h / 2);
-}
-
-void begin_soil(const Scene& scene, const State& state, int b, const BlockNumbers& c,
-                const Substep& s, double t, std::span<ContactRow> rows, Island& island) {
-  const int turn = add_turn(scene, b, c, s.h, rows, island.angular, island.arms);
-  island.pairs.back().angular = turn;
-  const Vec3 velocity = s.R.transpose() * s.start.velocity;
-  const Vec3 spin = s.R.transpose() * (s.R_start * s.spin_start);
-  for (ContactRow& row : rows) {
-    const GroundClass& ground = class_of_contact(scene, row);
-    if (!varies_friction(ground)) continue;
-    const double speed = across(row.normal, velocity + spin.cross(row.arm));
-    row.friction = mean_friction(ground, speed, way_slid(state, ground, b, t), s.h * speed);
-  }
 }
 
 bool renew_friction(const Scene& scene, const State& state, const IslandMembers& members,
@@ -119,10 +104,10 @@ bool renew_friction(const Scene& scene, const State& state, const IslandMembers&
       if (system.contacts[r].waits || !varies_friction(ground) ||
           row_of(system, r).state() != ContactState::slip)
         continue;
-      const double speed = mean_slip(free, hits, system, r);
-      const double way = way_slid(state, ground, members.blocks[k], free.t);
-      row_of(system, r).set_friction(
-          mean_friction(ground, speed, way, pressed_time(free, hits, k) * speed));
+      double friction = 0;
+      vary_friction(ground, slide_of(state, members.blocks[k], free.t),
+                    mean_slip(free, hits, system, r), pressed_time(free, hits, k), friction);
+      row_of(system, r).set_friction(friction);
       note_change(system, r);
       any = true;
     }

@@ -13,11 +13,6 @@ namespace talus {
 /// Stage 4: motion that block b begins the substep with, after drag.
 [[nodiscard]] Motion begin_drag(const Scene& scene, const State& state, std::size_t b, double h);
 
-/// Stage 5: angular row of the pair that was opened last, of block b with the ground, and friction
-/// of its rows at the speed of the start; axes of the rows are the block's.
-void begin_soil(const Scene& scene, const State& state, int b, const BlockNumbers& c,
-                const Substep& s, double t, std::span<ContactRow> rows, Island& island);
-
 /// Stage 7: friction of the contacts that slip, over the substep as it was solved; whether there
 /// is any that varies.
 bool renew_friction(const Scene& scene, const State& state, const IslandMembers& members,

@@ -17,52 +17,33 @@ namespace talus {
   return scene.ground.classes[static_cast<std::size_t>(row.ground_class)];
 }
 
-/// Speed across the normal of a row's point that moves with `velocity` [m/s].
-[[nodiscard]] inline double slip_speed(const ContactRow& row, const Vec3& velocity) {
-  return (velocity - row.normal.dot(velocity) * row.normal).norm();
-}
-
-/// Angular row, and friction at the speed of the substep's start, of the rows that are made.
+/// What the ground does beside the rows that are made.
 inline void begin_soil(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                        const State& state, double t, Work& work) {
   SoilWork& soil = work.soil;
   soil.turns.clear();
   soil.arms.clear();
-  soil.varies = false;
-  (void)add_turn(scene, b, c, s.h, work.rows, soil.turns, soil.arms);
-  for (const ContactRow& row : work.rows) soil.varies |= varies_friction(class_of_row(scene, row));
-  if (!soil.varies) return;
-  const Vec3 velocity = s.R.transpose() * s.start.velocity;
-  const Vec3 spin = s.R.transpose() * (s.R_start * s.spin_start);
-  soil.speed_start.clear();
-  for (ContactRow& row : work.rows) {
-    const double speed = slip_speed(row, velocity + spin.cross(row.arm));
-    soil.speed_start.push_back(speed);
-    const GroundClass& ground = class_of_row(scene, row);
-    if (varies_friction(ground))
-      row.friction = mean_friction(ground, speed, way_slid(state, ground, b, t), s.h * speed);
-  }
+  (void)begin_soil(scene, b, c, s.h, slide_of(state, b, t), work.rows, soil.turns, soil.arms);
+  soil.varies = std::any_of(work.rows.begin(), work.rows.end(), [&](const ContactRow& row) {
+    return varies_friction(class_of_row(scene, row));
+  });
 }
 
 /// Mean speed of slip of a row over the substep that was solved [m/s].
 template <int Dof>
-[[nodiscard]] double mean_slip(const BlockSystem<Dof>& system, const ContactRow& row,
-                               double speed_start) {
+[[nodiscard]] double mean_slip(const BlockSystem<Dof>& system, const ContactRow& row) {
   const Vec3 end = point_velocity<Dof>(system.velocity, row.arm) + row.drift;
-  return (speed_start + slip_speed(row, end)) / 2;
+  return (row.slip_speed + (end - row.normal.dot(end) * row.normal).norm()) / 2;
 }
 
 /// Friction of the rows that slip, over the substep that was solved.
 template <int Dof>
 void renew_friction(const Scene& scene, int b, const Substep& s, const State& state, double t,
                     const BlockSystem<Dof>& system, Work& work) {
-  for (std::size_t i = 0; i < work.rows.size(); ++i) {
-    ContactRow& row = work.rows[i];
-    const GroundClass& ground = class_of_row(scene, row);
-    if (row.waits || row.state != ContactState::slip || !varies_friction(ground)) continue;
-    const double speed = mean_slip(system, row, work.soil.speed_start[i]);
-    row.friction = mean_friction(ground, speed, way_slid(state, ground, b, t), s.h * speed);
-  }
+  for (ContactRow& row : work.rows)
+    if (!row.waits && row.state == ContactState::slip)
+      vary_friction(class_of_row(scene, row), slide_of(state, b, t), mean_slip(system, row), s.h,
+                    row.friction);
 }
 
 /// Solves the contacts by `solve()` with what the ground does besides.
@@ -101,13 +82,8 @@ void end_soil(const Scene& scene, int b, const Substep& s, double t, const Block
     if (p_n > most) most = p_n, pressed = &row;
   }
   if (pressed == nullptr) return;
-  const GroundClass& ground = class_of_row(scene, *pressed);
-  const auto i = static_cast<std::size_t>(pressed - work.rows.data());
-  const double speed = pressed->state == ContactState::slip
-                           ? mean_slip(system, *pressed, work.soil.speed_start[i])
-                           : 0;
-  const double path = speed > creep_speed(scene, s.h) ? s.h * speed : 0;
-  slide_on(b, way_slid(state, ground, b, t), path, t + s.h, state);
+  const double speed = pressed->state == ContactState::slip ? mean_slip(system, *pressed) : 0;
+  slide_on(scene, class_of_row(scene, *pressed), b, speed, s.h, t, s.h, state);
 }
 
 }  // namespace talus

@@ -102,8 +102,7 @@ struct Advance {
   // again and again.
   bool impact() {
     const Motion before = motion();
-    if (!state.slid.empty()) work.soil.slid = state.slid[i()];
-    work.soil.hit_time = state.local_time[i()];
+    work.soil.slide = slide_of(state, b, state.local_time[i()]);
     const HitSpeeds speeds{c.resting_speed, c.located_speed};
     ImpactResult hit = apply_impact(scene, b, 2 * c.touch, speeds, motion(), work);
     if (!hit.hit && is_foreseen) {

@@ -242,10 +242,8 @@ struct MassAcceptance : MassEnd {
     const double speed = slips(w.system.rows[most], row)
                              ? (static_cast<double>(contact.slip_speed) + at_end) / 2
                              : 0;
-    const double path = speed > creep_speed(scene, free.h) ? free.h * speed : 0;
-    const GroundClass& ground = scene.ground.classes[contact.ground_class];
-    const int b = members.blocks[k];
-    slide_on(b, way_slid(state, ground, b, free.t), path, free.t + free.h, state);
+    slide_on(scene, scene.ground.classes[contact.ground_class], members.blocks[k], speed, free.h,
+             free.t, free.h, state);
   }
 
   [[nodiscard]] Motion end_of(size_t k) const {

@@ -244,10 +244,8 @@ struct MassMaker {
     const double approach = std::min(row.speed_start, (motion.gap_free - motion.gap) / free.h);
     Faces faces;
     faces.friction = row.friction;
-    if (varies_friction(ground))
-      faces.friction =
-          mean_friction(ground, row.slip_speed, way_slid(state, ground, members.blocks[k], free.t),
-                        free.h * row.slip_speed);
+    vary_friction(ground, slide_of(state, members.blocks[k], free.t), row.slip_speed, free.h,
+                  faces.friction);
     faces.restitution = restitution_on(ground, c.mass, row.restitution, approach);
     faces.resting_speed = c.resting_speed;
     faces.thickness = c.thickness;
