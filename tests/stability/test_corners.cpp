@@ -31,9 +31,7 @@ INSTANTIATE_TEST_SUITE_P(Stability, Corners, testing::ValuesIn(stability_corners
 
 // What the chart shows outside its tolerance: contacts too soft for the weight on them
 // (docs/evidence/measurements.md).
-bool is_known_to_err(const Corner& c) {
-  return c.axis == "k_n" && c.value <= 1e6;
-}
+bool is_known_to_err(const Corner& c) { return c.axis == "k_n" && c.value <= 1e6; }
 
 TEST_P(Corners, IsRight) {
   const StabilityRow row = run_corner(GetParam());
