@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
+
+#include "base/units.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 // A column as the motion sees it.
 struct Inclined {

@@ -8,11 +8,10 @@
 #include <optional>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 Vec2 heading(double azimuth) { return {std::sin(azimuth), std::cos(azimuth)}; }
 

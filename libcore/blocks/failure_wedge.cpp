@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 std::string degrees(double angle) { return text(std::round(10 * angle / degree) / 10); }
 

@@ -8,13 +8,14 @@
 #include <numbers>
 
 #include "base/percentile.hpp"
+#include "base/units.hpp"
 #include "blocks/area_clip.hpp"
 #include "blocks/removability.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+constexpr double pi = std::numbers::pi;
 
 double slope_of(const Vec3& face) { return std::acos(std::clamp(face.z(), -1.0, 1.0)); }
 

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
+
+#include "base/units.hpp"
 
 namespace talus {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr double parallel = 1e-12;      // length of the cross product of unit normals
 constexpr double tolerance = 1e-9;      // of products of unit vectors
 constexpr double least_contact = 0.02;  // area over V^(2/3)
-const double merging_cosine = std::cos(std::numbers::pi / 180);
+const double merging_cosine = std::cos(degree);
 
 bool leaves(const Vec3& direction, std::span<const Vec3> normals) {
   return std::all_of(normals.begin(), normals.end(),

@@ -11,6 +11,7 @@
 #include "base/grouped_text.hpp"
 #include "base/percentile.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 
 namespace talus {
 namespace {
@@ -50,8 +51,8 @@ std::string great_circle(const Vec3& normal, const std::string& style) {
 }
 
 std::string attitude_text(const Vec3& n) {
-  const double dip = std::atan2(std::hypot(n.x(), n.y()), std::abs(n.z())) * 180 / std::numbers::pi;
-  double direction = std::atan2(n.x(), n.y()) * 180 / std::numbers::pi;
+  const double dip = std::atan2(std::hypot(n.x(), n.y()), std::abs(n.z())) / degree;
+  double direction = std::atan2(n.x(), n.y()) / degree;
   if (n.z() < 0) direction += 180;
   direction = std::fmod(direction + 360, 360);
   return text(std::round(direction)) + "/" + text(std::round(dip));
@@ -147,7 +148,7 @@ std::string net_svg(const std::vector<NetSet>& sets, const Vec3& slope_normal,
       << "\" fill=\"none\" stroke=\"black\"/>\n";
   out << below;
   for (int azimuth = 0; azimuth < 360; azimuth += 30) {
-    const double a = azimuth * std::numbers::pi / 180;
+    const double a = azimuth * degree;
     out << "<line x1=\"" << number(middle + radius * std::sin(a)) << "\" y1=\""
         << number(middle - radius * std::cos(a)) << "\" x2=\""
         << number(middle + (radius + 6) * std::sin(a)) << "\" y2=\""

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <numbers>
 #include <optional>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
 
@@ -20,7 +20,6 @@ namespace {
 
 using Mat2 = Eigen::Matrix2d;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double stretch_limit = 0.01;  // of a metre on the map against one on the ground
 constexpr double turned_deg = 45;       // from here on, another axis is the nearest to north
 constexpr double askew_deg = 5;         // of grid north from north, worth a warning

@@ -16,6 +16,7 @@
 #include "base/memory.hpp"
 #include "base/printable.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_operation_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
@@ -101,7 +102,7 @@ GridFrame frame_of_raster(GDALDataset& dataset, const std::string& path) {
   const double skew = std::max(std::abs(g[2]) * n_rows, std::abs(g[4]) * n_cols);
   if (skew > lattice_tolerance * smaller)
     throw InputError({path},
-                     "the raster is rotated (by " + text(std::atan2(g[4], g[1]) * 180 / M_PI, 4) +
+                     "the raster is rotated (by " + text(std::atan2(g[4], g[1]) / degree, 4) +
                          " degrees), expected north-up",
                      warp);
   if (g[1] < 0 || g[5] > 0)

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "report/chart.hpp"
 #include "report/encode.hpp"
 #include "report/map_marks.hpp"
@@ -170,7 +170,7 @@ std::string contour_heights(const Trn& ground, const Drawing& draw, double inter
     const auto is_near = [&p = place.at, unit](const Vec2& q) { return (p - q).norm() < 6 * unit; };
     if (std::any_of(drawn.begin(), drawn.end(), is_near)) continue;
     drawn.push_back(place.at);
-    double turn = std::atan2(place.along.y(), place.along.x()) * 180 / std::numbers::pi;
+    double turn = std::atan2(place.along.y(), place.along.x()) / degree;
     turn += turn > 90 ? -180 : turn <= -90 ? 180 : 0;  // never upside down
     const std::string x = number(place.at.x()), y = number(place.at.y());
     out += "<text class=\"height\" font-size=\"" + number(1.6 * unit) + "\" stroke-width=\"" +

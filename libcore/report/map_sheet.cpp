@@ -4,6 +4,7 @@
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "report/encode.hpp"
 #include "report/map_marks.hpp"
 
@@ -34,7 +35,7 @@ std::string contours_of(const MapSheet& sheet) {
   for (const LevelLabel& label : level_labels(sheet.ground, size / per_mm)) {
     const Vec2 at = per_mm * label.at;
     out += "<text class=\"level\" transform=\"translate(" + number(at.x()) + " " + number(at.y()) +
-           ") rotate(" + number(-label.angle * 180 / M_PI) +
+           ") rotate(" + number(-label.angle / degree) +
            ")\" dy=\".35em\" text-anchor=\"middle\">" + text(label.level) + "</text>";
   }
   return out;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "geometry/segment_meetings.hpp"
 
 namespace talus {
@@ -114,7 +114,7 @@ StandingFence standing_fence(const FenceSettings& settings, const Trn& trn, int 
     fence.deflection =
         std::isnan(settings.max_deflection_m) ? 0.5 * settings.height_m : settings.max_deflection_m;
   }
-  fence.contact.friction = std::tan(settings.friction_deg * std::numbers::pi / 180);
+  fence.contact.friction = std::tan(settings.friction_deg * degree);
   fence.contact.restitution = settings.cor;
   return fence;
 }

@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "scene/crushing.hpp"
 #include "scene/make_scene.hpp"
 #include "scene/stems.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 double or_none(double value) { return std::isnan(value) ? 0 : value; }
 

@@ -6,12 +6,13 @@
 #include "base/csv.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 
 namespace talus {
 namespace {
 
 AccelerationRecord harmonic(const BaseMotionSettings& settings, double duration) {
-  const double azimuth = settings.direction_deg * std::numbers::pi / 180;
+  const double azimuth = settings.direction_deg * degree;
   const double end =
       std::isnan(settings.duration_s) ? duration : settings.start_s + settings.duration_s;
   AccelerationRecord record;

@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
 #include "base/column_text.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "blocks/joint_sets.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr const char* pair_hint =
     "each pair is dip direction, dip in degrees; measured_notation names another order";
 constexpr const char* names_hint =

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "site/joint_list.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 // Clockwise seen from above. Without a turn bit by bit the same.
 Vec3 turned(const Vec3& axis, double turn_deg) {

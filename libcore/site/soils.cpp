@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 
 namespace talus {
 namespace {
@@ -102,7 +102,7 @@ struct GroundCheck {
          &G::weakening_speed_m_s);
     need("weakening_speed_m_s", &G::weakening_speed_m_s, "friction_weak_deg",
          &G::friction_weak_deg);
-    const double friction = std::tan(ground.friction_deg * std::numbers::pi / 180);
+    const double friction = std::tan(ground.friction_deg * degree);
     if (ground.scar_friction < friction)
       refuse("scar_friction",
              "has scar_friction " + text(ground.scar_friction) +

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "blocks/joint_sets.hpp"
 #include "sampling/design.hpp"
 #include "site/number_key.hpp"
@@ -15,7 +15,6 @@
 namespace talus {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_cut = 0.01;    // of a distribution, by what a key may hold
 constexpr double least_kept = 1e-6;  // of one that is truncated

@@ -1,6 +1,6 @@
 #include "terrain/trn_quality.hpp"
 
-#include <numbers>
+#include "base/units.hpp"
 
 namespace talus {
 
@@ -56,13 +56,11 @@ ErrorStatistics ErrorCollector::statistics() const {
 
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
-
 // Squares of the gradients at which the bins end, all but the last.
 std::array<double, 17> bin_ends() {
   std::array<double, 17> ends{};
   for (std::size_t k = 0; k < ends.size(); ++k) {
-    const double slope = std::tan(static_cast<double>(k + 1) * SlopeStatistics::bin_deg / degrees);
+    const double slope = std::tan(static_cast<double>(k + 1) * SlopeStatistics::bin_deg * degree);
     ends[k] = slope * slope;
   }
   return ends;
@@ -81,7 +79,7 @@ void add_triangle(double slope_sq, const std::array<double, 17>& ends, SlopeStat
 }  // namespace
 
 SlopeStatistics slope_statistics(const Trn& trn) {
-  const double steep = std::tan(steep_deg / degrees);
+  const double steep = std::tan(steep_deg * degree);
   const std::array<double, 17> ends = bin_ends();
   SlopeStatistics result;
   for (const double z : trn.elevation) result.n_nodes_known += !std::isnan(z);
@@ -100,8 +98,8 @@ SlopeStatistics slope_statistics(const Trn& trn) {
       result.n_cells_steep += lower > steep * steep || upper > steep * steep;
     }
   if (result.n_triangles > 0)
-    result.mean_deg = std::atan(sum / static_cast<double>(result.n_triangles)) * degrees;
-  result.largest_deg = std::atan(std::sqrt(largest_sq)) * degrees;
+    result.mean_deg = std::atan(sum / static_cast<double>(result.n_triangles)) / degree;
+  result.largest_deg = std::atan(std::sqrt(largest_sq)) / degree;
   return result;
 }
 

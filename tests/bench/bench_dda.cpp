@@ -4,9 +4,9 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "base/units.hpp"
 #include "step/step.hpp"
 #include "verify/cases/cases.hpp"
 #include "verify/cases/closed_form.hpp"
@@ -15,8 +15,6 @@ namespace {
 
 using namespace talus;
 using namespace talus::cases;
-
-constexpr double degree = std::numbers::pi / 180;
 
 Scene sliding_scene(const Settings& settings, double friction_deg, double cell_size, double reach) {
   const SlopeFrame frame = slope_frame(30, 37);

@@ -7,17 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "step/step.hpp"
 #include "verify/cases/cases.hpp"
 
 namespace talus::stability {
-
-inline constexpr double degree = std::numbers::pi / 180;
 
 inline GroundClass rough(double phi_deg, double restitution = 0) {
   GroundClass ground;

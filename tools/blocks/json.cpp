@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "base/grouped_text.hpp"
 #include "base/percentile.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "blocks/solid.hpp"
 #include "io/block_pictures.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 Json as_json(const Attitude& a) {
   return {{"dip_deg", a.dip / degree}, {"dip_direction_deg", a.dip_direction / degree}};

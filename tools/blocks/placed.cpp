@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/memory.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "blocks/least_size.hpp"
 #include "blocks/part_faces.hpp"
 #include "blocks/placed_bodies.hpp"
@@ -22,8 +22,6 @@
 
 namespace talus {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 Where where_of_section(const PlacedContext& context, const PlacedSettings& section) {
   return {context.site.file, section.line, "blocks." + section.name};

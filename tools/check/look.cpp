@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/processor_time.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "geometry/convex_outline.hpp"
 #include "io/raster_gdal.hpp"
 #include "record/object_hits.hpp"
@@ -22,7 +22,6 @@
 namespace talus {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr int n_sliders = 60;
 
 // --- the source --------------------------------------------------------------------------------

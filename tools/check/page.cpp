@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "geometry/convex_outline.hpp"
 #include "io/block_pictures.hpp"
 #include "io/hillshade_gdal.hpp"
@@ -18,8 +18,6 @@
 
 namespace talus {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 std::string percent(double share) { return text(std::round(100 * share)) + " %"; }
 

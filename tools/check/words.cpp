@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "run/runner.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 std::string percent(double share) { return text(std::round(100 * share)) + " %"; }
 // Volumes found in several ways are compared: a digit more.

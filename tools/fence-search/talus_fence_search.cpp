@@ -3,9 +3,9 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <numbers>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "tools/fence-search/output.hpp"
 #include "tools/frame/class_runs.hpp"
 #include "tools/frame/command_line.hpp"
@@ -73,7 +73,6 @@ Verified verified_files(Tool& tool, const std::vector<std::string>& given) {
 }
 
 RefineLimits refine_limits(const SearchCase& search) {
-  constexpr double degree = std::numbers::pi / 180;
   RefineLimits limits;
   limits.line_slope = std::tan(search.settings->max_line_slope_deg * degree);
   limits.ground_slope = std::tan(search.settings->max_ground_slope_deg * degree);

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "post/fence/fence_text.hpp"
 #include "post/statistics.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 Json quantity_json(const QuantitySummary& q, double scale) {
   Json json = {{"max", number_or_null(q.largest * scale)}};
@@ -30,7 +28,7 @@ Json part_json(const FencePartSummary& p) {
           {"translational_energy_kj", quantity_json(p.translation, 1e-3)},
           {"top_height_m", quantity_json(p.top, 1)},
           {"speed_m_s", quantity_json(p.speed, 1)},
-          {"mean_angle_to_normal_deg", number_or_null(p.mean_angle * degrees)},
+          {"mean_angle_to_normal_deg", number_or_null(p.mean_angle / degree)},
           {"most_hits_in_a_run", p.most_in_a_run},
           {"runs_hit_twice", number_or_null(p.runs_hit_twice)},
           {"energy_in_one_second_kj", p.window_energy / 1e3},

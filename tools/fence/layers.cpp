@@ -1,15 +1,13 @@
 #include "tools/fence/layers.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "io/style.hpp"
 #include "post/fence/fence_text.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 VectorStyle verdict_style(SymbolKind kind, double size) {
   return {kind,
@@ -30,7 +28,7 @@ void add_part(std::vector<FieldValue>& values, const FencePartSummary& p) {
       {static_cast<std::int64_t>(p.n), p.per_run, p.energy.percentile[place_of_p95].value / 1e3,
        p.energy.percentile[place_of_p95].upper / 1e3, p.energy.largest / 1e3,
        p.top.percentile[place_of_p95].value, p.top.percentile[place_of_p95].upper, p.top.largest,
-       p.speed.percentile[place_of_p95].value, p.speed.largest, p.mean_angle * degrees,
+       p.speed.percentile[place_of_p95].value, p.speed.largest, p.mean_angle / degree,
        p.window_energy / 1e3});
 }
 
@@ -177,7 +175,7 @@ VectorLayer arrivals_layer(const std::vector<FenceCase>& fences, const FenceRunG
                     a.time,
                     a.chainage,
                     a.speed,
-                    a.beside ? std::nan("") : a.angle * degrees,
+                    a.beside ? std::nan("") : a.angle / degree,
                     a.spin,
                     a.translation / 1e3,
                     a.rotation / 1e3,

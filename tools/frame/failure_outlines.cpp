@@ -1,11 +1,11 @@
 #include "tools/frame/failure_outlines.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "blocks/mass_outline.hpp"
 #include "io/style.hpp"
 #include "io/union_gdal.hpp"
@@ -13,7 +13,6 @@
 namespace talus {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double joined_within_m = 1e-4;
 
 Vec2 middle_of(const std::vector<Vec2>& ring) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "blocks/area.hpp"
 #include "blocks/prepared_area.hpp"
 #include "contact/cylinder_contact.hpp"
@@ -23,7 +23,6 @@ namespace {
 using std::size_t;
 
 constexpr double most_stems = 1e6;
-constexpr double degree = std::numbers::pi / 180;
 constexpr double overlap_tolerance = 1e-3;  // that rounding and stored files explain [m]
 
 // --- what goes together ------------------------------------------------------------------------

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "post/fence_search/candidates.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 Where where_of_search(const Site& site, const FenceSearchSettings& search) {
   return {site.file, search.line, "fence_search." + search.name};

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "base/memory.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "blocks/base_level.hpp"
 #include "blocks/daylight_envelope.hpp"
 #include "blocks/failure_raster.hpp"
@@ -145,7 +145,6 @@ const PlannedSet& set_named(const BlocksWork& work, const std::string& name) {
 
 // The direction that source.daylight names.
 DaylightDirection daylight_direction(const BlocksWork& work) {
-  constexpr double degree = std::numbers::pi / 180;
   const std::string& said = work.site.source.daylight;
   DaylightDirection direction;
   double widest = 0;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "report/html.hpp"
 #include "tools/report/json.hpp"
 
@@ -86,9 +86,7 @@ std::string friction_paragraph(const ReportData& data) {
       low = std::min(low, ground.friction_deg);
       high = std::max(high, ground.friction_deg);
     }
-  const auto tangent = [](double degrees) {
-    return text(std::tan(degrees * std::numbers::pi / 180), 3);
-  };
+  const auto tangent = [](double degrees) { return text(std::tan(degrees * degree), 3); };
   std::string list;
   for (const auto& [name, range] : grounds) {
     const auto& [low, high] = range;

@@ -2,22 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "post/runout/runout_text.hpp"
 #include "tools/frame/moved_json.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
-
 Json line_json(const ReachLine& line) {
   return {{"H_m", number_or_null(line.height)},
           {"L_path_m", number_or_null(line.path)},
           {"L_chord_m", number_or_null(line.chord)},
-          {"reach_angle_path_deg", number_or_null(line.path_angle() * degrees)},
-          {"reach_angle_chord_deg", number_or_null(line.chord_angle() * degrees)}};
+          {"reach_angle_path_deg", number_or_null(line.path_angle() / degree)},
+          {"reach_angle_chord_deg", number_or_null(line.chord_angle() / degree)}};
 }
 
 Json energy_json(const EnergyShares& s) {
@@ -44,7 +42,7 @@ Json mass_json(const EventReach& event) {
   return {{"moved_volume_m3", m.moved_volume},
           {"H95_m", m.height},
           {"L95_m", m.length},
-          {"reach_angle_95_deg", number_or_null(m.angle() * degrees)},
+          {"reach_angle_95_deg", number_or_null(m.angle() / degree)},
           {"blocks_beyond", m.n_beyond},
           {"share_beyond", m.beyond_share},
           {"toe_share", m.toe_share},
@@ -57,14 +55,13 @@ Json spread_of(const std::vector<RunoutRun>& runs, const std::vector<int>& some)
       {"L_path_m", spread(runs, some, [](const RunoutRun& r) { return r.event.event.path; })},
       {"L_chord_m", spread(runs, some, [](const RunoutRun& r) { return r.event.event.chord; })},
       {"reach_angle_path_deg",
-       spread(runs, some, [](const RunoutRun& r) { return r.event.event.path_angle() * degrees; })},
+       spread(runs, some, [](const RunoutRun& r) { return r.event.event.path_angle() / degree; })},
       {"reach_angle_chord_deg",
-       spread(runs, some,
-              [](const RunoutRun& r) { return r.event.event.chord_angle() * degrees; })},
+       spread(runs, some, [](const RunoutRun& r) { return r.event.event.chord_angle() / degree; })},
       {"L95_m", spread(runs, some, [](const RunoutRun& r) { return r.event.mass.length; })},
       {"H95_m", spread(runs, some, [](const RunoutRun& r) { return r.event.mass.height; })},
       {"reach_angle_95_deg",
-       spread(runs, some, [](const RunoutRun& r) { return r.event.mass.angle() * degrees; })},
+       spread(runs, some, [](const RunoutRun& r) { return r.event.mass.angle() / degree; })},
       {"H_cm_over_L_cm", spread(runs, some, [](const RunoutRun& r) {
          return r.event.centre_of_mass.height / r.event.centre_of_mass.path;
        })}};
@@ -97,8 +94,8 @@ Json run_json(const RunoutRun& r, double friction_deg) {
   const EventReach& e = r.event;
   Json centre = line_json(e.centre_of_mass);
   centre["H_over_L"] = number_or_null(e.centre_of_mass.height / e.centre_of_mass.path);
-  centre["atan_sum_mH_over_sum_mL_deg"] = number_or_null(e.sum_angle * degrees);
-  if (std::isfinite(friction_deg)) centre["tan_friction"] = std::tan(friction_deg / degrees);
+  centre["atan_sum_mH_over_sum_mL_deg"] = number_or_null(e.sum_angle / degree);
+  if (std::isfinite(friction_deg)) centre["tan_friction"] = std::tan(friction_deg * degree);
   double max_speed = 0;
   for (const BlockReach& b : e.blocks) max_speed = std::max(max_speed, b.max_speed);
   return {{"run_id", r.member.info.run_id},
@@ -117,7 +114,7 @@ Json run_json(const RunoutRun& r, double friction_deg) {
           {"angle_monotone_along_path", e.moved.any() ? Json(e.profile.monotone) : Json()},
           {"energy_line", energy_line_text(e.profile)},
           {"missing_head_m", e.moved.any() ? Json(e.profile.missing_head) : Json()},
-          {"smallest_angle_along_path_deg", number_or_null(e.profile.smallest * degrees)},
+          {"smallest_angle_along_path_deg", number_or_null(e.profile.smallest / degree)},
           {"smallest_angle_at_m", number_or_null(e.profile.smallest_at)},
           {"centre_of_mass", centre},
           {"max_speed_m_s", max_speed},

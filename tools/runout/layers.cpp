@@ -1,15 +1,12 @@
 #include "tools/runout/layers.hpp"
 
-#include <numbers>
-
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "io/style.hpp"
 #include "post/outline.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 struct MapPlace {
   Vec3 origin;
@@ -58,8 +55,8 @@ VectorLayer deposit_layer_of(const std::vector<RunoutRun>& runs, const MapPlace&
                   b.reach.height,
                   b.reach.path,
                   b.reach.chord,
-                  b.reach.path_angle() * degrees,
-                  b.reach.chord_angle() * degrees,
+                  b.reach.path_angle() / degree,
+                  b.reach.chord_angle() / degree,
                   b.max_speed,
                   b.max_energy / 1e3,
                   r.displacement[b.block]};
@@ -159,10 +156,10 @@ VectorLayer streamline_layer(const std::vector<RunoutRun>& runs, const MapPlace&
                 e.event.height,
                 e.event.path,
                 e.event.chord,
-                e.event.path_angle() * degrees,
-                e.event.chord_angle() * degrees,
+                e.event.path_angle() / degree,
+                e.event.chord_angle() / degree,
                 whole(e.profile.monotone ? 1 : 0),
-                e.profile.smallest * degrees};
+                e.profile.smallest / degree};
     layer.features.push_back(std::move(f));
   }
   return layer;
@@ -225,13 +222,13 @@ std::vector<FieldValue> run_values(const RunoutRun& r) {
           e.height,
           e.path,
           e.chord,
-          e.path_angle() * degrees,
-          e.chord_angle() * degrees,
+          e.path_angle() / degree,
+          e.chord_angle() / degree,
           m.any() ? FieldValue(std::string(text(r.event.toe_fate))) : FieldValue(),
           mass.moved_volume,
           mass.height,
           mass.length,
-          mass.angle() * degrees,
+          mass.angle() / degree,
           whole(mass.n_outliers)};
 }
 

@@ -2,11 +2,11 @@
 // What the joint sets of a site offer a mass to leave on, before anything is cut. Page:
 // docs/tools/talus-source.md
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "io/raster_gdal.hpp"
 #include "tools/frame/failure_outlines.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
@@ -18,8 +18,6 @@
 namespace {
 
 using namespace talus;  // NOLINT: a program of its own
-
-constexpr double degree = std::numbers::pi / 180;
 
 const std::vector<double> shares_of_foot = {1, 0.95, 0.9, 0.75, 0.5};
 

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/processor_time.hpp"
+#include "base/units.hpp"
 #include "motion/rotation.hpp"
 #include "run/law.hpp"
 #include "verify/cases/closed_form.hpp"
@@ -17,7 +17,6 @@
 namespace talus::cases {
 
 inline constexpr double g = 10;  // [m/s2]
-inline constexpr double degree = std::numbers::pi / 180;
 
 /// What reading the processor's clock takes by itself, at least: no part of a case, some of which
 /// take a few microseconds [s].

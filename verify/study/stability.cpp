@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/report.hpp"
 #include "verify/cases/block_cases.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 using namespace cases;
 
-constexpr double g = 10, degree = std::numbers::pi / 180;
+constexpr double g = 10;
 
 // Mechanical energy and what has been dissipated or is stored in contacts: constant but for what
 // the numbers add.

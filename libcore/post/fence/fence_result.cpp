@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "post/statistics.hpp"
 #include "record/pieces.hpp"
 
@@ -14,7 +14,6 @@ namespace talus {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double degrees = 180 / std::numbers::pi;
 
 std::vector<FenceArrival> only(const std::vector<FenceArrival>& list, int FenceArrival::*member,
                                int value) {
@@ -201,7 +200,7 @@ GroundBehind ground_behind(const FenceRunGroup& group, std::size_t fence) {
     ++out.n_moved;
     weight_moved += run.run_weight;
     out.path += run.run_weight * run.event.path;
-    out.path_angle_deg += run.run_weight * run.event.path_angle() * degrees;
+    out.path_angle_deg += run.run_weight * run.event.path_angle() / degree;
     out.centre_of_mass_path += run.run_weight * run.centre.path;
   }
   for (double* sum : {&out.path, &out.path_angle_deg, &out.centre_of_mass_path})

@@ -7,13 +7,13 @@
 #include <span>
 
 #include "base/error.hpp"
+#include "base/units.hpp"
 #include "post/percentile_bounds.hpp"
 
 namespace talus {
 namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
-constexpr double degrees = 180 / std::numbers::pi;
 
 // How a quantity is read from a passage, and what its bands say.
 struct QuantityText {
@@ -331,7 +331,7 @@ MapLayer energy_line_layer(const CellRows& cells) {
   out.overview = OverviewValue::smallest;
   for (std::size_t i = 0; i < cells.cell.size(); ++i)
     for (const MapRow& row : rows_of(cells, i))
-      out.value[i] = std::fmin(out.value[i], static_cast<float>(row.travel_angle * degrees));
+      out.value[i] = std::fmin(out.value[i], static_cast<float>(row.travel_angle / degree));
   layer.bands.push_back(std::move(out));
   return layer;
 }

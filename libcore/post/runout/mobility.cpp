@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 
 namespace talus {
 namespace {
@@ -156,7 +157,7 @@ MobilityRow compare(const MobilityRelation& r, const MobilityEvent& event) {
       break;
     }
     case MobilityKind::angle:
-      row.length = event.height / std::tan(r.a * std::numbers::pi / 180);
+      row.length = event.height / std::tan(r.a * degree);
       break;
   }
   row.ratio = event.length / row.length;

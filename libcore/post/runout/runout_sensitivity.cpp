@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/csv.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "sampling/sensitivity.hpp"
 
 namespace talus {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double degrees = 180 / std::numbers::pi;
 
 // A number a run; NaN where the run has none.
 struct Column {
@@ -74,7 +73,7 @@ std::vector<Column> results_of(const std::vector<RunoutRun>& runs) {
   std::vector<Column> columns = {
       column("L_path_m", runs, if_moved([](const EventReach& e) { return e.event.path; })),
       column("reach_angle_path_deg", runs,
-             if_moved([](const EventReach& e) { return e.event.path_angle() * degrees; })),
+             if_moved([](const EventReach& e) { return e.event.path_angle() / degree; })),
       column("L95_m", runs, if_moved([](const EventReach& e) { return e.mass.length; })),
       column("share_moved_1_m", runs, [](const RunoutRun& run) { return run.event.moved.share; })};
   for (const LineReach& line : runs.front().lines) {

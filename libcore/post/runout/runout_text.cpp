@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 #include "base/csv.hpp"
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // "101 to 103": smallest and largest of the runs that moved.
 template <class Value>
@@ -47,11 +45,11 @@ std::string name_of(const RunoutRun& run, const std::vector<RunoutRun>& runs) {
 std::string reach_of_runs(const std::vector<RunoutRun>& runs) {
   const auto height = [](const RunoutRun& r) { return r.event.event.height; };
   const auto path = [](const RunoutRun& r) { return r.event.event.path; };
-  const auto angle = [](const RunoutRun& r) { return r.event.event.path_angle() * degrees; };
+  const auto angle = [](const RunoutRun& r) { return r.event.event.path_angle() / degree; };
   const auto n = static_cast<std::size_t>(n_moved(runs));
   const RunoutRun& farthest = *farthest_run(runs);
   const auto length_95 = [](const RunoutRun& r) { return r.event.mass.length; };
-  const auto angle_95 = [](const RunoutRun& r) { return r.event.mass.angle() * degrees; };
+  const auto angle_95 = [](const RunoutRun& r) { return r.event.mass.angle() / degree; };
   return "run-out of " + counted(static_cast<std::int64_t>(n), "run") +
          (n < runs.size() ? " that moved" : "") + ": H " + range_of(runs, height) + " m, L " +
          range_of(runs, path) + " m along the path, angle of reach " + range_of(runs, angle) +
@@ -64,8 +62,8 @@ std::string reach_of_run(const std::string& run_id, const EventReach& reach) {
   const ReachLine& e = reach.event;
   const std::string out = "run-out of run " + run_id + ": H " + grouped_text(e.height) + " m, L " +
                           grouped_text(e.path) + " m along the path (" + grouped_text(e.chord) +
-                          " m straight), angle of reach " + text(e.path_angle() * degrees, 3) +
-                          " deg (" + text(e.chord_angle() * degrees, 3) + " deg)" +
+                          " m straight), angle of reach " + text(e.path_angle() / degree, 3) +
+                          " deg (" + text(e.chord_angle() / degree, 3) + " deg)" +
                           unsettled_toe(reach);
   const std::string line = energy_line_text(reach.profile);
   const std::string mass = "\n" + text(reach.mass);
@@ -100,15 +98,15 @@ constexpr RunColumn run_columns[] = {
     {"L_path_m", true, [](Run r) { return text(r.event.event.path, 9); }},
     {"L_chord_m", true, [](Run r) { return text(r.event.event.chord, 9); }},
     {"reach_angle_path_deg", true,
-     [](Run r) { return text(r.event.event.path_angle() * degrees, 9); }},
+     [](Run r) { return text(r.event.event.path_angle() / degree, 9); }},
     {"reach_angle_chord_deg", true,
-     [](Run r) { return text(r.event.event.chord_angle() * degrees, 9); }},
+     [](Run r) { return text(r.event.event.chord_angle() / degree, 9); }},
     {"toe_block", true, [](Run r) { return std::to_string(r.event.toe_block); }},
     {"toe_fate", true, [](Run r) { return std::string(text(r.event.toe_fate)); }},
     {"moved_volume_m3", true, [](Run r) { return text(r.event.mass.moved_volume, 7); }},
     {"H95_m", true, [](Run r) { return text(r.event.mass.height, 7); }},
     {"L95_m", true, [](Run r) { return text(r.event.mass.length, 7); }},
-    {"reach_angle_95_deg", true, [](Run r) { return text(r.event.mass.angle() * degrees, 7); }},
+    {"reach_angle_95_deg", true, [](Run r) { return text(r.event.mass.angle() / degree, 7); }},
     {"blocks_beyond_L95", true, [](Run r) { return std::to_string(r.event.mass.n_beyond); }},
     {"share_beyond_L95", true, [](Run r) { return text(r.event.mass.beyond_share, 7); }},
     {"toe_share", true, [](Run r) { return text(r.event.mass.toe_share, 7); }},
@@ -150,22 +148,22 @@ std::string standing_runs(const std::vector<RunoutRun>& runs) {
 }
 
 std::string energy_line_text(const AngleProfile& profile) {
-  constexpr double matters = 1 / degrees;
+  constexpr double matters = degree;
   const double at_toe = profile.at_end();
   if (!(at_toe - profile.smallest >= matters)) return "";
   return "energy line: the ground flattens at " + grouped_text(profile.smallest_at) +
          " m from where the farthest block started and is steeper again beyond. A line of " +
-         text(at_toe * degrees, 3) +
+         text(at_toe / degree, 3) +
          " deg (start to toe) ends there; a model that works with a "
          "line reaches the toe with " +
-         text(profile.smallest * degrees, 3) + " deg";
+         text(profile.smallest / degree, 3) + " deg";
 }
 
 std::string text(const MassReach& reach) {
   const auto percent = [](double share) { return text(100 * share, 2) + " %"; };
   std::string words = percent(reach_share) + " of what moved came within " +
                       grouped_text(reach.length) + " m of its top, " + grouped_text(reach.height) +
-                      " m below (" + text(reach.angle() * degrees, 3) + " deg)";
+                      " m below (" + text(reach.angle() / degree, 3) + " deg)";
   if (reach.n_beyond > 0)
     words += "; " + counted(reach.n_beyond, "block") + ", " + percent(reach.beyond_share) +
              " of it, went farther, the farthest is " + percent(reach.toe_share) + " of it";
@@ -184,7 +182,7 @@ std::string cases_text(const std::vector<RunoutRun>& runs) {
     const Spread mass_length =
         spread_over(runs, one.runs, [](const RunoutRun& r) { return r.event.mass.length; });
     const Spread angle = spread_over(
-        runs, one.runs, [](const RunoutRun& r) { return r.event.event.path_angle() * degrees; });
+        runs, one.runs, [](const RunoutRun& r) { return r.event.event.path_angle() / degree; });
     const std::size_t n_events = events_among(runs, one.runs).size();
     lines += "\ncase " + (one.name.empty() ? std::string("without a name") : one.name) + ": " +
              std::to_string(length.n) + " of " +
@@ -243,8 +241,8 @@ std::string block_csv(const std::vector<RunoutRun>& runs) {
       out += csv_line({r.member.info.run_id, std::to_string(b.block), text(b.fate),
                        text(r.volume[b.block], 9), text(r.mass[b.block], 9),
                        text(b.reach.height, 9), text(b.reach.path, 9), text(b.reach.chord, 9),
-                       text(b.reach.path_angle() * degrees, 7),
-                       text(b.reach.chord_angle() * degrees, 7), text(b.max_speed, 7),
+                       text(b.reach.path_angle() / degree, 7),
+                       text(b.reach.chord_angle() / degree, 7), text(b.max_speed, 7),
                        text(b.max_energy / 1e3, 7), text(r.displacement[b.block], 7)});
   return out;
 }

@@ -5,13 +5,12 @@
 #include <vector>
 
 #include "base/random.hpp"
+#include "base/units.hpp"
 #include "blocks/joint_sets.hpp"
 #include "blocks/source.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus::test {
-
-inline constexpr double degree = std::numbers::pi / 180;
 
 /// n x n nodes; z(x, y) by `height`.
 template <class Height>

@@ -3,13 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.hpp"
 #include "sampling/distribution.hpp"
 
 namespace {
 
 using namespace talus;  // NOLINT: a test
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 struct Moments {
   double mean = 0, std = 0;
@@ -93,9 +92,9 @@ TEST(Distribution, DiscreteValuesComeAsOftenAsTheirWeights) {
 // K = 40: half of the directions within 10.682 degrees, 95 % within 22.316; mean cosine coth K -
 // 1/K.
 TEST(Distribution, FisherAnglesHaveTheirClosedForm) {
-  EXPECT_NEAR(fisher_draw(40, 0.5, 0).angle * degrees, 10.682, 5e-4);
-  EXPECT_NEAR(fisher_draw(40, 1 - 0.95, 0).angle * degrees, 22.316, 5e-4);
-  EXPECT_NEAR(fisher_draw(40, 0.5, 0.25).azimuth * degrees, 90, 1e-12);
+  EXPECT_NEAR(fisher_draw(40, 0.5, 0).angle / degree, 10.682, 5e-4);
+  EXPECT_NEAR(fisher_draw(40, 1 - 0.95, 0).angle / degree, 22.316, 5e-4);
+  EXPECT_NEAR(fisher_draw(40, 0.5, 0.25).azimuth / degree, 90, 1e-12);
   for (const double k : {0.5, 3.0, 40.0, 1951.0, 1e6}) {
     double sum = 0;
     constexpr int n = 20000;
@@ -109,9 +108,9 @@ TEST(Distribution, FisherAnglesHaveTheirClosedForm) {
 // degrees; n = 20 gives 781 and 5.02.
 TEST(Distribution, TheMeanOfManyPolesIsSurerThanOne) {
   EXPECT_NEAR(concentration_of_mean(40, 50), 1951, 0.5);
-  EXPECT_NEAR(cone_95(concentration_of_mean(40, 50)) * degrees, 3.18, 5e-3);
+  EXPECT_NEAR(cone_95(concentration_of_mean(40, 50)) / degree, 3.18, 5e-3);
   EXPECT_NEAR(concentration_of_mean(40, 20), 781, 0.5);
-  EXPECT_NEAR(cone_95(concentration_of_mean(40, 20)) * degrees, 5.02, 5e-3);
+  EXPECT_NEAR(cone_95(concentration_of_mean(40, 20)) / degree, 5.02, 5e-3);
 }
 
 }  // namespace

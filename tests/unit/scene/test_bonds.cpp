@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <tuple>
 #include <vector>
 
+#include "base/units.hpp"
 #include "scene/fence.hpp"
 #include "step/step.hpp"
 #include "verify/cases/cases.hpp"
@@ -14,8 +14,6 @@ namespace {
 
 using namespace talus;
 using namespace talus::cases;
-
-constexpr double degree = std::numbers::pi / 180;
 
 // A cube on a slab that holds to the ground, their common faces made by joint set 0.
 Scene cube_on_slab(double dip_deg, const GroundClass& set) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "base/units.hpp"
 #include "scene/fence.hpp"
 #include "step/step.hpp"
 #include "verify/cases/cases.hpp"
@@ -14,7 +15,6 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double cube_mass = 2500;
 
 Body cube_at(const Vec3& low, const Vec3& velocity) {

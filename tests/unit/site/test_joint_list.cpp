@@ -1,19 +1,17 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/units.hpp"
 #include "blocks/joint_sets.hpp"
 #include "site/joint_list.hpp"
 
 namespace {
 
 using namespace talus;
-
-constexpr double degree = std::numbers::pi / 180;
 
 // Dip direction and dip of the poles of a list, in degrees.
 std::vector<std::array<double, 2>> read(const std::string& text,

@@ -2,17 +2,15 @@
 
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <sstream>
 
+#include "base/units.hpp"
 #include "site/joint_list.hpp"
 #include "site/joint_plan.hpp"
 
 namespace {
 
 using namespace talus;
-
-constexpr double degree = std::numbers::pi / 180;
 
 std::string refusal(const std::string& text) {
   try {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 
+#include "base/units.hpp"
 #include "blocks/joint_sets.hpp"
 #include "site/uncertainty.hpp"
 
@@ -146,7 +146,6 @@ TEST(Uncertainty, RockKeysAreDrawnOnceForEachRockMass) {
 TEST(Uncertainty, OrientationsScatterAroundTheMeanOfWhatWasMeasured) {
   Site site = site_of(whole);
   site.uncertainty.rock_masses = 400;
-  const double degree = std::numbers::pi / 180;
   const Vec3 mean = pole(44 * degree, 144 * degree);
   int n_within = 0;
   double sum = 0;

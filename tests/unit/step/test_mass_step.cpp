@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <sstream>
 
 #include "base/random.hpp"
+#include "base/units.hpp"
 #include "base/workers.hpp"
 #include "contact/shapes.hpp"
 #include "scene/fence.hpp"
@@ -24,7 +24,7 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-constexpr double degree = std::numbers::pi / 180, g = 10;
+constexpr double g = 10;
 
 Settings with_masses(bool masses, double dt = 0.005) {
   Settings settings;

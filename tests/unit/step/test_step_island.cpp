@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/random.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "motion/rotation.hpp"
 #include "step/step.hpp"
 #include "step/substep.hpp"
@@ -16,8 +16,6 @@ namespace {
 
 using namespace talus;
 using namespace talus::cases;
-
-constexpr double degree = std::numbers::pi / 180;
 
 GroundClass rough(double phi_deg, double restitution = 0) {
   GroundClass ground;

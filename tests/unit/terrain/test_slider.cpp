@@ -2,16 +2,14 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "terrain/slider.hpp"
 #include "terrain/smooth.hpp"
 
 namespace {
 
 using namespace talus;
-
-constexpr double degree = std::numbers::pi / 180;
 
 template <class Height>
 Trn grid(int n, double cell, Height height) {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "step/step.hpp"
 #include "verify/cases/blocky_slope.hpp"
 #include "verify/cases/cases.hpp"
@@ -11,8 +11,6 @@ namespace {
 
 using namespace talus;
 using namespace talus::cases;
-
-constexpr double degree = std::numbers::pi / 180;
 
 State run(const Scene& scene, double time) {
   State state = start(scene);
