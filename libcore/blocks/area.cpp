@@ -70,8 +70,7 @@ InputError crossing(const Segment& s, const Segment& t, const Vec3& origin, cons
 // Of an outline that crosses itself the two halves may cancel: its area says nothing.
 bool are_in_line(const std::vector<Vec2>& ring) {
   for (const Vec2& p : ring) {
-    const Vec2 along = ring[1] - ring[0], to = p - ring[0];
-    if (along.x() * to.y() - along.y() * to.x() != 0) return false;
+    if (cross(ring[1] - ring[0], p - ring[0]) != 0) return false;
   }
   return true;
 }

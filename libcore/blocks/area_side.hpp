@@ -4,11 +4,9 @@
 
 #include <cmath>
 
-#include "base/types.hpp"
+#include "geometry/plan2d.hpp"
 
 namespace talus {
-
-inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Within a billionth of its length.
 inline bool on_segment(const Vec2& a, const Vec2& b, const Vec2& p) {
@@ -21,11 +19,5 @@ inline bool on_segment(const Vec2& a, const Vec2& b, const Vec2& p) {
 
 /// How far from a segment on_segment() may hold, and more.
 inline double reach_of(const Vec2& a, const Vec2& b) { return 2e-9 * (b - a).norm(); }
-
-/// The ray to the east from `p` crosses the side.
-inline bool is_left_of(const Vec2& a, const Vec2& b, const Vec2& p) {
-  if ((a.y() > p.y()) == (b.y() > p.y())) return false;
-  return p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-}
 
 }  // namespace talus

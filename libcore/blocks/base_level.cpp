@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "blocks/failure_plane.hpp"
+#include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
@@ -16,9 +17,9 @@ Vec2 centre_of(const Area& area) {
   for (const auto& ring : area.rings)
     for (size_t k = 0; k < ring.size(); ++k) {
       const Vec2 a = ring[k] - zero, b = ring[(k + 1) % ring.size()] - zero;
-      const double cross = a.x() * b.y() - a.y() * b.x();
-      twice += cross;
-      sum += cross * (a + b) / 3;
+      const double parallelogram = cross(a, b);
+      twice += parallelogram;
+      sum += parallelogram * (a + b) / 3;
     }
   return twice != 0 ? Vec2(zero + sum / twice) : zero;
 }

@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
@@ -27,7 +28,7 @@ double signed_area(const std::vector<Vec2>& ring) {
   double twice = 0;
   for (size_t k = 0; k < ring.size(); ++k) {
     const Vec2 a = ring[k] - ring[0], b = ring[(k + 1) % ring.size()] - ring[0];
-    twice += a.x() * b.y() - a.y() * b.x();
+    twice += cross(a, b);
   }
   return twice / 2;
 }

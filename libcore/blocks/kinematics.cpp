@@ -11,6 +11,7 @@
 #include "base/units.hpp"
 #include "blocks/area_clip.hpp"
 #include "blocks/removability.hpp"
+#include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
@@ -23,7 +24,7 @@ double area_of_ring(const std::vector<Vec2>& ring) {
   double twice = 0;
   for (size_t k = 1; k + 1 < ring.size(); ++k) {
     const Vec2 a = ring[k] - ring[0], b = ring[k + 1] - ring[0];
-    twice += a.x() * b.y() - a.y() * b.x();
+    twice += cross(a, b);
   }
   return std::abs(twice) / 2;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "blocks/area_clip.hpp"
+#include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
@@ -39,7 +40,7 @@ double volume_under(const std::vector<Vec2>& ring, const Incline& height) {
   double volume = 0;
   for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
     const Vec2 a = ring[k] - ring[0], b = ring[k + 1] - ring[0];
-    const double area = (a.x() * b.y() - a.y() * b.x()) / 2;
+    const double area = cross(a, b) / 2;
     volume += area * (height(ring[0]) + height(ring[k]) + height(ring[k + 1])) / 3;
   }
   return volume;

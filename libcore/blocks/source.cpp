@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "blocks/area_clip.hpp"
 #include "blocks/prepared_area.hpp"
+#include "geometry/plan2d.hpp"
 #include "terrain/extent_text.hpp"
 
 namespace talus {
@@ -212,7 +213,7 @@ RingMeasure measure_convex(const std::vector<Vec2>& ring) {
   Vec2 moment = Vec2::Zero();
   for (size_t k = 1; k + 1 < ring.size(); ++k) {
     const Vec2 a = ring[k] - ring[0], b = ring[k + 1] - ring[0];
-    const double area = (a.x() * b.y() - a.y() * b.x()) / 2;
+    const double area = cross(a, b) / 2;
     measure.area += area;
     moment += area * (a + b) / 3;
   }

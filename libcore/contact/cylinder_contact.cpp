@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/plan2d.hpp"
+
 namespace talus {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double same = 1e-9;         // [radius of the body]
 constexpr double hardly_more = 0.05;  // farther than the nearest point, of the part's thickness
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // The point of a segment that is nearest to the origin.
 Vec2 nearest_of(const Vec2& a, const Vec2& b) {

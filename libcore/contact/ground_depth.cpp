@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/plan2d.hpp"
 #include "terrain/trn_pyramid.hpp"
 
 namespace talus {
@@ -24,12 +25,6 @@ void for_each_triangle(const Trn& trn, const Vec3& low, const Vec3& high, double
       for (const int triangle : {first, first + 1})
         if (is_known(trn, triangle)) visit(triangle_corners(trn, triangle));
     }
-}
-
-double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
-  const Vec3 along = b - a;
-  const double t = std::clamp(along.dot(x - a) / along.squaredNorm(), 0.0, 1.0);
-  return (x - a - t * along).norm();
 }
 
 // Of a triangle that is not vertical.

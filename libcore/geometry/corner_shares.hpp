@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "base/types.hpp"
+#include "geometry/plan2d.hpp"
 
 namespace talus {
 
@@ -15,19 +15,18 @@ namespace talus {
 template <class At, class Take>
 double share_area(std::size_t n, const At& at, const Take& take) {
   if (n < 3) return 0;
-  const auto twice = [](const Vec2& p, const Vec2& q) { return p.x() * q.y() - p.y() * q.x(); };
   double sum = 0;
   Vec2 centre = Vec2::Zero();
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const Vec2 p = at(i) - at(0), q = at(i + 1) - at(0);
-    sum += twice(p, q);
-    centre += twice(p, q) * (p + q);
+    sum += cross(p, q);
+    centre += cross(p, q) * (p + q);
   }
   if (!(sum > 0)) return 0;
   centre = at(0) + centre / (3 * sum);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t next = i + 1 == n ? 0 : i + 1;
-    const double area = twice(at(i) - centre, at(next) - centre) / 4;
+    const double area = cross(at(i) - centre, at(next) - centre) / 4;
     take(i, area);
     take(next, area);
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "geometry/orient2d.hpp"
+#include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
@@ -173,8 +174,7 @@ SegmentMeetings find_segment_meetings(const std::vector<Vec2>& points,
 
 double crossing_share(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Vec2 along = b - a, other = d - c, gap = c - a;
-  return (gap.x() * other.y() - gap.y() * other.x()) /
-         (along.x() * other.y() - along.y() * other.x());
+  return cross(gap, other) / cross(along, other);
 }
 
 }  // namespace talus

@@ -15,6 +15,7 @@
 #include "base/error.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
@@ -418,7 +419,7 @@ void turn_clockwise_triangles(Tin& tin) {
   for (auto& [a, b, c] : tin.triangles) {
     const Vec3 u = tin.points[b] - tin.points[a];
     const Vec3 v = tin.points[c] - tin.points[a];
-    if (u.x() * v.y() - u.y() * v.x() < 0) std::swap(b, c);
+    if (cross(u.head<2>(), v.head<2>()) < 0) std::swap(b, c);
   }
 }
 

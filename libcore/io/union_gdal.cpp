@@ -6,14 +6,13 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "geometry/plan2d.hpp"
 #include "io/polygons_gdal.hpp"
 
 namespace talus {
 namespace {
 
 using Ring = std::vector<Vec2>;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 bool is_between(const Vec2& a, const Vec2& p, const Vec2& b, double tolerance) {
   const Vec2 along = b - a;

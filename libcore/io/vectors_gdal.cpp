@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "geometry/plan2d.hpp"
 #include "io/areas_gdal.hpp"
 #include "io/contour_layer_gdal.hpp"
 #include "io/crs_gdal.hpp"
@@ -131,7 +132,7 @@ double area_of_ring(const std::vector<Vec3>& ring) {
   double twice = 0;
   for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
     const Vec2 a = (ring[k] - ring[0]).head<2>(), b = (ring[k + 1] - ring[0]).head<2>();
-    twice += a.x() * b.y() - a.y() * b.x();
+    twice += cross(a, b);
   }
   return std::abs(twice) / 2;
 }

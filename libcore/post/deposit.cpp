@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/convex_outline.hpp"
+#include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
@@ -34,7 +35,7 @@ double volume_below(const Corners& polygon) {
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     const Vec3 &a = polygon[0], &b = polygon[i], &c = polygon[i + 1];
     const Vec2 u = (b - a).head<2>(), v = (c - a).head<2>();
-    sum += (u.x() * v.y() - u.y() * v.x()) / 2 * (a.z() + b.z() + c.z()) / 3;
+    sum += cross(u, v) / 2 * (a.z() + b.z() + c.z()) / 3;
   }
   return sum;
 }

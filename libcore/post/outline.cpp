@@ -4,6 +4,8 @@
 #include <array>
 #include <map>
 
+#include "geometry/plan2d.hpp"
+
 namespace talus {
 namespace {
 
@@ -119,7 +121,7 @@ class Tracer {
     double sum = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      sum += a.x() * b.y() - a.y() * b.x();
+      sum += cross(a, b);
     }
     return sum;
   }

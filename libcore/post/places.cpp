@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/plan2d.hpp"
 #include "post/deposit.hpp"
 
 namespace talus {
@@ -27,12 +28,7 @@ bool meets_box(const Vec2& a, const Vec2& b, const Vec2& low, const Vec2& high) 
 bool is_inside(const PlaceRings& rings, const Vec2& point) {
   bool inside = false;
   for (const std::vector<Vec2>& ring : rings)
-    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-      const Vec2 &a = ring[i], &b = ring[j];
-      if ((a.y() > point.y()) != (b.y() > point.y()) &&
-          point.x() < (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y()) + a.x())
-        inside = !inside;
-    }
+    if (talus::is_inside(ring, point)) inside = !inside;
   return inside;
 }
 

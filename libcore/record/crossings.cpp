@@ -7,14 +7,13 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "geometry/plan2d.hpp"
 #include "motion/rotation.hpp"
 #include "record/motion.hpp"
 #include "terrain/extent_text.hpp"
 
 namespace talus {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Segment i of a line as start + w * direction; w runs over 0..1, and on beyond both ends of the
 // line in its first and last segment.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/plan2d.hpp"
 #include "record/footprint_cells.hpp"
 
 namespace talus {
@@ -13,30 +14,10 @@ namespace {
 constexpr double touch_gap = 1e-3;  // [m]
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-double distance(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 d = b - a;
-  const double length_sq = d.squaredNorm();
-  const double w = length_sq > 0 ? std::clamp((p - a).dot(d) / length_sq, 0.0, 1.0) : 0;
-  return (a + w * d - p).norm();
-}
-
 bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const double s1 = cross(b - a, c - a), s2 = cross(b - a, d - a);
   const double s3 = cross(d - c, a - c), s4 = cross(d - c, b - c);
   return s1 * s2 < 0 && s3 * s4 < 0;
-}
-
-// Even-odd.
-bool contains(const std::vector<Vec2>& ring, const Vec2& p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-    if ((ring[i].y() > p.y()) != (ring[j].y() > p.y()) &&
-        p.x() < ring[i].x() + (p.y() - ring[i].y()) / (ring[j].y() - ring[i].y()) *
-                                  (ring[j].x() - ring[i].x()))
-      inside = !inside;
-  return inside;
 }
 
 // Calls visit(a, b) for each side; a point is a side of no length.
@@ -49,22 +30,24 @@ void for_each_side(const ObjectPart& part, Visit&& visit) {
 }
 
 double distance_to(const ObjectPart& part, const Vec2& p) {
-  if (part.is_area && contains(part.points, p)) return 0;
+  if (part.is_area && is_inside(part.points, p)) return 0;
   double least = infinity;
-  for_each_side(part,
-                [&](const Vec2& a, const Vec2& b) { least = std::min(least, distance(p, a, b)); });
+  for_each_side(part, [&](const Vec2& a, const Vec2& b) {
+    least = std::min(least, distance_to_segment(p, a, b));
+  });
   return least;
 }
 
 double distance_to(const ObjectPart& part, const std::vector<Vec2>& convex) {
-  if (part.is_area && contains(part.points, convex[0])) return 0;
-  if (contains(convex, part.points[0])) return 0;
+  if (part.is_area && is_inside(part.points, convex[0])) return 0;
+  if (is_inside(convex, part.points[0])) return 0;
   double least = infinity;
   for_each_side(part, [&](const Vec2& a, const Vec2& b) {
     for (std::size_t i = 0, j = convex.size() - 1; i < convex.size(); j = i++) {
       if (meet(convex[j], convex[i], a, b)) least = 0;
-      least = std::min({least, distance(convex[i], a, b), distance(a, convex[j], convex[i]),
-                        distance(b, convex[j], convex[i])});
+      least = std::min({least, distance_to_segment(convex[i], a, b),
+                        distance_to_segment(a, convex[j], convex[i]),
+                        distance_to_segment(b, convex[j], convex[i])});
     }
   });
   return least;

@@ -8,6 +8,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "geometry/plan2d.hpp"
 #include "report/chart.hpp"
 #include "report/encode.hpp"
 #include "report/map_marks.hpp"
@@ -280,11 +281,11 @@ std::vector<std::pair<double, double>> fences_across(const CheckView& view, cons
     const Vec2 a = view.section[k], step = view.section[k + 1] - a;
     for (size_t i = 0; i + 1 < posts.size(); ++i) {
       const Vec2 b = posts[i].head<2>(), side = posts[i + 1].head<2>() - b;
-      const double cross = step.x() * side.y() - step.y() * side.x();
-      if (cross == 0) continue;
+      const double turn = cross(step, side);
+      if (turn == 0) continue;
       const Vec2 d = b - a;
-      const double s = (d.x() * side.y() - d.y() * side.x()) / cross;
-      const double t = (d.x() * step.y() - d.y() * step.x()) / cross;
+      const double s = cross(d, side) / turn;
+      const double t = cross(d, step) / turn;
       if (s < 0 || s >= 1 || t < 0 || t > 1) continue;
       const Vec2 p = a + s * step;
       found.emplace_back(before + s * step.norm(), elevation_at(ground, p.x(), p.y()));

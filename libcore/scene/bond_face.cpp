@@ -7,13 +7,12 @@
 #include <numeric>
 
 #include "geometry/convex_outline.hpp"
+#include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
-
-double planar_cross(const Vec2& p, const Vec2& q) { return p.x() * q.y() - p.y() * q.x(); }
 
 /// The corners of a bonded face in its plane.
 struct PlaneFace {
@@ -126,15 +125,15 @@ void add_pieces(const BondFace& face, const PlaneFace& plane, int n_parts,
   double twice = 0;
   Vec2 centre = Vec2::Zero();
   for (size_t i = 1; i + 1 < n; ++i) {
-    const double part = planar_cross(at(i) - at(0), at(i + 1) - at(0));
+    const double part = cross(at(i) - at(0), at(i + 1) - at(0));
     twice += part;
     centre += part / 3 * (at(0) + at(i) + at(i + 1));
   }
   if (twice > 0) centre /= twice;
   for (size_t i = 0; i < n; ++i) {
     const Vec2 before = (at(i + n - 1) + at(i)) / 2, after = (at(i) + at(i + 1)) / 2;
-    const double first = planar_cross(before - centre, at(i) - centre),
-                 second = planar_cross(at(i) - centre, after - centre);
+    const double first = cross(before - centre, at(i) - centre),
+                 second = cross(at(i) - centre, after - centre);
     const double all = strength(face.corners[ring[i]]);
     if (!(twice > 0) || !(first + second > 0)) {
       pieces.push_back({at(i), all});
@@ -181,7 +180,7 @@ bool holds_shear_force(const BondFace& face, const PlaneFace& plane) {
   Vec3 load = Vec3::Zero();
   double all = 0;
   for (size_t k = 0; k < plane.at.size(); ++k) {
-    load += Vec3(plane.shear[k].x(), plane.shear[k].y(), planar_cross(plane.at[k], plane.shear[k]));
+    load += Vec3(plane.shear[k].x(), plane.shear[k].y(), cross(plane.at[k], plane.shear[k]));
     all += plane.shear[k].norm();
   }
   if (!(all > 0)) return true;

@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
 
 namespace talus {
@@ -48,16 +49,10 @@ Dip dip_between(const Trn& trn, const Vec3& a, const Vec3& b) {
   return dip;
 }
 
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 along = b - a;
-  const double length_sq = along.squaredNorm();
-  const double share = length_sq > 0 ? std::clamp((p - a).dot(along) / length_sq, 0.0, 1.0) : 0.0;
-  return (p - a - share * along).norm();
-}
-
 bool is_on(const Vec2& p, const std::vector<Vec3>& line) {
   for (std::size_t i = 0; i + 1 < line.size(); ++i)
-    if (distance_to_segment(p, line[i].head<2>(), line[i + 1].head<2>()) <= same_place) return true;
+    if (distance_to_segment<Vec2>(p, line[i].head<2>(), line[i + 1].head<2>()) <= same_place)
+      return true;
   return false;
 }
 

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/plan2d.hpp"
+
 namespace talus {
 namespace {
 
@@ -31,8 +33,7 @@ LineBeside look(const Polylines& lines, int line, const Vec2& label) {
   const bool is_ring = point(begin) == point(end - 1);
   for (int i = begin; i + 1 < end; ++i) {
     const Vec2 a = point(i), d = point(i + 1) - a;
-    const double share =
-        d.squaredNorm() > 0 ? std::clamp((label - a).dot(d) / d.squaredNorm(), 0.0, 1.0) : 0;
+    const double share = share_along_segment<Vec2>(label, a, point(i + 1));
     const double distance = (label - a - share * d).norm();
     if (!(distance < beside.distance)) continue;
     beside.distance = distance;

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
 
 namespace talus {
@@ -178,8 +179,8 @@ SegmentMeetings find_meetings(const Network& network) {
 }
 
 double share_along(const Network& network, const Segment& s, const Vec2& place) {
-  const Vec2 a = plan(network.points[index(s.a)]), b = plan(network.points[index(s.b)]);
-  return std::clamp((place - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return share_along_segment<Vec2>(place, plan(network.points[index(s.a)]),
+                                   plan(network.points[index(s.b)]));
 }
 
 double height_along(const Network& network, const Segment& s, double share) {

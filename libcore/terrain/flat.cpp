@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "geometry/plan2d.hpp"
 #include "terrain/contours.hpp"
 #include "terrain/lattice.hpp"
 #include "terrain/plate.hpp"
@@ -29,7 +30,7 @@ double plan_area(const TriangleMesh& mesh, std::size_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
   const Vec3 u = mesh.points[index(b)] - mesh.points[index(a)];
   const Vec3 v = mesh.points[index(c)] - mesh.points[index(a)];
-  return (u.x() * v.y() - u.y() * v.x()) / 2;
+  return cross(u.head<2>(), v.head<2>()) / 2;
 }
 
 double slope(const TriangleMesh& mesh, std::size_t t) {

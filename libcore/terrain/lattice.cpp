@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/plan2d.hpp"
+
 namespace talus {
 namespace {
 
@@ -144,9 +146,8 @@ double height_in_triangle(const TriangleMesh& mesh, int t, const Vec2& place) {
   const Vec3& origin = mesh.points[index(a)];
   const Vec3 u = mesh.points[index(b)] - origin, v = mesh.points[index(c)] - origin;
   const Vec2 w = place - origin.head<2>();
-  const double area = u.x() * v.y() - u.y() * v.x();
-  const double share_b = (w.x() * v.y() - w.y() * v.x()) / area;
-  const double share_c = (u.x() * w.y() - u.y() * w.x()) / area;
+  const double area = cross(u.head<2>(), v.head<2>());
+  const double share_b = cross(w, v.head<2>()) / area, share_c = cross(u.head<2>(), w) / area;
   return origin.z() + share_b * u.z() + share_c * v.z();
 }
 

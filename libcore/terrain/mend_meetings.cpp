@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
 
 namespace talus {
@@ -20,8 +21,6 @@ constexpr double gap_share = 0.05;  // of the tolerance: what lines that met sta
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // One contour in plan. A closed one does not repeat its first point.
 struct PlanLine {
@@ -191,7 +190,7 @@ Nearest nearest_on(const PlanLine& line, const Vec2& p) {
   for (int s = 0; s < line.n_segments(); ++s) {
     const Vec2 &a = line.at(s), d = line.at(s + 1) - a;
     if (d.squaredNorm() == 0) continue;
-    const double share = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
+    const double share = share_along_segment<Vec2>(p, a, line.at(s + 1));
     const Vec2 place = a + share * d;
     const double distance = (p - place).norm();
     if (!(distance < nearest.distance)) continue;

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
 
 namespace talus {
@@ -50,8 +51,7 @@ class RingBands {
     for (const auto& [a, b, polygon] : bands_[band_of(p.y())]) {
       if (inside && polygon != current) return true;
       current = polygon;
-      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-      if (p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
+      if (is_left_of(a, b, p)) inside = !inside;
     }
     return inside;
   }

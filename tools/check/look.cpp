@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "geometry/convex_outline.hpp"
+#include "geometry/plan2d.hpp"
 #include "io/raster_gdal.hpp"
 #include "record/object_hits.hpp"
 #include "scene/site_scene.hpp"
@@ -193,10 +194,9 @@ std::vector<Vec2> starts_of(const Look& look) {
   return some;
 }
 
-bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+bool segments_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const auto side = [](const Vec2& p, const Vec2& q, const Vec2& r) {
-    const Vec2 along = q - p, to = r - p;
-    return along.x() * to.y() - along.y() * to.x() > 0;
+    return cross(q - p, r - p) > 0;
   };
   return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
 }
@@ -204,16 +204,10 @@ bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
 bool crosses(const std::vector<Vec2>& path, const RecordLine& line) {
   for (size_t k = 0; k + 1 < path.size(); ++k)
     for (size_t i = 0; i + 1 < line.points.size(); ++i)
-      if (cross(path[k], path[k + 1], line.points[i].head<2>(), line.points[i + 1].head<2>()))
+      if (segments_cross(path[k], path[k + 1], line.points[i].head<2>(),
+                         line.points[i + 1].head<2>()))
         return true;
   return false;
-}
-
-double gap(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 side = b - a;
-  const double length = side.squaredNorm();
-  const double share = length > 0 ? std::clamp((p - a).dot(side) / length, 0.0, 1.0) : 0;
-  return (p - a - share * side).norm();
 }
 
 // In plan, of lines that do not cross: the least lies at an end of one of two segments.
@@ -222,8 +216,10 @@ double gap(const std::vector<Vec2>& path, const RecordLine& line) {
   for (size_t k = 0; k + 1 < path.size(); ++k)
     for (size_t i = 0; i + 1 < line.points.size(); ++i) {
       const Vec2 a = line.points[i].head<2>(), b = line.points[i + 1].head<2>();
-      least = std::min({least, gap(path[k], a, b), gap(path[k + 1], a, b),
-                        gap(a, path[k], path[k + 1]), gap(b, path[k], path[k + 1])});
+      least = std::min({least, distance_to_segment(path[k], a, b),
+                        distance_to_segment(path[k + 1], a, b),
+                        distance_to_segment(a, path[k], path[k + 1]),
+                        distance_to_segment(b, path[k], path[k + 1])});
     }
   return least;
 }

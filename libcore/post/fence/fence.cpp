@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/plan2d.hpp"
 #include "record/pieces.hpp"
 
 namespace talus {
@@ -38,7 +39,7 @@ Vec2 normal_of(const Fence& fence, int field) {
 // Angle between the horizontal velocity and the normal of the field, 0 to 90 degrees.
 double angle_to_normal(const Vec3& velocity, const Vec2& tangent) {
   const double parallel = std::abs(velocity.head<2>().dot(tangent));
-  const double across = std::abs(velocity.x() * tangent.y() - velocity.y() * tangent.x());
+  const double across = std::abs(cross(velocity.head<2>(), tangent));
   return std::atan2(parallel, across);
 }
 
@@ -49,14 +50,8 @@ Verdict bypass(const FenceArrival& arrival) {
   return left ? Verdict::bypassed_left : Verdict::bypassed_right;
 }
 
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 u = b - a;
-  const double s = std::clamp((p - a).dot(u) / u.squaredNorm(), 0.0, 1.0);
-  return (p - a - s * u).norm();
-}
-
 double distance_to(const Fence& fence, int field, const Vec2& p) {
-  return distance_to_segment(p, fence.post[field].head<2>(), fence.post[field + 1].head<2>());
+  return distance_to_segment<Vec2>(p, fence.post[field].head<2>(), fence.post[field + 1].head<2>());
 }
 
 int nearest_field(const Fence& fence, const Vec2& p) {

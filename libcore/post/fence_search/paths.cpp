@@ -4,17 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/plan2d.hpp"
 #include "post/deposit.hpp"
 #include "record/motion.hpp"
 
 namespace talus {
 namespace {
-
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 u = b - a;
-  const double s = std::clamp((p - a).dot(u) / u.squaredNorm(), 0.0, 1.0);
-  return (p - a - s * u).norm();
-}
 
 struct PlanBox {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
@@ -59,8 +54,6 @@ PathPoint path_point(const RunFile& run, int frame, int b) {
   out.bottom = static_cast<float>(bottom);
   return out;
 }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Where a step of a path crosses a field of the line, as shares of both.
 struct Meeting {

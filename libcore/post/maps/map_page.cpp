@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "geometry/plan2d.hpp"
+
 namespace talus {
 namespace {
 
@@ -76,7 +78,7 @@ void add_labels(const LevelLine& line, const MapView& view, const Vec2& size,
   };
   for (double s = half; s + half <= length.back(); s += step) {
     const Vec2 middle = along(s), a = middle - along(s - half), b = along(s + half) - middle;
-    const double bend = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+    const double bend = std::atan2(cross(a, b), a.dot(b));
     const bool is_inside =
         (middle.array() > from_frame).all() && ((size - middle).array() > from_frame).all();
     if (std::abs(bend) > most_bend || !is_inside) continue;

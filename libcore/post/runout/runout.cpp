@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "geometry/plan2d.hpp"
 #include "record/motion.hpp"
 
 namespace talus {
@@ -14,13 +15,6 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double angle_of(double height, double length) {
   return length > 0 ? std::atan2(height, length) : none;
-}
-
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 along = b - a;
-  const double length_sq = along.squaredNorm();
-  const double s = length_sq > 0 ? std::clamp((p - a).dot(along) / length_sq, 0.0, 1.0) : 0;
-  return (p - a - s * along).norm();
 }
 
 double plan_distance(const Vec3& a, const Vec3& b) { return (b - a).head<2>().norm(); }
