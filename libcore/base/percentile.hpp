@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace talus {
 
@@ -18,5 +19,11 @@ struct WeightedValue {
 
 /// Ascending by value, equal ones by weight: the order that weighted_percentile() takes.
 void sort_values(std::span<WeightedValue> values);
+
+/// The same of values that weigh alike, in any order.
+[[nodiscard]] double percentile(std::vector<double> values, double p);
+
+/// The middle value, of an even count the mean of the two in the middle; NaN when there is none.
+[[nodiscard]] double median(std::vector<double> values);
 
 }  // namespace talus

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/percentile.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -37,12 +38,6 @@ ValuesInside values_inside(const Trn& ground, const Area& area, const std::vecto
       if (raster[i] < lowest) lowest = raster[i], values.lowest_at = p;
     }
   return values;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double lowest(const std::vector<double>& values) {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "base/percentile.hpp"
+
 namespace talus {
 namespace {
 
@@ -13,12 +15,6 @@ using std::size_t;
 constexpr double per_index = 23;            // uniaxial strength over I_s50, ISRM 1985: 22 to 24
 constexpr double standard_diameter = 0.05;  // [m]
 constexpr double size_exponent = 0.45;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/percentile.hpp"
 #include "base/text.hpp"
 #include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
@@ -312,9 +313,7 @@ double contour_interval(const ContourMap& map) {
   if (levels.size() < 2) return 0;
   std::vector<double> steps(levels.size() - 1);
   std::transform(levels.begin() + 1, levels.end(), levels.begin(), steps.begin(), std::minus<>());
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return median(std::move(steps));
 }
 
 std::vector<Vec3> hold_back_contours(int every, ContourMap& map) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/percentile.hpp"
 #include "terrain/contours.hpp"
 #include "terrain/lone_levels.hpp"
 
@@ -119,11 +120,8 @@ void gather_steps(const TriangleMesh& mesh, const LinesOfPoints& lines,
   });
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double step_of(const Candidate& candidate, double interval) {
+  return candidate.steps.empty() ? interval : std::max(interval, median(candidate.steps));
 }
 
 bool stands_off(const Candidate& candidate, double step) {
@@ -152,7 +150,7 @@ std::vector<Outlier> contour_outliers(const TriangleMesh& mesh, const LinesOfPoi
   gather_steps(mesh, lines, candidate_of, candidates);
   std::vector<Outlier> found;
   for (Candidate& candidate : candidates) {
-    if (!stands_off(candidate, std::max(interval, median(candidate.steps))) ||
+    if (!stands_off(candidate, step_of(candidate, interval)) ||
         is_beside_culprit(candidate, candidate_of, candidates))
       continue;
     candidate.outlier.is_impossible =

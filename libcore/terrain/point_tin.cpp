@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "base/percentile.hpp"
 #include "terrain/contours.hpp"
 #include "terrain/lone_levels.hpp"
 
@@ -92,9 +93,8 @@ EdgeLengths edge_lengths(const TriangleMesh& mesh) {
                             .head<2>()
                             .norm());
   if (lengths.empty()) return {};
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return {*middle, *std::max_element(lengths.begin(), lengths.end())};
+  const double longest = *std::max_element(lengths.begin(), lengths.end());
+  return {median(std::move(lengths)), longest};
 }
 
 }  // namespace talus

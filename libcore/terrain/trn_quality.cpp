@@ -1,5 +1,6 @@
 #include "terrain/trn_quality.hpp"
 
+#include "base/percentile.hpp"
 #include "base/units.hpp"
 
 namespace talus {
@@ -46,9 +47,7 @@ ErrorStatistics ErrorCollector::statistics() const {
   result.mean = sum / n;
   result.mae = sum_abs / n;
   result.rmse = std::sqrt(sum_sq / n);
-  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * n)) - 1;
-  std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
-  result.p95 = sizes[rank];
+  result.p95 = percentile(std::move(sizes), 0.95);
   result.largest = largest_;
   result.largest_at = largest_at_;
   return result;

@@ -42,13 +42,6 @@ Json joints_json(const BlocksWork& work) {
   return rows;
 }
 
-double quantile(const std::vector<double>& values, double share) {
-  std::vector<WeightedValue> sorted;
-  for (const double value : values) sorted.push_back({value});
-  sort_values(sorted);
-  return weighted_percentile(sorted, share);
-}
-
 Json sizes_json(const BlockSet& set) {
   std::vector<double> volumes = set.volume;
   std::sort(volumes.begin(), volumes.end());
@@ -76,10 +69,10 @@ Json shapes_json(const BlockSet& set) {
                               set.volume[b]);
   }
   const auto three = [](const std::vector<double>& values) {
-    return Json{{"p10", quantile(values, 0.1)},
-                {"p50", quantile(values, 0.5)},
-                {"p90", quantile(values, 0.9)},
-                {"largest", quantile(values, 1)}};
+    return Json{{"p10", percentile(values, 0.1)},
+                {"p50", percentile(values, 0.5)},
+                {"p90", percentile(values, 0.9)},
+                {"largest", percentile(values, 1)}};
   };
   return {{"longest_to_middle", three(elongation)},
           {"middle_to_shortest", three(flatness)},

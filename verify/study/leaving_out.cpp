@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/percentile.hpp"
 #include "base/random.hpp"
 #include "base/text.hpp"
 #include "run/runner.hpp"

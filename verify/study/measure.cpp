@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "base/percentile.hpp"
 #include "base/processor_time.hpp"
 #include "base/text.hpp"
 
@@ -24,11 +25,6 @@ double cheapest(const std::vector<VerifyRow>& rows, double error) {
     if (is_default(row) && !has(row.flags, StepFlag::deep) && row.error <= error)
       least = std::min(least, row.cpu);
   return least;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 std::string text_of(StepFlag flags) {

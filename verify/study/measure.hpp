@@ -52,9 +52,6 @@ struct MeasuredCase {
   double known_to = 0;           ///< uncertainty of the reference: smaller errors count as this
 };
 
-/// The middle one, of an even number the upper of the two; at least one.
-[[nodiscard]] double median(std::vector<double> values);
-
 /// Names of the bits, joined by "+"; "none".
 [[nodiscard]] std::string text_of(StepFlag flags);
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "base/percentile.hpp"
 #include "post/fence/fence_result.hpp"
 
 namespace talus {
@@ -23,22 +24,6 @@ Vec3 point_at(const Fence& fence, double chainage) {
   const double s =
       (chainage - fence.chainage[field]) / (fence.chainage[field + 1] - fence.chainage[field]);
   return fence.post[field] + s * (fence.post[field + 1] - fence.post[field]);
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
-}
-
-// The smallest value that at least `share` of all do not exceed.
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const auto n = static_cast<double>(values.size());
-  const auto rank = static_cast<std::size_t>(std::max(1.0, std::ceil(share * n - 1e-9)));
-  return values[rank - 1];
 }
 
 // The hits of all fences, in the order of run and time.
@@ -219,7 +204,8 @@ FieldLoads field_loads(const SearchLine& line, const PlacedFence& fence, double 
     of_field[field_of(fence, hit.arrival.chainage)].push_back(&hit.arrival);
   }
   close_run();
-  return {quantile(single, share), quantile(second, share), quantile(whole, share)};
+  if (single.empty()) return {};
+  return {percentile(single, share), percentile(second, share), percentile(whole, share)};
 }
 
 FenceDemand fence_demand(const SearchRuns& runs, const SearchLine& line, const PlacedFence& fence,

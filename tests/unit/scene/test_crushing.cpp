@@ -82,4 +82,16 @@ TEST(CrushLoads, OnlyBlocksBelowTheShareOfTheMedianAreCrushed) {
   EXPECT_TRUE(crush_loads(small.set, small.scene.blocks, never, 6).empty());
 }
 
+// The median of 8 and 0.125 m3 is 4.06 m3.
+TEST(CrushLoads, TheMedianOfTwoBlocksIsTheirMean) {
+  BlockSet set;
+  Scene scene;
+  add_body(set, body_of(box(Vec3(0, 0, 0), Vec3(2, 2, 2))));
+  add_body(set, body_of(box(Vec3(0, 10, 0), Vec3(0.5, 10.5, 0.5))));
+  add_blocks(scene, set, std::vector<Material>(1));
+  // 0.02 of 8 m3 is more than the small block has, 0.02 of 4.06 m3 is less.
+  EXPECT_TRUE(crush_loads(set, scene.blocks, std::vector<Crushing>{{100e6, 0.02}}, 2).empty());
+  EXPECT_FALSE(crush_loads(set, scene.blocks, std::vector<Crushing>{{100e6, 0.04}}, 2).empty());
+}
+
 }  // namespace
