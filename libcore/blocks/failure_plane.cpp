@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "geometry/plan2d.hpp"
 
 namespace talus {
@@ -142,8 +143,6 @@ double angle_between(double a, double b) {
 }
 
 std::string degrees(double angle) { return text(std::round(10 * angle / degree) / 10); }
-
-std::string percent(double share) { return text(std::round(100 * share)) + " %"; }
 
 // Why a set of this attitude cannot carry a mass out of the slope; empty when it may.
 std::string why_not_by_angles(const FailurePlane& plane, double friction) {

@@ -12,6 +12,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
 
@@ -548,7 +549,7 @@ void check_axes(const Ground& ground, const std::vector<Vec2>& places, const Crs
                          " of them along x and " + text(worst.stretch_y, 4) +
                          " along y are one on the ground, expected 1 "
                          "within " +
-                         text(100 * stretch_limit) + " %",
+                         percent(stretch_limit),
                      way_to_zone(place, where, places.front()));
   if (askew > askew_deg)
     warnings.push_back(where.text() + ": north of the map is " + text(askew, 3) +

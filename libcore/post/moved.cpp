@@ -4,15 +4,10 @@
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "post/deposit.hpp"
 
 namespace talus {
-namespace {
-
-std::string percent(double share) { return text(100 * share, 3) + " %"; }
-
-}  // namespace
-
 Moved moved_of(std::vector<WeightedValue> displacement_and_mass) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   sort_values(displacement_and_mass);

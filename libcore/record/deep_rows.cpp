@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "scene/fence.hpp"
 #include "step/step.hpp"
 
@@ -164,7 +165,7 @@ std::string mishap_words(const Scene& scene, const Mishap& mishap, const Vec3& o
   if (mishap.block < 0) return "";
   return "first block " + std::to_string(mishap.block) + " " +
          where_words(mishap.time, mishap.place + origin) + ", " +
-         text(100 * share_of_mass(scene, mishap.block), 3) + " % of the mass";
+         percent(share_of_mass(scene, mishap.block)) + " of the mass";
 }
 
 std::string deep_words(const DeepRow& row, std::span<const RecordLine> lines, const Vec3& origin) {
@@ -172,7 +173,7 @@ std::string deep_words(const DeepRow& row, std::span<const RecordLine> lines, co
                       " by " + text(row.depth, 3) + " m of its " + text(row.thickness, 3) + " m " +
                       where_words(row.time, row.place + origin);
   if (row.steps > 0) words += ", deep in " + counted(row.steps, "step");
-  words += ", " + text(100 * row.mass_share, 3) + " % of the mass";
+  words += ", " + percent(row.mass_share) + " of the mass";
   if (row.ends_in_toe != 0) words += ", ends in the toe";
   if (row.met_fence != 0) words += ", met a fence";
   if (row.is_too_fast != 0) words += ", was faster than its fall can have made it";

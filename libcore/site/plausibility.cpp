@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "base/words.hpp"
 
 namespace talus {
 namespace {
 
 std::string metres(double value) { return text(value, 3) + " m"; }
-std::string percent(double share) { return text(std::round(100 * share)) + " %"; }
-
 // A value that should stay below `warn`, and cannot be meant from `refuse` on.
 struct Upper {
   double warn, refuse;

@@ -8,6 +8,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "blocks/joint_sets.hpp"
 #include "sampling/design.hpp"
 #include "site/number_key.hpp"
@@ -252,7 +253,7 @@ void truncate(const Site& site, const QuantitySettings& q, const Span& span, Dis
     const double kept = probability_between(d, span.low, span.high);
     if (kept < 1 - most_cut)
       refuse(site, q, "std",
-             text(100 * (1 - kept), 3) + " % of what it draws lies outside of " + text_of(span) +
+             percent(1 - kept) + " of what it draws lies outside of " + text_of(span) +
                  ", which its keys may hold; expected 1 % at most",
              "give truncate = [low, high], or a smaller std");
     d.low = span.low, d.high = span.high;

@@ -9,6 +9,7 @@
 #include "base/percentile.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "blocks/solid.hpp"
 #include "io/block_pictures.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
@@ -172,11 +173,11 @@ std::string blocks_summary(const Json& report) {
            "; " + counted(cut["n_slivers_merged"].get<int>(), "sliver") + " (" +
            number(cut["slivers_merged_m3"]) + " m3) given to a neighbour";
   lines += "\nthe mass covers " + number(cut["mass_area_m2"]) + " m2, " +
-           text(100 * cut["mass_area_share"].get<double>(), 3) + " % of the polygon of " +
+           percent(cut["mass_area_share"].get<double>()) + " of the polygon of " +
            number(cut["polygon_area_m2"]) + " m2";
   if (!cut["exact"].get<bool>())
-    lines += "\nmade convex: volume " + text(100 * cut["convexified_change"].get<double>(), 3) +
-             " %, " + counted(cut["n_divided"].get<int>(), "block") + " as several convex parts, " +
+    lines += "\nmade convex: volume " + percent(cut["convexified_change"].get<double>()) + ", " +
+             counted(cut["n_divided"].get<int>(), "block") + " as several convex parts, " +
              std::to_string(cut["n_kept_exact"].get<int>()) + " kept exact";
   return lines;
 }

@@ -7,6 +7,7 @@
 #include "base/memory.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "blocks/least_size.hpp"
 #include "blocks/part_faces.hpp"
 #include "blocks/placed_bodies.hpp"
@@ -78,8 +79,8 @@ void check_apart(const PlacedContext& context, const std::string& path,
   if (found.n > 0)
     context.tool.warn(path + ": " + std::to_string(found.n) +
                       " pairs of bodies overlap, most of all " + names[found.worst[0]] + " and " +
-                      names[found.worst[1]] + ": " + text(100 * found.largest_share, 3) +
-                      " % of the smaller one");
+                      names[found.worst[1]] + ": " + percent(found.largest_share) +
+                      " of the smaller one");
 }
 
 // The bodies of a mesh file, as they stand in it.

@@ -7,6 +7,7 @@
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "geometry/convex_outline.hpp"
 #include "io/block_pictures.hpp"
 #include "io/hillshade_gdal.hpp"
@@ -18,8 +19,6 @@
 
 namespace talus {
 namespace {
-
-std::string percent(double share) { return text(std::round(100 * share)) + " %"; }
 
 // Each line of a text as an item.
 std::string lines_of(const std::string& words) {

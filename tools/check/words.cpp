@@ -6,13 +6,13 @@
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "run/runner.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
 
 namespace talus {
 namespace {
 
-std::string percent(double share) { return text(std::round(100 * share)) + " %"; }
 // Volumes found in several ways are compared: a digit more.
 std::string cubic(double volume) { return grouped_text(volume, 4) + " m3"; }
 double azimuth_deg(double azimuth) { return std::fmod(azimuth / degree + 360, 360); }

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "post/fragment_sizes.hpp"
 #include "record/deep_rows.hpp"
 #include "record/pieces.hpp"
@@ -176,8 +177,7 @@ std::string deep_warning(const RunFile& file) {
   constexpr size_t most = 3;
   const std::vector<DeepRow> rows = by_weight(file.deep);
   std::string words = counted(static_cast<std::int64_t>(rows.size()), "block") + " of " +
-                      text(100 * mass_share(rows), 3) +
-                      " % of the mass came in by more than a tenth of " +
+                      percent(mass_share(rows)) + " of the mass came in by more than a tenth of " +
                       (rows.size() == 1 ? "its" : "their") + " thickness: ";
   for (size_t i = 0; i < std::min(most, rows.size()); ++i)
     words += (i == 0 ? "" : "; ") + deep_words(rows[i], file.lines, file.info.origin);
@@ -209,7 +209,7 @@ std::string crushed_warning(const RunFile& file) {
   const Vec3 at = first.place + file.info.origin;
   const bool is_one = file.crushed.size() == 1;
   return counted(static_cast<std::int64_t>(file.crushed.size()), "small block") + " of " +
-         text(volume, 3) + " m3, " + text(100 * mass / all, 3) + " % of the mass, " +
+         text(volume, 3) + " m3, " + percent(mass / all) + " of the mass, " +
          (is_one ? "was" : "were") +
          " crushed; the debris bears nothing and counts where it lies (" +
          (is_one ? "" : "first ") + "block " + std::to_string(first.block) + " at " +

@@ -5,6 +5,7 @@
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "io/style.hpp"
 #include "report/chart.hpp"
 
@@ -13,12 +14,9 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-std::string percent(double share) { return text(100 * share, 3) + " %"; }
-
 std::string bounded(double share, const Interval& interval) {
   if (std::isnan(interval.high)) return percent(share);
-  return percent(share) + " (" + text(100 * interval.low, 3) + " - " +
-         text(100 * interval.high, 3) + ")";
+  return percent(share) + " (" + percent(interval.low) + " to " + percent(interval.high) + ")";
 }
 
 // Events a year with a block on the object, in these runs by the weight of such blocks; NaN where

@@ -6,6 +6,7 @@
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "blocks/mass_outline.hpp"
 #include "io/style.hpp"
 #include "io/union_gdal.hpp"
@@ -86,7 +87,7 @@ std::vector<OutlinedSurface> outlined_surfaces(const BlocksWork& work) {
 
 std::string title_of(const OutlinedSurface& surface) {
   std::string words = surface.sets + ", " + grouped_text(surface.volume, 3) + " m3, free along " +
-                      text(std::round(100 * surface.free_share)) + " % of the foot";
+                      percent(surface.free_share) + " of the foot";
   if (surface.n_left_out > 0)
     words += "; without " + counted(surface.n_left_out, "part") + " of " +
              grouped_text(surface.volume_left_out, 2) + " m3 in all";

@@ -7,14 +7,13 @@
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "tools/frame/ground_class_inputs.hpp"
 
 namespace talus {
 namespace {
 
 std::string tenths(double value) { return text(std::round(10 * value) / 10); }
-
-std::string percent(double share) { return text(std::round(100 * share)) + " %"; }
 
 std::string attitude_text(const Json& plane) {
   return "dips " + tenths(plane["dip_deg"]) + " degrees towards " +

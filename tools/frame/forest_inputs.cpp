@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "blocks/area.hpp"
 #include "blocks/prepared_area.hpp"
 #include "contact/cylinder_contact.hpp"
@@ -237,7 +238,7 @@ void add_stand(const ForestSection& s, const std::optional<Area>& area,
     if (other.drags != drags) continue;
     const double share = share_within(*area, other.area, s.trn);
     if (share > slivers)
-      s.warn(text(100 * share, 3) + " % of its area lies in " + other.name + ": there " +
+      s.warn(percent(share) + " of its area lies in " + other.name + ": there " +
              (drags ? "the drag of both acts" : "the stems of both stand"));
   }
   stands.push_back({s.name(), drags, *area});

@@ -13,6 +13,7 @@
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "blocks/base_level.hpp"
 #include "blocks/daylight_envelope.hpp"
 #include "blocks/failure_raster.hpp"
@@ -216,8 +217,8 @@ void find_mass(Tool& tool, BlocksWork& work) {
   if (work.site.source.failure_surface == "plane" && work.site.source.daylight.empty() &&
       work.at_foot.free_share < 0.5)
     tool.warn("the failure plane comes out of the ground along " +
-              text(std::round(100 * work.at_foot.free_share)) +
-              " % of the foot of the source only; on the rest the mass leans on a step of up to " +
+              percent(work.at_foot.free_share) +
+              " of the foot of the source only; on the rest the mass leans on a step of up to " +
               text(work.at_foot.largest_step, 2) + " m (talus-source lists planes that come out)");
 }
 
@@ -234,8 +235,8 @@ double least_share_covered(const BlocksWork& work) {
 void warn_of_mass(Tool& tool, const BlocksWork& work, const MassMeasure& measure) {
   const SourceMass& mass = work.mass;
   if (mass.area < least_share_covered(work) * mass.polygon_area)
-    tool.warn("the mass covers " + text(100 * mass.area / mass.polygon_area, 3) +
-              " % of the source polygon: elsewhere the failure surface does not lie below the "
+    tool.warn("the mass covers " + percent(mass.area / mass.polygon_area) +
+              " of the source polygon: elsewhere the failure surface does not lie below the "
               "ground; " +
               (work.site.source.failure_surface == "daylighting"
                    ? "is the polygon what is meant? Its outline may follow the mass"

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "post/fence/fence_runs.hpp"
 #include "post/places.hpp"
 #include "post/reduce.hpp"
@@ -143,12 +144,11 @@ Json place_json(const Place& place, const PlaceReach& reach) {
           {"runs_to_add", reach.runs_to_add}};
 }
 
-// "road: 12.5 % of the blocks (9.8 to 15.9 %), in 38 of 50 runs; half width 0.031, wanted 0.05"
+// "road: 12.5 % of the blocks (9.8 % to 15.9 %), in 38 of 50 runs; half width 0.031, wanted 0.05"
 std::string line_of(const Place& place, const PlaceReach& reach, int n_runs) {
-  const auto percent = [](double share) { return text(100 * share, 3); };
-  std::string words = place.name + ": " + percent(reach.share) + " % of the blocks";
+  std::string words = place.name + ": " + percent(reach.share) + " of the blocks";
   if (std::isfinite(reach.half_width))
-    words += " (" + percent(reach.interval.low) + " to " + percent(reach.interval.high) + " %)";
+    words += " (" + percent(reach.interval.low) + " to " + percent(reach.interval.high) + ")";
   words += ", in " + std::to_string(reach.n_runs_hit) + " of " + counted(n_runs, "run");
   if (reach.lacks_masses) return words + "; too few rock masses for an interval";
   if (!std::isfinite(reach.half_width))

@@ -7,6 +7,7 @@
 #include "base/csv.hpp"
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "io/style.hpp"
 #include "report/chart.hpp"
 
@@ -303,9 +304,9 @@ std::string error_text(const LineSums& sums) {
   std::string by_frames =
       "by frames " + text(sums.frame_interval, 3) + " s apart, linear between two";
   if (std::isfinite(change.p95))
-    by_frames += "; energy changes between them by " + text(100 * change.p50, 2) +
-                 " % in the median, 95 % by less than " + text(100 * change.p95, 2) +
-                 " %, and nine in ten errors are smaller than that";
+    by_frames += "; energy changes between them by " + percent(change.p50) +
+                 " in the median, 95 % by less than " + percent(change.p95) +
+                 ", and nine in ten errors are smaller than that";
   const std::string by_cells =
       "by the cells under the line: upper bounds, each block with its largest values over these "
       "cells; none too few, a few per cent too many where blocks move on, many times too many "
@@ -399,8 +400,8 @@ std::string profile_summary(const LineProfile& profile) {
       return (std::isnan(value) ? "" : "95 % below " + grouped_text(value / scale) + ", ") +
              "up to " + grouped_text(q.largest / scale) + " " + unit;
     };
-    out += ", " + text(s.a_run, 3) + " a run, " + text(100 * s.share_of_mass, 3) +
-           " % of the mass; energy " + p95(s.blocks.energy, kilo, "kJ") + "; speed " +
+    out += ", " + text(s.a_run, 3) + " a run, " + percent(s.share_of_mass) +
+           " of the mass; energy " + p95(s.blocks.energy, kilo, "kJ") + "; speed " +
            p95(s.blocks.speed, 1, "m/s") + "; tops " + p95(s.blocks.top, 1, "m above the ground");
   }
   return out + "; by " + method_text(profile.sums);

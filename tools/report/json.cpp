@@ -1,6 +1,7 @@
 #include "tools/report/json.hpp"
 
 #include "base/text.hpp"
+#include "base/words.hpp"
 
 namespace talus {
 
@@ -21,7 +22,7 @@ std::string number_text(const Json& value, int digits) {
 }
 
 std::string percent_text(const Json& value) {
-  return value.is_number() ? text(100 * value.get<double>(), 3) + " %" : "&ndash;";
+  return value.is_number() ? percent(value.get<double>()) : "&ndash;";
 }
 
 std::string range_text(const Texts& texts, const std::string& low, const std::string& high) {

@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "report/html.hpp"
 #include "tools/report/json.hpp"
 
@@ -127,7 +128,7 @@ std::string case_table(const Texts& texts, const Json& runout) {
                                             {"all", number_text(value_at(one, {"n_runs"}))}}),
                     percent_text(value_at(one, {"event_probability"})),
                     percent_text(value_at(one, {"weight"})),
-                    share.is_number() ? text(100 * share.get<double>(), 3) + " %" : "",
+                    share.is_number() ? percent(share.get<double>()) : "",
                     number_text(value_at(spread, {"L_path_m", "p50"})),
                     number_text(value_at(spread, {"L_path_m", "max"})),
                     number_text(value_at(spread, {"L95_m", "max"})),

@@ -7,6 +7,7 @@
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "io/raster_gdal.hpp"
 #include "tools/frame/failure_outlines.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
@@ -111,7 +112,7 @@ std::string shares_text(const Json& rows) {
     const bool is_new = row["set"] != set;
     set = row["set"].get<std::string>();
     lines += (is_new ? "\n" + set + " by the share of the foot that is free: " : ", ") +
-             text(100 * row["free_share_of_foot"].get<double>(), 3) + " % " +
+             percent(row["free_share_of_foot"].get<double>()) + " " +
              grouped_text(row["volume_m3"].get<double>(), 3) + " m3";
   }
   return lines;

@@ -7,6 +7,7 @@
 #include "base/memory.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_operation_gdal.hpp"
@@ -26,6 +27,7 @@ using talus::add_layer_options;
 using talus::ContourMap;
 using talus::InputError;
 using talus::Json;
+using talus::percent;
 using talus::text;
 using talus::Tool;
 using talus::UsageError;
@@ -308,7 +310,6 @@ talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Jso
 }
 
 std::string summary_of(const Json& report) {
-  const auto percent = [](const Json& value) { return text(100 * value.get<double>(), 3) + " %"; };
   const Json &contours = report["contours"], &tin = report["tin"], &flat = report["flat"];
   return std::to_string(contours["n_lines"].get<int>()) + " contours, " +
          std::to_string(contours["n_points"].get<std::size_t>()) + " points, every " +
@@ -317,7 +318,8 @@ std::string summary_of(const Json& report) {
          text(contours["highest_m"].get<double>(), 8) + " m\n" +
          std::to_string(tin["n_points"].get<std::size_t>()) + " points, " +
          std::to_string(tin["n_triangles"].get<std::size_t>()) + " triangles; flat " +
-         percent(flat["share_before"]) + " of the area, " + percent(flat["share_after"]) +
+         percent(flat["share_before"].get<double>()) + " of the area, " +
+         percent(flat["share_after"].get<double>()) +
          (flat["mode"] == "fill" ? " after mending" : " (kept)");
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_operation_gdal.hpp"
@@ -33,6 +34,7 @@ using talus::GridFrame;
 using talus::InputError;
 using talus::Json;
 using talus::MapWindow;
+using talus::percent;
 using talus::text;
 using talus::Tool;
 using talus::Trn;
@@ -423,17 +425,17 @@ Json as_json(const Trn& trn, const talus::SlopeStatistics& s) {
 }
 
 std::string summary_of(const Json& report) {
-  const auto percent = [](const Json& value) { return text(100 * value.get<double>(), 3) + " %"; };
   const Json &grid = report["grid"], &slope = report["slope"];
-  std::string lines =
-      std::to_string(grid["n_cols"].get<int>()) + " x " +
-      std::to_string(grid["n_rows"].get<int>()) + " nodes, " +
-      text(grid["cell_size_m"].get<double>(), 10) + " m apart, " + percent(grid["covered_share"]) +
-      " known, " + text(grid["lowest_m"].get<double>(), 6) + " to " +
-      text(grid["highest_m"].get<double>(), 6) + " m\nslope " +
-      text(slope["mean_deg"].get<double>(), 3) + " degrees on average, up to " +
-      text(slope["largest_deg"].get<double>(), 3) + "; flat " + percent(slope["flat_share"]) +
-      "; steeper than 70 degrees " + percent(slope["share_steeper_than_70_deg"]);
+  std::string lines = std::to_string(grid["n_cols"].get<int>()) + " x " +
+                      std::to_string(grid["n_rows"].get<int>()) + " nodes, " +
+                      text(grid["cell_size_m"].get<double>(), 10) + " m apart, " +
+                      percent(grid["covered_share"].get<double>()) + " known, " +
+                      text(grid["lowest_m"].get<double>(), 6) + " to " +
+                      text(grid["highest_m"].get<double>(), 6) + " m\nslope " +
+                      text(slope["mean_deg"].get<double>(), 3) + " degrees on average, up to " +
+                      text(slope["largest_deg"].get<double>(), 3) + "; flat " +
+                      percent(slope["flat_share"].get<double>()) + "; steeper than 70 degrees " +
+                      percent(slope["share_steeper_than_70_deg"].get<double>());
   for (const char* name : {"reference", "reference_points"}) {
     if (!report.contains(name)) continue;
     const Json& e = report[name];
@@ -444,7 +446,8 @@ std::string summary_of(const Json& report) {
     lines += "\nagainst " + e["file"].get<std::string>() + ": RMSE " + metres("rmse_m") + ", MAE " +
              metres("mae_m") + ", 95 % within " + metres("p95_m") + ", largest " +
              metres("largest_m") + " at " + text(e["largest_at"][0].get<double>(), 9) + "," +
-             text(e["largest_at"][1].get<double>(), 9) + "; covers " + percent(e["covered_share"]);
+             text(e["largest_at"][1].get<double>(), 9) + "; covers " +
+             percent(e["covered_share"].get<double>());
   }
   return lines;
 }

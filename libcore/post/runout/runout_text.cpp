@@ -7,6 +7,7 @@
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 
 namespace talus {
 namespace {
@@ -134,10 +135,10 @@ std::string standing_runs(const std::vector<RunoutRun>& runs) {
   const auto n_all = static_cast<std::int64_t>(runs.size());
   const auto n_events = static_cast<std::int64_t>(events_among(runs, all_of(runs)).size());
   const std::int64_t n_few = n_all - n - n_events;
-  const std::string few = n_few == 0 ? ""
-                                     : std::to_string(n_few) + " of " + counted(n_all, "run") +
-                                           " moved less than " + text(100 * event_share) +
-                                           " % of the mass";
+  const std::string few = n_few == 0
+                              ? ""
+                              : std::to_string(n_few) + " of " + counted(n_all, "run") +
+                                    " moved less than " + percent(event_share) + " of the mass";
   if (n == 0) return few;
   const std::string stopped =
       n_stopped == 0 ? ""
@@ -160,7 +161,6 @@ std::string energy_line_text(const AngleProfile& profile) {
 }
 
 std::string text(const MassReach& reach) {
-  const auto percent = [](double share) { return text(100 * share, 2) + " %"; };
   std::string words = percent(reach_share) + " of what moved came within " +
                       grouped_text(reach.length) + " m of its top, " + grouped_text(reach.height) +
                       " m below (" + text(reach.angle() / degree, 3) + " deg)";
@@ -188,7 +188,7 @@ std::string cases_text(const std::vector<RunoutRun>& runs) {
              std::to_string(length.n) + " of " +
              counted(static_cast<std::int64_t>(one.runs.size()), "run") + " moved" +
              (n_events < length.n ? " (" + std::to_string(n_events) + " events)" : "") + ", " +
-             text(100 * one.moved.share, 3) + " % of the mass by more than " + text(moved_m) + " m";
+             percent(one.moved.share) + " of the mass by more than " + text(moved_m) + " m";
     if (length.n > 0)
       lines += "; largest L " + grouped_text(length.largest) + " m, L95 " +
                grouped_text(mass_length.largest) + " m, smallest angle of reach " +
