@@ -1,4 +1,4 @@
-// libcore/io/dataset_files_gdal.hpp: public
+// libcore/io/dataset_files_gdal.hpp
 // Which files a data set is made of: a change of any of them is a change of the data set.
 #pragma once
 

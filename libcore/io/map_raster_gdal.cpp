@@ -15,18 +15,18 @@
 namespace talus {
 namespace {
 
-using Dataset = std::unique_ptr<GDALDataset>;
+using OwnedDataset = std::unique_ptr<GDALDataset>;
 
 constexpr int tile_size = 512;  // of the COG driver: smaller rasters have no overviews
 
-Dataset create_in_memory(int n_cols, int n_rows, int n_bands, GDALDataType type) {
+OwnedDataset create_in_memory(int n_cols, int n_rows, int n_bands, GDALDataType type) {
   constexpr double n_copies = 2;  // itself, and what the file is made of
   require_memory(n_copies * GDALGetDataTypeSizeBytes(type) * n_bands * n_cols * n_rows, {},
                  "maps of " + std::to_string(n_bands) + " bands and " + std::to_string(n_cols) +
                      " x " + std::to_string(n_rows) + " cells",
                  "make the cells larger");
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("MEM");
-  return Dataset(driver->Create("", n_cols, n_rows, n_bands, type, nullptr));
+  return OwnedDataset(driver->Create("", n_cols, n_rows, n_bands, type, nullptr));
 }
 
 void write_cells(GDALRasterBand& band, const std::vector<float>& value) {
@@ -52,8 +52,8 @@ void set_statistics(GDALRasterBand& band, const std::vector<float>& value, float
   band.SetStatistics(low, high, mean, std::sqrt(std::max(0.0, sum_sq / n - mean * mean)));
 }
 
-Dataset to_dataset(const MapRaster& raster) {
-  Dataset dataset =
+OwnedDataset to_dataset(const MapRaster& raster) {
+  OwnedDataset dataset =
       create_in_memory(raster.n_cols, raster.n_rows, static_cast<int>(raster.bands.size()),
                        raster.is_codes ? GDT_Byte : GDT_Float32);
   if (!dataset) return nullptr;
@@ -126,11 +126,11 @@ CPLStringList cog_options(const MapRaster& raster, const std::vector<std::string
   return options;
 }
 
-Dataset copy_to(const char* driver_name, const std::string& path, GDALDataset& source,
-                const CPLStringList& options) {
+OwnedDataset copy_to(const char* driver_name, const std::string& path, GDALDataset& source,
+                     const CPLStringList& options) {
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(driver_name);
   if (driver == nullptr) return nullptr;
-  return Dataset(
+  return OwnedDataset(
       driver->CreateCopy(path.c_str(), &source, FALSE, options.List(), nullptr, nullptr));
 }
 
@@ -146,9 +146,9 @@ void write_map_raster(const std::string& path, const MapRaster& raster,
   register_gdal_drivers();
   const CPLStringList options = cog_options(raster, creation_options);
   const GdalErrors errors;
-  const Dataset source = to_dataset(raster);
+  const OwnedDataset source = to_dataset(raster);
   if (source) add_overviews(*source, raster);
-  Dataset written = source ? copy_to("COG", path, *source, options) : nullptr;
+  OwnedDataset written = source ? copy_to("COG", path, *source, options) : nullptr;
   const bool is_written = written != nullptr;
   written.reset();  // the last bytes are written here
   check_written(path, is_written, errors);

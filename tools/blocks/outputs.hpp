@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tools/frame/source_work.hpp"
+#include "setup/source_work.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {

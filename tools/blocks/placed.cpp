@@ -17,9 +17,9 @@
 #include "geometry/repeated_points.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/mesh.hpp"
+#include "setup/site_places_gdal.hpp"
+#include "setup/vector_inputs_gdal.hpp"
 #include "site/joint_plan.hpp"
-#include "tools/frame/site_places.hpp"
-#include "tools/frame/vector_inputs.hpp"
 
 namespace talus {
 namespace {

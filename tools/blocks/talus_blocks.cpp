@@ -11,6 +11,8 @@
 #include "io/judged_heights_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/trn_digest.hpp"
+#include "setup/site_crs_gdal.hpp"
+#include "setup/source_cut_gdal.hpp"
 #include "terrain/terrain_error.hpp"
 #include "tools/blocks/json.hpp"
 #include "tools/blocks/outputs.hpp"
@@ -18,9 +20,7 @@
 #include "tools/blocks/sizes.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/options.hpp"
-#include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
-#include "tools/frame/source_cut.hpp"
 
 namespace {
 
@@ -136,7 +136,10 @@ int main(int argc, char** argv) {
       throw InputError({work.site.file}, "there is neither [source] nor [blocks.*]",
                        "say what moves: a source to be cut, or blocks");
     if (work.has_source()) work.area = read_source_area(tool, work);
-    if (work.is_cut()) cut_source(tool, o.exact, work);
+    if (work.is_cut()) {
+      cut_source(tool, o.exact, work);
+      tool.check("volume_error", volume_error(work), 1e-9, volume_error(work) <= 1e-9);
+    }
     add_placed_blocks({tool, work.site, work.ground, work.has_source() ? &work.area : nullptr},
                       work.blocks);
     work.blocks.content_hash = hash_of(o, work);

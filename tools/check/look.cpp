@@ -12,13 +12,15 @@
 #include "io/raster_gdal.hpp"
 #include "record/object_hits.hpp"
 #include "scene/site_scene.hpp"
+#include "setup/run_settings.hpp"
+#include "setup/scene_inputs_gdal.hpp"
+#include "setup/sliding_sets.hpp"
+#include "setup/source_cut_gdal.hpp"
 #include "site/joint_plan.hpp"
 #include "site/plan.hpp"
 #include "terrain/smooth.hpp"
 #include "terrain/trn_flags.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
-#include "tools/frame/run_settings.hpp"
-#include "tools/frame/source_cut.hpp"
 
 namespace talus {
 namespace {

@@ -9,11 +9,11 @@
 #include "blocks/kinematics.hpp"
 #include "blocks/removability.hpp"
 #include "run/probe.hpp"
+#include "setup/scene_inputs_gdal.hpp"
+#include "setup/source_work.hpp"
 #include "site/plausibility.hpp"
 #include "terrain/slider.hpp"
 #include "tools/frame/failure_outlines.hpp"
-#include "tools/frame/scene_inputs.hpp"
-#include "tools/frame/source_work.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {

@@ -13,9 +13,9 @@
 #include "io/hillshade_gdal.hpp"
 #include "report/check_view.hpp"
 #include "report/html.hpp"
+#include "setup/site_places_gdal.hpp"
 #include "tools/check/words.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
-#include "tools/frame/site_places.hpp"
 
 namespace talus {
 namespace {

@@ -8,13 +8,13 @@
 #include "base/write_bytes.hpp"
 #include "post/hazard/frequency.hpp"
 #include "post/hazard/recipe.hpp"
+#include "setup/site_crs_gdal.hpp"
 #include "tools/check/look.hpp"
 #include "tools/check/page.hpp"
 #include "tools/check/words.hpp"
 #include "tools/frame/hazard_recipe.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/shipped_data.hpp"
-#include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
 
 namespace {

@@ -7,9 +7,9 @@
 
 #include "base/text.hpp"
 #include "post/trace/trace.hpp"
+#include "setup/site_places_gdal.hpp"
 #include "tools/frame/class_runs.hpp"
 #include "tools/frame/fence_code.hpp"
-#include "tools/frame/site_places.hpp"
 
 namespace talus {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "post/fence_search/paths.hpp"
 #include "post/hazard/hazard_rates.hpp"
+#include "setup/search_lines.hpp"
 #include "tools/frame/run_inputs.hpp"
-#include "tools/frame/search_lines.hpp"
 
 namespace talus {
 

@@ -6,13 +6,13 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "setup/section_state_gdal.hpp"
 #include "tools/fence-search/output.hpp"
 #include "tools/frame/class_runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/options.hpp"
-#include "tools/frame/section_state.hpp"
 #include "tools/frame/site_options.hpp"
 
 namespace {

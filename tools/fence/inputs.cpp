@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "post/reduce.hpp"
-#include "tools/frame/site_places.hpp"
+#include "setup/site_places_gdal.hpp"
 
 namespace talus {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/geopackage_gdal.hpp"
-#include "tools/frame/source_work.hpp"
+#include "setup/source_work.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {

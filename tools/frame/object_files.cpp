@@ -3,7 +3,7 @@
 #include <map>
 
 #include "base/error.hpp"
-#include "tools/frame/file_paths.hpp"
+#include "base/file_paths.hpp"
 
 namespace talus {
 

@@ -8,9 +8,9 @@
 #include <cstring>
 #include <set>
 
+#include "base/file_paths.hpp"
 #include "base/text.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/file_paths.hpp"
 #include "tools/frame/options.hpp"
 
 namespace talus {

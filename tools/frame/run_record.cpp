@@ -9,10 +9,10 @@
 #include <map>
 #include <utility>
 
+#include "base/file_paths.hpp"
 #include "base/sha256.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/exit_code.hpp"
-#include "tools/frame/file_paths.hpp"
 #include "tools/frame/machine.hpp"
 
 namespace talus {

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "base/read_file.hpp"
+#include "setup/site_files.hpp"
+#include "setup/site_layers_gdal.hpp"
 #include "site/site.hpp"
 #include "site/soils.hpp"
 #include "site/uncertainty.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/options.hpp"
-#include "tools/frame/site_files.hpp"
-#include "tools/frame/site_layers.hpp"
 
 namespace talus {
 

@@ -11,7 +11,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "tools/frame/file_paths.hpp"
+#include "base/file_paths.hpp"
 #include "tools/frame/machine.hpp"
 
 namespace talus {

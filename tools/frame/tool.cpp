@@ -11,6 +11,7 @@
 #include <iostream>
 #include <set>
 
+#include "base/file_paths.hpp"
 #include "base/memory.hpp"
 #include "base/network.hpp"
 #include "base/printable.hpp"
@@ -19,7 +20,6 @@
 #include "store/runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/exit_code.hpp"
-#include "tools/frame/file_paths.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/output_checks.hpp"
 #include "tools/frame/progress_line.hpp"
@@ -494,22 +494,17 @@ void Tool::read_by_content(const std::string& path) {
 
 bool Tool::interrupted() const { return stop_requested(); }
 
-void Tool::info(const std::string& text) {
-  if (!impl_->options.quiet) impl_->say(info_level, text);
+void Tool::note(Severity severity, const std::string& text) {
+  if (severity == Severity::warning) impl_->event("warning", text);
+  if (severity == Severity::record) return impl_->event("info", text);
+  if (impl_->options.quiet || (severity == Severity::detail && !impl_->options.verbose)) return;
+  impl_->say(severity == Severity::warning ? warning_level : info_level, text);
 }
 
-void Tool::detail(const std::string& text) {
-  if (impl_->options.verbose && !impl_->options.quiet) impl_->say(info_level, text);
-}
-
-void Tool::record(const std::string& text) { impl_->event("info", text); }
-
-void Tool::warn(const std::string& text) {
-  impl_->event("warning", text);
-  if (!impl_->options.quiet) impl_->say(warning_level, text);
-}
-
-void Tool::layer_read(Json entry) {
+void Tool::layer_read(const LayerRead& layer) {
+  Json entry = {{"input", layer.role}, {"file", layer.file}};
+  for (const auto& [name, value] : layer.facts)
+    std::visit([&, &key = name](const auto& fact) { entry[key] = fact; }, value);
   impl_->event("info", "read " + json_text(entry));
   impl_->layers_read.push_back(std::move(entry));
 }

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/progress.hpp"
+#include "base/input_log.hpp"
 
 namespace CLI {
 class App;
@@ -39,13 +39,11 @@ struct ConfigValue {
   std::string source;
 };
 
-class Tool {
+class Tool : public InputLog {
  public:
   /// `name` as typed ("talus-tin"); `purpose` one sentence for --help.
   Tool(std::string name, std::string purpose);
-  ~Tool();
-  Tool(const Tool&) = delete;
-  Tool& operator=(const Tool&) = delete;
+  ~Tool() override;
 
   /// For what the functions below do not cover (groups, sub-commands).
   CLI::App& app();
@@ -88,23 +86,19 @@ class Tool {
   [[nodiscard]] std::string stage_also_if_refused(const std::string& path);
   /// Stages `path` and writes `content` into it. Throws InputError when it cannot be written.
   void write_text(const std::string& path, const std::string& content);
-  /// A file that was read but is not an option's value (named in a site file, member of a set).
-  void read_also(const std::string& role, const std::string& path);
+  // As InputLog: files beside the options' values (named in a site file, member of a set), layers,
+  // which become entries of `layers_read` in what --json prints, and notes: to stderr, not with -q,
+  // details with -v alone; warnings are kept in the registry and in result().
+  void read_also(const std::string& role, const std::string& path) override;
+  void read_by_content(const std::string& path) override;
+  void content_read(const std::string& role, const std::string& digest) override;
+  void layer_read(const LayerRead& layer) override;
+  void note(Severity severity, const std::string& text) override;
   /// A file that the site file names, whether or not it is read: no output may be it.
   void keep(const std::string& path);
-  /// A file whose bytes do not count for run_id(), since content_read() says what was read of it;
-  /// call it before read_also() names the file.
-  void read_by_content(const std::string& path);
   /// To hand to long work; throws Interrupted after SIGINT, SIGTERM or SIGHUP.
-  [[nodiscard]] ProgressFunction progress();
-  [[nodiscard]] bool interrupted() const;  ///< one of these has come
-  void info(const std::string& text);      ///< to stderr, not with -q
-  void detail(const std::string& text);    ///< to stderr, with -v
-  void warn(const std::string& text);      ///< as info(); kept in the registry and in result()
-  void record(const std::string& text);    ///< kept in the registry alone, as information
-  /// What was taken from a vector source: an entry of `layers_read` in what --json prints, and an
-  /// event in the registry.
-  void layer_read(Json entry);
+  [[nodiscard]] ProgressFunction progress() override;
+  [[nodiscard]] bool interrupted() const;         ///< one of these has come
   [[nodiscard]] const Json& layers_read() const;  ///< of layer_read(), in order
   void metric(const std::string& name, double value, const std::string& unit);
   /// A limit of the run's health; a failed one makes the exit code 3 once the outputs are in place,
@@ -115,9 +109,6 @@ class Tool {
   void result(Json result, const std::string& summary);
   [[nodiscard]] bool overwrite() const;
   [[nodiscard]] std::string registry() const;  ///< that runs are recorded in, whether or not there
-  /// Digest of what was read of an input whose bytes do not say all: a folder, a virtual path of
-  /// GDAL, a file that is read together with others beside it. Counts for run_id() as the bytes do.
-  void content_read(const std::string& role, const std::string& digest);
   /// Leaves these out of run_id(): settings by their keys and inputs by their roles that equal
   /// results may differ in, or that other settings stand for. All others count, and so does every
   /// input that was named by read_also() or content_read() before the first call of run_id().

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/file_paths.hpp"
 #include "base/printable.hpp"
 #include "base/text.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/file_paths.hpp"
 #include "tools/frame/options.hpp"
 
 namespace talus {

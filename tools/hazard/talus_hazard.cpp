@@ -7,12 +7,12 @@
 
 #include "base/memory.hpp"
 #include "base/text.hpp"
+#include "setup/section_state_gdal.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/options.hpp"
-#include "tools/frame/section_state.hpp"
 #include "tools/hazard/inputs.hpp"
 #include "tools/hazard/layers.hpp"
 

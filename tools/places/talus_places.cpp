@@ -9,12 +9,12 @@
 #include "post/fence/fence_runs.hpp"
 #include "post/places.hpp"
 #include "post/reduce.hpp"
+#include "setup/section_state_gdal.hpp"
+#include "setup/site_places_gdal.hpp"
+#include "setup/vector_inputs_gdal.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/run_inputs.hpp"
-#include "tools/frame/section_state.hpp"
 #include "tools/frame/site_options.hpp"
-#include "tools/frame/site_places.hpp"
-#include "tools/frame/vector_inputs.hpp"
 
 namespace {
 

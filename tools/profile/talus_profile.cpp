@@ -9,11 +9,12 @@
 #include "io/crs_place_gdal.hpp"
 #include "post/profile/line_sums.hpp"
 #include "post/reduce.hpp"
+#include "setup/vector_inputs_gdal.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
+#include "tools/frame/layer_options.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/run_inputs.hpp"
-#include "tools/frame/vector_inputs.hpp"
 #include "tools/profile/output.hpp"
 
 namespace {

@@ -9,9 +9,9 @@
 #include "io/tags_gdal.hpp"
 #include "post/made_with.hpp"
 #include "post/run_set.hpp"
+#include "setup/section_state_gdal.hpp"
 #include "site/stages.hpp"
 #include "site/uncertainty.hpp"
-#include "tools/frame/section_state.hpp"
 
 namespace talus {
 namespace fs = std::filesystem;

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/file_paths.hpp"
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/style.hpp"
@@ -18,7 +19,6 @@
 #include "report/plan_view.hpp"
 #include "report/styles_gdal.hpp"
 #include "site/site_layers.hpp"
-#include "tools/frame/file_paths.hpp"
 #include "tools/report/hazard.hpp"
 #include "tools/report/json.hpp"
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/file_paths.hpp"
 #include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
@@ -25,7 +26,6 @@
 #include "report/zip.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/fault_json.hpp"
-#include "tools/frame/file_paths.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/frame/site_options.hpp"

@@ -8,16 +8,16 @@
 #include <map>
 #include <set>
 
+#include "base/file_paths.hpp"
 #include "base/read_file.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "io/data_files_gdal.hpp"
 #include "io/feature_tables_gdal.hpp"
+#include "setup/site_files.hpp"
 #include "site/stages.hpp"
-#include "tools/frame/data_files.hpp"
-#include "tools/frame/file_paths.hpp"
 #include "tools/frame/object_files.hpp"
 #include "tools/frame/options.hpp"
-#include "tools/frame/site_files.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/site/file_digests.hpp"
 #include "tools/site/new_layers.hpp"

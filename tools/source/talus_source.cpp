@@ -9,12 +9,13 @@
 #include "base/units.hpp"
 #include "base/words.hpp"
 #include "io/raster_gdal.hpp"
+#include "setup/site_crs_gdal.hpp"
+#include "setup/sliding_sets.hpp"
+#include "setup/source_cut_gdal.hpp"
 #include "tools/frame/failure_outlines.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
 #include "tools/frame/options.hpp"
-#include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
-#include "tools/frame/source_cut.hpp"
 
 namespace {
 

@@ -12,13 +12,14 @@
 #include "io/crs_gdal.hpp"
 #include "io/crs_operation_gdal.hpp"
 #include "io/tin_ply.hpp"
+#include "setup/vector_inputs_gdal.hpp"
 #include "terrain/flat.hpp"
 #include "terrain/outliers.hpp"
 #include "terrain/point_tin.hpp"
 #include "terrain/tin_mesh.hpp"
 #include "tools/frame/command_line.hpp"
+#include "tools/frame/layer_options.hpp"
 #include "tools/frame/options.hpp"
-#include "tools/frame/vector_inputs.hpp"
 #include "tools/tin/doubts.hpp"
 
 namespace {
@@ -177,7 +178,7 @@ void say_reading(Tool& tool, const Options& o, const ContourMap& map,
       {"spots", &reading.spots},
       {"boundary", &reading.boundary}};
   for (const auto& [role, taken] : sources)
-    if (!taken->file.empty()) tool.layer_read(talus::entry_on(*taken, role));
+    if (!taken->file.empty()) tool.layer_read(talus::facts_on(*taken, role));
 }
 
 void read_members_of_sources(Tool& tool, const Options& o) {

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "base/csv.hpp"
+#include "base/file_paths.hpp"
 #include "base/text.hpp"
 #include "post/hazard/hazard_maps.hpp"
 #include "post/maps/ramp.hpp"
-#include "tools/frame/file_paths.hpp"
-#include "tools/frame/site_places.hpp"
+#include "setup/site_places_gdal.hpp"
 
 namespace talus {
 namespace {

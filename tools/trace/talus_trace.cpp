@@ -5,20 +5,20 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/file_paths.hpp"
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "post/hazard/hazard_rates.hpp"
 #include "post/reduce.hpp"
+#include "setup/section_state_gdal.hpp"
+#include "setup/site_places_gdal.hpp"
 #include "tools/frame/class_runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
-#include "tools/frame/file_paths.hpp"
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/object_files.hpp"
 #include "tools/frame/options.hpp"
-#include "tools/frame/section_state.hpp"
 #include "tools/frame/site_options.hpp"
-#include "tools/frame/site_places.hpp"
 #include "tools/trace/layers.hpp"
 
 namespace {

@@ -17,6 +17,7 @@
 #include "io/raster_gdal.hpp"
 #include "io/tin_files_gdal.hpp"
 #include "io/trn_digest.hpp"
+#include "setup/vector_inputs_gdal.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/grid_tin.hpp"
 #include "terrain/ground_doubts.hpp"
@@ -24,8 +25,8 @@
 #include "terrain/trn_quality.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/doubts_layer.hpp"
+#include "tools/frame/layer_options.hpp"
 #include "tools/frame/options.hpp"
-#include "tools/frame/vector_inputs.hpp"
 
 namespace {
 
@@ -246,7 +247,7 @@ Ground ground_of_tin(Tool& tool, const Options& o) {
   talus::TinFile file = talus::read_tin_file(faces_of(o));
   for (const std::string& note : file.notes) tool.info(note);
   for (const std::string& warning : file.warnings) tool.warn(warning);
-  if (!file.taken.file.empty()) tool.layer_read(talus::entry_on(file.taken, "source"));
+  if (!file.taken.file.empty()) tool.layer_read(talus::facts_on(file.taken, "source"));
   const talus::Tin& tin = file.tin;
   check_tin(tin, o.source);
   Ground ground;
@@ -367,7 +368,7 @@ talus::ErrorStatistics errors_against_points(Tool& tool, const Trn& trn,
                                              std::vector<std::string>& notes) {
   talus::LayerReading taken;
   const std::vector<talus::Vec3> truth = talus::read_points(choice, trn.crs_wkt, notes, taken);
-  tool.layer_read(talus::entry_on(taken, "reference_points"));
+  tool.layer_read(talus::facts_on(taken, "reference_points"));
   for (const std::string& note : notes) tool.info(note);
   talus::ErrorCollector errors;
   for (const talus::Vec3& point : truth)

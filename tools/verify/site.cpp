@@ -5,11 +5,12 @@
 
 #include "base/text.hpp"
 #include "run/runner.hpp"
+#include "setup/scene_inputs_gdal.hpp"
+#include "setup/site_layers_gdal.hpp"
 #include "terrain/trn_flags.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/machine.hpp"
-#include "tools/frame/site_layers.hpp"
 #include "verify/study/ensemble.hpp"
 
 namespace talus {

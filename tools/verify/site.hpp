@@ -5,7 +5,8 @@
 
 #include <string>
 
-#include "tools/frame/scene_inputs.hpp"
+#include "setup/dda_inputs.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace talus {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "post/fence_search/candidates.hpp"
 #include "post/fence_search/paths.hpp"
 #include "post/fence_search/search.hpp"
 #include "run_maker.hpp"
@@ -129,10 +128,6 @@ double cost_at(const Slope& scene, const SearchSettings& settings, double s) {
   }();
   const FenceSearchResult found = searched(alone, settings);
   return found.proposals.empty() ? std::nan("") : found.proposals[0].cost;
-}
-
-RecordObject house(double x0, double y0, double x1, double y1) {
-  return {"house", "", {{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, true}}, 0};
 }
 
 }  // namespace
@@ -352,71 +347,6 @@ TEST(FenceSearch, SharesThatChanceTellsApartDoNotAgree) {
   EXPECT_TRUE(shares_agree(0.03, wilson_interval(0.03, 100), 0.07, wilson_interval(0.07, 100)));
   EXPECT_FALSE(shares_agree(0.03, wilson_interval(0.03, 100), 0.20, wilson_interval(0.20, 100)));
   EXPECT_TRUE(shares_agree(0, wilson_interval(0, 100), 0, wilson_interval(0, 100)));
-}
-
-TEST(FenceCandidates, OnAPlaneAreLinesOfEqualDistanceUphill) {
-  const Trn trn = plane_trn(0.5, 5, 61, 61);  // falls to +x
-  CandidateSettings settings;
-  settings.by_contours = false;
-  settings.nearest = 10;
-  settings.farthest = 50;
-  settings.step = 10;
-  const RecordObject object = house(200, 140, 210, 160);
-  const FenceCandidates found = fence_candidates(trn, object, settings);
-  ASSERT_EQ(found.lines.size(), 5u);
-  for (std::size_t i = 0; i < found.lines.size(); ++i)
-    for (const Vec2& p : found.lines[i]) {
-      EXPECT_NEAR(gap_to(object, p), 10 + 10 * static_cast<double>(i), 0.6);
-      EXPECT_LT(p.x(), 200);  // uphill
-    }
-}
-
-TEST(FenceCandidates, OfAPlaneAreItsContoursWithinTheZone) {
-  const Trn trn = plane_trn(0.5, 5, 61, 61);
-  CandidateSettings settings;
-  settings.nearest = 10;
-  settings.farthest = 60;
-  settings.step = 5;
-  const FenceCandidates found = fence_candidates(trn, house(200, 140, 210, 160), settings);
-  ASSERT_GE(found.lines.size(), 4u);
-  for (const std::vector<Vec2>& line : found.lines)
-    for (const Vec2& p : line) {
-      EXPECT_NEAR(p.x(), line[0].x(), 1e-6);
-      EXPECT_GE(gap_to(house(200, 140, 210, 160), p), 10 - 0.1);
-      EXPECT_LE(gap_to(house(200, 140, 210, 160), p), 60 + 0.1);
-    }
-}
-
-TEST(FenceCandidates, AreNoMoreThanAskedForAndNoneWithoutRoom) {
-  const Trn trn = plane_trn(0.5, 5, 61, 61);
-  CandidateSettings settings;
-  settings.by_contours = false;
-  settings.step = 1;
-  settings.most = 7;
-  const FenceCandidates few = fence_candidates(trn, house(200, 140, 210, 160), settings);
-  EXPECT_LE(few.lines.size(), 7u);
-  EXPECT_GE(few.lines.size(), 4u);
-  EXPECT_GT(few.step, 1);
-  settings.ground_slope = 0.4;  // the plane is steeper
-  const FenceCandidates none = fence_candidates(trn, house(200, 140, 210, 160), settings);
-  EXPECT_TRUE(none.lines.empty());
-  EXPECT_GT(none.n_in_zone, 0);
-  // at the upper edge of the terrain nothing lies higher
-  EXPECT_EQ(fence_candidates(trn, house(0, 0, 300, 300), settings).n_in_zone, 0);
-}
-
-TEST(IsoLines, OfAConeAreClosedCircles) {
-  ValueGrid grid{{-50, -50}, 2, 51, 51, {}};
-  for (int r = 0; r < 51; ++r)
-    for (int c = 0; c < 51; ++c) grid.value.push_back(Vec2(2 * c - 50, 2 * r - 50).norm());
-  const auto lines = iso_lines(grid, 31);
-  ASSERT_EQ(lines.size(), 1u);
-  double length = 0;
-  for (std::size_t i = 0; i < lines[0].size(); ++i) {
-    EXPECT_NEAR(lines[0][i].norm(), 31, 0.05);
-    length += (lines[0][(i + 1) % lines[0].size()] - lines[0][i]).norm();
-  }
-  EXPECT_NEAR(length, 2 * std::numbers::pi * 31, 1);
 }
 
 TEST(FencePaths, GiveTheCrossingsOfLinesThatNobodyWatched) {

@@ -1,0 +1,31 @@
+// libcore/setup/dda_inputs.hpp: public
+// What a run is set up from: terrain, blocks and what stands on the ground, relative to one origin.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "record/crossings.hpp"
+#include "record/object_hits.hpp"
+#include "record/run_file.hpp"
+#include "scene/site_scene.hpp"
+
+namespace talus {
+
+struct DdaFiles {
+  std::string trn, blocks;
+  bool settle = false;  ///< lift blocks that stand in the ground, move small overlaps apart
+};
+
+struct DdaInputs {
+  SceneParts parts;
+  std::vector<RecordLine> lines;      ///< of [fence.*], on the ground
+  std::vector<RecordObject> objects;  ///< of [object.*]
+  std::vector<ForestInfo> forests;    ///< of [forest.*] that stand, set by check_start()
+  std::string crs_wkt;
+  Vec3 origin = Vec3::Zero();  ///< of the TRN: everything is relative to it
+  std::string trn_sha256, trn_digest;
+  std::vector<std::string> warnings;  ///< for the run file: without paths, which may change
+};
+
+}  // namespace talus

@@ -1,0 +1,55 @@
+// libcore/setup/fence_candidates.hpp
+// Lines that a fence may stand on, uphill of an object.
+// in:    terrain, the object in plan, what a fence can stand on
+// out:   open lines with corners a post spacing apart: contours of the ground, or lines of equal
+//        distance from the object
+//
+// A place is in the zone where its distance from the object lies between two limits and the ground
+// is higher than at the nearest point of the object. Lines end where the zone does, where the
+// ground is too steep to stand on, and where the line itself climbs too much.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "record/object_hits.hpp"
+#include "terrain/trn.hpp"
+
+namespace talus {
+
+struct CandidateSettings {
+  double nearest = 10, farthest = 150;  ///< distance from the object, in plan [m]
+  double step = 5;                      ///< from line to line: in plan, or in height [m]
+  bool by_contours = true;              ///< else by distance
+  int most = 60;                        ///< more lines than this: the step grows
+  double spacing = 10;                  ///< of the corners, at most [m]
+  double least_length = 30;             ///< shorter lines are left out [m]
+  double line_slope = 0.36;             ///< steepest along a line, tangent [-]
+  double ground_slope = 1.2;            ///< steepest ground below a corner, tangent [-]
+};
+
+struct FenceCandidates {
+  std::vector<std::vector<Vec2>> lines;  ///< corners, local [m]; from the lowest level up
+  double step = 0;                       ///< that they have in the end [m]
+  int n_in_zone = 0;                     ///< nodes of the search's grid that lie in the zone
+  int n_too_short = 0, n_cut = 0;        ///< pieces left out; places where slopes cut a line
+};
+/// None where the zone is empty. The same lines for the same terrain and object.
+[[nodiscard]] FenceCandidates fence_candidates(const Trn& trn, const RecordObject& object,
+                                               const CandidateSettings& settings);
+
+/// A grid of values for iso_lines(): node (r, c) at first + spacing (c, r).
+struct ValueGrid {
+  Vec2 first = Vec2::Zero();
+  double spacing = 1;  ///< [m]
+  int n_rows = 0, n_cols = 0;
+  std::vector<double> value;  ///< NaN: no line goes there                        (n_rows * n_cols)
+};
+/// Where the value is `level`, linear along the edges of the grid; a closed line ends beside its
+/// beginning. Marching squares; a saddle goes by the mean of its four nodes.
+[[nodiscard]] std::vector<std::vector<Vec2>> iso_lines(const ValueGrid& grid, double level);
+
+/// Points at equal distances along a line, no farther apart than `spacing`, both ends among them.
+[[nodiscard]] std::vector<Vec2> evenly_spaced(const std::vector<Vec2>& line, double spacing);
+
+}  // namespace talus

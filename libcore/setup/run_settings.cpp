@@ -1,0 +1,149 @@
+#include "setup/run_settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.hpp"
+#include "site/soils.hpp"
+
+namespace talus {
+namespace {
+
+// Steps are all of one length, so a run ends with the one nearest to the duration.
+double duration_reached(const SolverSettings& solver) {
+  const double dt = time_step(solver);
+  return std::ceil(solver.duration_s / dt - 0.5) * dt;
+}
+
+// A slide whose blocks pass through each other must not look like a result.
+void warn_of_blocks_apart(InputLog& log, const ScenePlan& plan, DdaInputs& inputs) {
+  const int n = n_blocks(inputs.parts.blocks);
+  if (n < 2 || plan.block_contacts) return;
+  inputs.warnings.push_back(std::to_string(n) +
+                            " blocks move as if each were alone: contacts "
+                            "between them are not computed");
+  log.warn(inputs.warnings.back());
+}
+
+// Whoever asks for stress must not read it off blocks that have none.
+void warn_of_rigid_blocks(InputLog& log, const Site& site, const ScenePlan& plan,
+                          DdaInputs& inputs) {
+  const bool asked_for = site.output.strain || site.solver.strain == "on";
+  if (!asked_for || site.solver.law != "talus" || !plan.block_contacts ||
+      n_blocks(inputs.parts.blocks) < 2)
+    return;
+  inputs.warnings.push_back(
+      "strains are asked for: law talus computes blocks that touch each other rigid, their strains "
+      "stay as they were");
+  log.warn(inputs.warnings.back());
+}
+
+}  // namespace
+
+void check_times(const Site& site) {
+  const SolverSettings& solver = site.solver;
+  if (solver.min_time_step_s > solver.max_time_step_s)  // false where one is not given
+    throw InputError(where_of(site, "solver.min_time_step_s"),
+                     "min_time_step_s is " + text(solver.min_time_step_s) +
+                         ", above max_time_step_s, " + text(solver.max_time_step_s));
+  if (solver.duration_s < time_step(solver))
+    throw InputError(where_of(site, "solver.duration_s"),
+                     "duration_s is " + text(solver.duration_s) + ", less than a time step of " +
+                         text(time_step(solver)) + " s",
+                     "give a longer duration or a shorter time_step_s");
+  constexpr double most_frames = 1e7;
+  const double n_frames = solver.duration_s / site.output.frame_interval_s;
+  if (n_frames > most_frames)
+    throw InputError(where_of(site, "output.frame_interval_s"),
+                     "gives " + text(n_frames, 3) + " frames, expected up to " + text(most_frames),
+                     "give a longer frame_interval_s");
+}
+
+std::vector<std::string> warn_of_settings(InputLog& log, const Site& site) {
+  std::vector<std::string> warnings;
+  const double reached = duration_reached(site.solver);
+  if (std::abs(reached - site.solver.duration_s) > 1e-6 * time_step(site.solver)) {
+    warnings.push_back("the run lasts " + text(reached, 6) + " s, not " +
+                       text(site.solver.duration_s, 6) + " s: it is whole steps of " +
+                       text(time_step(site.solver), 6) + " s");
+    log.warn(warnings.back());
+  }
+  const bool any_stands = std::any_of(site.fences.begin(), site.fences.end(),
+                                      [](const FenceSettings& fence) { return fence.active; });
+  if (any_stands && site.solver.law == "paper") {
+    warnings.push_back("fences stop nothing with law paper: what crosses their lines is recorded");
+    log.warn(warnings.back());
+  }
+  const bool has_forest = std::any_of(site.forests.begin(), site.forests.end(),
+                                      [](const ForestSettings& forest) { return forest.active; });
+  if (has_forest && site.solver.law == "paper") {
+    warnings.push_back("forests stop nothing with law paper");
+    log.warn(warnings.back());
+  }
+  for (const FenceSettings& fence : site.fences)
+    if (!std::isnan(fence.max_deflection_m) && std::isnan(fence.capacity_kj)) {
+      warnings.push_back("fence." + fence.name +
+                         ".max_deflection_m does nothing without capacity_kj: the fence is rigid");
+      log.warn(warnings.back());
+    }
+  for (const GroundSettings& ground : site.grounds)
+    if (site.solver.law == "paper" && gives_way(ground)) {
+      warnings.push_back("ground." + ground.name +
+                         " gives way with law talus alone: law paper knows its friction and COR");
+      log.warn(warnings.back());
+    }
+  const SolverSettings& solver = site.solver;
+  if (!site.quantities.empty() && site.uncertainty.sample == 0) {
+    warnings.push_back(std::to_string(site.quantities.size()) +
+                       (site.quantities.size() == 1 ? " quantity" : " quantities") +
+                       " of [uncertainty] not drawn: no --sample is given, so the values of the "
+                       "site file hold");
+    log.warn(warnings.back());
+  }
+  if (solver.seed != SolverSettings{}.seed && site.uncertainty.sample == 0 &&
+      solver.start_jitter_m_s == 0 && solver.friction_scatter_deg == 0 && solver.cor_scatter == 0 &&
+      solver.rolling_scatter == 0 &&
+      std::none_of(site.forests.begin(), site.forests.end(), [](const ForestSettings& forest) {
+        return forest.active && forest.new_stand_per_run;
+      })) {
+    warnings.push_back(std::string(seed_draws_nothing) +
+                       ": start_jitter_m_s, friction_scatter_deg, cor_scatter and "
+                       "rolling_scatter are 0, so other seeds give the same run");
+    log.warn(warnings.back());
+  }
+  for (const UnusualValue& value : unusual_values(site)) {
+    warnings.push_back(value.key + " " + value.finding);
+    log.warn(where_of(site, value.key).text() + ": " + warnings.back());
+  }
+  return warnings;
+}
+
+void cut_fragments(InputLog& log, const Site& site, DdaInputs& inputs) {
+  if (!site.fragmentation.enabled) return;
+  const auto warn = [&](const std::string& words) {
+    inputs.warnings.push_back(words);
+    log.warn(words);
+  };
+  if (site.solver.law != "talus") return warn("[fragmentation] does nothing with law paper");
+  BlockSet& blocks = inputs.parts.blocks;
+  const int n = n_blocks(blocks);
+  inputs.parts.fragments = add_fragments(blocks, split_settings(site, blocks));
+  int n_of_parts = 0, n_small = 0;
+  for (int b = 0; b < n; ++b) {
+    if (inputs.parts.fragments[static_cast<std::size_t>(b)].first_piece >= 0) continue;
+    const bool is_of_parts = blocks.convex_part_begin[b + 1] - blocks.convex_part_begin[b] > 1;
+    ++(is_of_parts ? n_of_parts : n_small);
+  }
+  log.detail(counted(n, "block") + " may break into " + std::to_string(n_blocks(blocks) - n) +
+             " pieces of all sizes");
+  if (n_of_parts > 0) warn(counted(n_of_parts, "block") + " of several convex parts cannot break");
+  if (n_small > 0)
+    warn(counted(n_small, "block") + " cannot break into pieces of [fragmentation] min_volume_m3");
+}
+
+void warn_of_plan(InputLog& log, const Site& site, const ScenePlan& plan, DdaInputs& inputs) {
+  warn_of_blocks_apart(log, plan, inputs);
+  warn_of_rigid_blocks(log, site, plan, inputs);
+}
+
+}  // namespace talus

@@ -1,0 +1,248 @@
+#include "setup/site_places_gdal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/sha256.hpp"
+#include "base/text.hpp"
+#include "io/areas_gdal.hpp"
+#include "io/buffer_gdal.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/crs_operation_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
+#include "scene/site_fence.hpp"
+#include "setup/vector_inputs_gdal.hpp"
+#include "terrain/extent_text.hpp"
+
+namespace talus {
+namespace {
+
+// Map coordinates of the site file, in the CRS of the terrain.
+void bring_to_ground(InputLog& log, const Site& site, const Trn& ground, const std::string& key,
+                     std::vector<Vec3>& points) {
+  const std::string said =
+      site.info.crs.empty() ? std::string() : crs_from_user(site.info.crs, "site.crs");
+  const std::string crs = said.empty() ? ground.crs_wkt : said;
+  const Where where = where_of(site, key);
+  CrsExtent place{crs, window_of(points, crs), ground.crs_wkt};
+  place.crs_said_in = said.empty() ? "the terrain" : "crs of [site]";
+  for (const std::string& warning : check_place(place, where)) log.warn(warning);
+  if (same_crs(crs, ground.crs_wkt)) return;
+  const CrsOperation operation = find_operation(crs, ground.crs_wkt, place.extent, where);
+  if (!carry_out(operation, points))
+    throw InputError(
+        where, "cannot be reprojected from " + crs_name(crs) + " to " + crs_name(ground.crs_wkt),
+        "check crs of [site]: it is that of the coordinates in the site file");
+  Sha256 hash;
+  for (const Vec3& point : points) hash.add(point.data(), sizeof point);
+  log.content_read(key, hash.hex());
+  log.info(key + ": " + sentence_on(operation));
+  log.record(key + ": " + sentence_on(operation));
+  if (const std::string doubt = doubt_on(operation); !doubt.empty()) log.warn(key + ": " + doubt);
+}
+
+// The part of a segment, as shares of its length, that lies within `near` of another one.
+std::pair<double, double> part_near(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d,
+                                    double near) {
+  const double length = (b - a).norm();
+  const Vec2 along = (b - a) / length, across(-along.y(), along.x());
+  const Vec2 from((c - a).dot(along), (c - a).dot(across));
+  const Vec2 to((d - a).dot(along), (d - a).dot(across));
+  double low = 0, high = 1;  // shares of c-d whose distance across is at most `near`
+  const double rise = to.y() - from.y();
+  if (rise == 0) {
+    if (std::abs(from.y()) > near) return {0, 0};
+  } else {
+    const double one = (-near - from.y()) / rise, other = (near - from.y()) / rise;
+    low = std::max(low, std::min(one, other));
+    high = std::min(high, std::max(one, other));
+    if (low >= high) return {0, 0};
+  }
+  const double x = from.x() + low * (to.x() - from.x()), y = from.x() + high * (to.x() - from.x());
+  return {std::clamp(std::min(x, y) / length, 0.0, 1.0),
+          std::clamp(std::max(x, y) / length, 0.0, 1.0)};
+}
+
+// Two fences that share a stretch of ground count and stop the same blocks twice there. Fences that
+// cross, or meet at a corner, share less than two metres.
+void check_share_no_ground(InputLog& log, const Site& site, const Trn& trn, const FenceLine& one,
+                           const FenceLine& other) {
+  constexpr double near = 0.1, shared_m = 2;
+  const std::vector<Vec3>&p = one.line.points, &q = other.line.points;
+  double length = 0;
+  Vec2 at = Vec2::Zero();
+  for (std::size_t i = 0; i + 1 < p.size(); ++i)
+    for (std::size_t j = 0; j + 1 < q.size(); ++j) {
+      const Vec2 a = p[i].head<2>(), b = p[i + 1].head<2>();
+      const auto [from, to] = part_near(a, b, q[j].head<2>(), q[j + 1].head<2>(), near);
+      if (length == 0 && to > from) at = a + from * (b - a) + trn.origin.head<2>();
+      length += (to - from) * (b - a).norm();
+    }
+  if (length <= shared_m || lies_along(p, q) || lies_along(q, p)) return;
+  const std::string finding = "lies on fence " + other.line.name + " along " + text(length, 3) +
+                              " m, from " + text(at.x(), 9) + ", " + text(at.y(), 9) + " on";
+  if (one.fence != other.fence && !(one.fence->active && other.fence->active))
+    return log.warn("fence " + one.line.name + " " + finding + ": both count the same blocks");
+  throw InputError({site.file, one.fence->line_number, "fence." + one.line.name},
+                   finding + ": two fences would stand there",
+                   "end one of them where the other one begins");
+}
+
+}  // namespace
+
+std::vector<Vec3> local_points(InputLog& log, const Site& site, const Trn& ground,
+                               std::vector<Vec3> points, const std::string& key) {
+  if (!points.empty() && !ground.crs_wkt.empty()) bring_to_ground(log, site, ground, key, points);
+  for (Vec3& p : points) p -= ground.origin;
+  return points;
+}
+
+std::vector<RecordLine> fence_lines(InputLog& log, const Site& site, const Trn& trn,
+                                    const FenceSettings& fence) {
+  const Where where = where_of_fence(site.file, fence);
+  if (!fence.line.empty() && !fence.line_file.empty())
+    throw InputError(where, "has both line and line_file", "say where the fence is, once");
+  std::vector<std::vector<Vec3>> found;
+  if (!fence.line.empty())
+    found.push_back(local_points(log, site, trn, fence.line, "fence." + fence.name + ".line"));
+  if (!fence.line_file.empty()) {
+    const std::string path = resolved(site, fence.line_file);
+    read_data(log, "fence." + fence.name, path);
+    const std::string section = "fence." + fence.name;
+    VectorShapes shapes = read_layer(
+        log, section,
+        {path, fence.line_layer, fence.line_where, VectorKind::lines, section + ".line_"},
+        trn.crs_wkt);
+    for (std::vector<Vec3>& line : shapes.shapes) {
+      for (Vec3& point : line) point -= trn.origin;
+      found.push_back(std::move(line));
+    }
+  }
+  return lines_of_fence(fence, trn, found, where);
+}
+
+namespace {
+
+Where where_of_object(const Site& site, const ObjectSettings& object) {
+  return {site.file, object.line_number, "object." + object.name};
+}
+
+// What the keys of a section name: where, and of which kind.
+VectorKind kind_of(const Site& site, const ObjectSettings& object) {
+  const int n = !object.polygon.empty() + !object.line.empty() + !object.position_m.empty() +
+                !object.file.empty();
+  if (n != 1)
+    throw InputError(where_of_object(site, object),
+                     n == 0 ? "has no place" : "has more than one place",
+                     "give one of polygon, line, position_m or file");
+  const bool has_width = !std::isnan(object.width_m), has_radius = !std::isnan(object.radius_m);
+  if (has_width && has_radius)
+    throw InputError(where_of_object(site, object), "has both width_m and radius_m",
+                     "width_m is of lines, radius_m of points");
+  if (!object.line.empty() && !has_width)
+    throw InputError(where_of_object(site, object), "is a line without a width",
+                     "give width_m, e.g. that of the road");
+  if (!object.position_m.empty() && !has_radius)
+    throw InputError(where_of_object(site, object), "is a point without a radius",
+                     "give radius_m, or an outline as polygon");
+  if (!object.polygon.empty() && (has_width || has_radius))
+    throw InputError(where_of_object(site, object), "is an area with width_m or radius_m",
+                     "leave them out: a polygon is taken as it is");
+  if (!object.line.empty() || (!object.file.empty() && has_width)) return VectorKind::lines;
+  if (!object.position_m.empty() || (!object.file.empty() && has_radius)) return VectorKind::points;
+  return VectorKind::areas;
+}
+
+std::vector<std::vector<Vec3>> shapes_of(InputLog& log, const Site& site, const Trn& trn,
+                                         const ObjectSettings& object, VectorKind kind) {
+  const std::string section = "object." + object.name;
+  if (!object.polygon.empty())
+    return {local_points(log, site, trn, object.polygon, section + ".polygon")};
+  if (!object.line.empty()) return {local_points(log, site, trn, object.line, section + ".line")};
+  std::vector<std::vector<Vec3>> shapes;
+  if (!object.position_m.empty()) {
+    for (const Vec3& p : local_points(log, site, trn, object.position_m, section + ".position_m"))
+      shapes.push_back({p});
+    return shapes;
+  }
+  const std::string path = resolved(site, object.file);
+  log.read_also(section, path);
+  VectorShapes found = read_layer(
+      log, section, {path, object.layer, object.where, kind, section + "."}, trn.crs_wkt);
+  for (std::vector<Vec3>& shape : found.shapes) {
+    for (Vec3& p : shape) p -= trn.origin;
+    shapes.push_back(std::move(shape));
+  }
+  return shapes;
+}
+
+void check_on_terrain(InputLog& log, const Site& site, const Trn& trn, const ObjectSettings& object,
+                      const RecordObject& made) {
+  std::size_t n = 0, n_off = 0;
+  for (const ObjectPart& part : made.parts)
+    for (const Vec2& p : part.points) {
+      ++n;
+      n_off += std::isnan(elevation_at(trn, p.x(), p.y()));
+    }
+  if (n_off == 0) return;
+  if (n_off < n) {
+    log.warn("object." + object.name + ": " + std::to_string(n_off) + " of its " +
+             std::to_string(n) + " points lie outside of the known terrain, where nothing comes");
+    return;
+  }
+  const Vec2 place = made.parts[0].points[0] + trn.origin.head<2>();
+  throw InputError(where_of_object(site, object),
+                   "lies outside of the known terrain, at (" + text(place.x(), 10) + ", " +
+                       text(place.y(), 10) + "); " + extent_text(trn),
+                   "make the terrain larger, or check the order (x east, y north) and the "
+                   "coordinate system of its points");
+}
+
+}  // namespace
+
+std::vector<RecordObject> site_objects(InputLog& log, const Site& site, const Trn& trn) {
+  std::vector<RecordObject> objects;
+  for (const ObjectSettings& object : site.objects) {
+    const VectorKind kind = kind_of(site, object);
+    RecordObject made{object.name, object.kind, {}, 0};
+    if (kind == VectorKind::lines) made.radius = object.width_m / 2;
+    if (kind == VectorKind::points) made.radius = object.radius_m;
+    for (const std::vector<Vec3>& shape : shapes_of(log, site, trn, object, kind)) {
+      ObjectPart part;
+      part.is_area = kind == VectorKind::areas;
+      for (const Vec3& p : shape) part.points.push_back(p.head<2>());
+      if (part.is_area) {
+        if (part.points.size() > 3 && part.points.front() == part.points.back())
+          part.points.pop_back();
+        check_polygon(part.points, where_of_object(site, object));
+      }
+      made.parts.push_back(std::move(part));
+    }
+    check_on_terrain(log, site, trn, object, made);
+    objects.push_back(std::move(made));
+  }
+  return objects;
+}
+
+std::vector<std::vector<std::vector<Vec2>>> polygons_of(const RecordObject& object) {
+  std::vector<std::vector<std::vector<Vec2>>> out;
+  for (const ObjectPart& part : object.parts) {
+    if (part.is_area)
+      out.push_back({part.points});
+    else
+      for (auto& polygon : buffer_of(part.points, object.radius)) out.push_back(std::move(polygon));
+  }
+  return out;
+}
+
+void check_fences_apart(InputLog& log, const Site& site, const Trn& trn,
+                        const std::vector<FenceLine>& lines) {
+  for (const std::string& doubt : check_fences_apart(site.file, trn, lines)) log.warn(doubt);
+  for (std::size_t later = 0; later < lines.size(); ++later)
+    for (std::size_t earlier = 0; earlier < later; ++earlier)
+      check_share_no_ground(log, site, trn, lines[later], lines[earlier]);
+}
+
+}  // namespace talus

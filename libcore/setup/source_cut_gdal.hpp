@@ -1,0 +1,35 @@
+// libcore/setup/source_cut_gdal.hpp: public
+// [source] and [joints.*] of the site file: the mass between the ground and the failure surface,
+// and the blocks that its joints cut it into.
+#pragma once
+
+#include "base/input_log.hpp"
+#include "setup/source_work.hpp"
+
+namespace talus {
+
+/// The polygon of [source], from the site file or the vector file that it names, reprojected with a
+/// note and checked (check_area). Throws InputError where the section names none or both.
+[[nodiscard]] Area read_source_area(InputLog& log, const BlocksWork& work);
+
+/// Reads [joints.*] with the files that it names into `work.sets`.
+void plan_sets(InputLog& log, BlocksWork& work);
+
+/// The planes of `work.sets` that a mass can leave on, into `work.planes`.
+void find_planes(InputLog& log, BlocksWork& work);
+
+/// The wedges of pairs of `work.sets`, into `work.wedges`; after find_planes().
+void find_wedges(BlocksWork& work);
+
+/// Where the polygon of [source] stands.
+[[nodiscard]] Where where_of_area(const BlocksWork& work);
+
+/// Finds the mass, draws the joints and puts the blocks into `work.blocks`, as they are cut
+/// (`exact`) or made convex. Warns of what was left out or lies below the limits. Throws InputError
+/// for more blocks than source.max_blocks, and where none is left.
+void cut_source(InputLog& log, bool exact, BlocksWork& work);
+
+/// By how much the volumes of the pieces differ from that of the mass, as a share of it.
+[[nodiscard]] double volume_error(const BlocksWork& work);
+
+}  // namespace talus

@@ -1,0 +1,99 @@
+#include "setup/vector_inputs_gdal.hpp"
+
+#include <algorithm>
+
+#include "base/file_paths.hpp"
+#include "base/grouped_text.hpp"
+#include "base/sha256.hpp"
+#include "base/text.hpp"
+#include "io/data_files_gdal.hpp"
+
+namespace talus {
+namespace {
+
+std::string digest_of(const VectorShapes& found) {
+  Sha256 hash;
+  for (const std::vector<Vec3>& shape : found.shapes) {
+    const std::size_t n = shape.size();
+    hash.add(&n, sizeof n);
+    for (const Vec3& point : shape) hash.add(point.data(), sizeof point);
+  }
+  for (const std::vector<std::string>& values : found.attributes)
+    for (const std::string& value : values) hash.add(value.c_str(), value.size() + 1);
+  return hash.hex();
+}
+
+std::string sentence_on(const VectorShapes& found, const VectorQuery& query) {
+  std::string words = sentence_on(found);
+  if (query.kind == VectorKind::areas)
+    words += " of " + grouped_text(found.area_m2, 4) + " m2 in all";
+  if (found.n_united > 0)
+    words += "; " + std::to_string(found.n_united) + " that overlap or touch were united to " +
+             std::to_string(found.n_made);
+  if (!found.operation.empty()) words += "; " + found.operation;
+  return words;
+}
+
+LayerRead facts_on(const VectorShapes& found, const std::string& role, const VectorQuery& query) {
+  LayerRead layer = facts_on(found, role);
+  if (query.kind == VectorKind::areas) {
+    layer.facts.emplace_back("n_united", std::int64_t{found.n_united});
+    layer.facts.emplace_back("n_made_of_them", std::int64_t{found.n_made});
+    layer.facts.emplace_back("area_m2", found.area_m2);
+  }
+  if (!found.operation.empty()) layer.facts.emplace_back("operation", found.operation);
+  return layer;
+}
+
+}  // namespace
+
+void read_members(InputLog& log, const std::string& role, const std::string& path) {
+  const std::string file = file_of(path);
+  if (file.empty() || is_virtual(file)) return;
+  const std::vector<std::string> known = sidecars_of(file);  // which are read anyway
+  for (const std::string& member : data_files(file))
+    if (member != file && std::count(known.begin(), known.end(), member) == 0)
+      log.read_also(role, member);
+}
+
+void read_data(InputLog& log, const std::string& role, const std::string& path) {
+  log.read_also(role, path);
+  read_members(log, role, path);
+}
+
+std::string sentence_on(const LayerReading& taken) {
+  std::string words = taken.file + ": layer " + taken.layer;
+  if (!taken.where.empty()) words += " where " + taken.where;
+  return words + ", " + counted(taken.n_parts, taken.noun);
+}
+
+LayerRead facts_on(const LayerReading& taken, const std::string& role) {
+  LayerRead layer{role, taken.file, {{"layer", taken.layer}}};
+  if (!taken.where.empty()) layer.facts.emplace_back("where", taken.where);
+  layer.facts.emplace_back("n_" + taken.noun + "s", std::int64_t{taken.n_parts});
+  if (!taken.elevation_from.empty()) {
+    layer.facts.emplace_back("elevation_from", taken.elevation_from);
+    layer.facts.emplace_back("elevation_unit_m", taken.unit_m);
+  }
+  layer.facts.emplace_back("n_passed_over", std::int64_t{taken.n_passed_over});
+  if (!taken.passed_over.empty()) layer.facts.emplace_back("passed_over", taken.passed_over);
+  if (!taken.remarks.empty()) layer.facts.emplace_back("remarks", taken.remarks);
+  return layer;
+}
+
+VectorShapes read_layer(InputLog& log, const std::string& role, const VectorQuery& query,
+                        const std::string& crs_wkt) {
+  VectorShapes found = read_vectors(query, crs_wkt);
+  log.content_read(role, digest_of(found));
+  log.info(sentence_on(found, query));
+  if (!found.operation.empty()) log.record(query.path + ": " + found.operation);
+  for (const std::string& warning : found.warnings) log.warn(warning);
+  for (const std::string& remark : found.remarks) log.info(query.path + ": " + remark);
+  if (found.n_passed_over > 0)
+    log.warn(query.path + ": layer " + found.layer + " also holds " + found.passed_over +
+             ", passed over");
+  log.layer_read(facts_on(found, role, query));
+  return found;
+}
+
+}  // namespace talus
