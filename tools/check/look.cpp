@@ -13,13 +13,12 @@
 #include "record/object_hits.hpp"
 #include "scene/site_scene.hpp"
 #include "setup/run_settings.hpp"
-#include "setup/scene_inputs_gdal.hpp"
+#include "setup/set_up_gdal.hpp"
 #include "setup/sliding_sets.hpp"
 #include "setup/source_cut_gdal.hpp"
 #include "site/joint_plan.hpp"
 #include "site/plan.hpp"
 #include "terrain/smooth.hpp"
-#include "terrain/trn_flags.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
 
 namespace talus {
@@ -365,10 +364,7 @@ void probe_look(Tool& tool, double duration, Look& look) {
   Site site = look.work.site;
   site.solver.time_step_s = probe_step_s;
   site.solver.min_time_step_s = site.solver.max_time_step_s = not_given;
-  const Trn& trn = look.inputs.parts.trn;
-  PlanFacts facts = plan_facts(site, look.inputs.parts.blocks, trn, ground_flags(trn));
-  facts.independent = look.files.independent;
-  const ScenePlan plan = make_plan(facts, false);
+  const ScenePlan plan = plan_of(site, look.inputs.parts, look.files.independent, false);
   check_start(tool, site, look.inputs, {look.files.bed, look.files.blocks, look.files.settle},
               plan.block_contacts);
   const Scene scene = make_site_scene(site, plan, look.inputs.parts);

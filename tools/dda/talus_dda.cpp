@@ -1,56 +1,33 @@
 // tools/dda/talus_dda.cpp
 // Moves blocks by three-dimensional discontinuous deformation analysis. Page:
 // docs/tools/talus-dda.md
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <filesystem>
-
-#include "base/memory.hpp"
 #include "base/processor_time.hpp"
-#include "base/text.hpp"
-#include "base/workers.hpp"
-#include "post/reduce.hpp"
-#include "record/pieces.hpp"
-#include "run/runner.hpp"
-#include "scene/site_scene.hpp"
-#include "setup/run_settings.hpp"
-#include "setup/scene_inputs_gdal.hpp"
+#include "setup/set_up_gdal.hpp"
 #include "setup/site_crs_gdal.hpp"
-#include "store/xdmf_hdf5.hpp"
-#include "terrain/trn_flags.hpp"
 #include "tools/dda/report.hpp"
-#include "tools/frame/build_info.hpp"
+#include "tools/dda/run.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
-#include "tools/frame/whole_runs.hpp"
 
 namespace {
 
 using namespace talus;  // NOLINT: a program of its own
-namespace fs = std::filesystem;
 
-struct Options {
-  DdaFiles files;
-  std::string out, xdmf, plan, passages_by = "footprint";
-  bool resume = false, independent = false;
-  int threads = 0;  // 0: as many as there are
-};
-
-void declare(Tool& tool, SiteOptions& site, Options& o) {
-  tool.input("--trn", o.files.trn, "terrain that the blocks slide on (talus-trn, talus-blocks)")
+void declare(Tool& tool, SiteOptions& site, DdaOptions& o) {
+  tool.input("--trn", o.request.files.trn,
+             "terrain that the blocks slide on (talus-trn, talus-blocks)")
       ->required();
-  tool.input("--blocks", o.files.blocks, "block set (talus-blocks)")->required();
+  tool.input("--blocks", o.request.files.blocks, "block set (talus-blocks)")->required();
   tool.output("-o,--out", o.out, "run to write (HDF5); not needed for --plan");
   tool.output("--xdmf", o.xdmf, "scene for ParaView (XDMF), with its own HDF5 file beside it");
   tool.app().add_flag("--plan{show}", o.plan,
                       "print what the scene needs and what is left out, then end; --plan=full "
                       "computes everything");
   tool.flag("--resume", o.resume, "go on from the checkpoint of a run that was stopped, if any");
-  tool.flag("--independent", o.independent,
+  tool.flag("--independent", o.request.independent,
             "move each block as if it were alone: rocks that fall one by one");
   tool.flag(
-      "--settle", o.files.settle,
+      "--settle", o.request.files.settle,
       "lift blocks that start below the ground onto it with what lies on them, and move blocks "
       "apart that overlap a little");
   tool.option("--passages-by", o.passages_by,
@@ -79,225 +56,10 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
       {"resume", "threads", "output.checkpoint_interval_s", "output.frames", "output.whole_share"});
 }
 
-// --- the plan ----------------------------------------------------------------------------------
-
-ScenePlan plan_of(const Site& site, const DdaInputs& inputs, const Options& o) {
-  if (!o.plan.empty() && o.plan != "show" && o.plan != "full")
-    throw InputError({"", 0, "--plan"}, "is " + o.plan + ", expected full or nothing");
-  const Trn& trn = inputs.parts.trn;
-  PlanFacts facts = plan_facts(site, inputs.parts.blocks, trn, ground_flags(trn));
-  facts.independent = o.independent;
-  return make_plan(facts, o.plan == "full");
-}
-
-// --- the run -----------------------------------------------------------------------------------
-
-RunOptions run_options(const Site& site, const ScenePlan& plan, const Options& o) {
-  RunOptions options;
-  options.duration = site.solver.duration_s;
-  options.frame_interval = site.output.frame_interval_s;
-  options.passages = plan.passages;
-  options.passages_by_centroid = o.passages_by == "centroid";
-  options.passage_cell_size = site.output.cell_size_m;
-  options.strain = plan.strains_in_frames;
-  if (site.solver.law == "paper") options.paper.emplace();
-  options.limits = {site.solver.max_penetration_m, site.solver.max_energy_gain,
-                    site.solver.max_lost_share, site.solver.max_unconverged_share};
-  return options;
-}
-
-RunFile new_file(Tool& tool, const Site& site, const DdaInputs& inputs, const ScenePlan& plan,
-                 const Options& o) {
-  RunFile file;
-  RunInfo& info = file.info;
-  info.run_id = tool.run_id();
-  info.version = build_version;
-  info.site = site.info.name;
-  info.crs_wkt = inputs.crs_wkt;
-  info.origin = inputs.origin;
-  info.trn_sha256 = inputs.trn_sha256;
-  if (site.uncertainty.rock_masses > 0 && !inputs.parts.blocks.ground_digests.empty())
-    info.terrain_digest = inputs.parts.blocks.ground_digests.back();
-  info.blocks_hash = inputs.parts.blocks.content_hash;
-  info.law = site.solver.law;
-  info.seed = site.solver.seed;
-  info.independent = o.independent;
-  info.weights_are_frequencies = !inputs.parts.blocks.weight.empty();
-  info.config = print_config(site);
-  info.made_with = tool.made_with({"trn", "blocks"});  // which have digests of their own
-  info.plan = json_text(plan_json(plan), 1);
-  file.forests = inputs.forests;
-  file.objects = inputs.objects;
-  for (const std::string& line : inputs.warnings)
-    info.warnings += (info.warnings.empty() ? "" : "\n") + line;
-  return file;
-}
-
-std::string part_of(const Options& o) { return o.out + ".part"; }
-
-// Where the numbers of the XDMF file go.
-fs::path xdmf_data_of(const Options& o) { return fs::path(o.xdmf).replace_extension(".xdmf.h5"); }
-
-// The checkpoint takes the place of what a stopped run left, and is removed at the end.
-void check_outputs_beside(Tool& tool, const Options& o) {
-  for (const char* end : {"", ".new"}) tool.write_also(part_of(o) + end, true);
-  if (!o.xdmf.empty()) tool.write_also(xdmf_data_of(o).string());
-}
-
-void check_leftover(Tool& tool, const Options& o) {
-  if (!fs::exists(part_of(o)) || o.resume || tool.overwrite()) return;
-  throw InputError({part_of(o)}, "is what a run that was stopped left behind",
-                   "--resume goes on with it, --overwrite starts again");
-}
-
-// Frames and records of health stay in memory until the run ends.
-void ask_for_frames(const Scene& scene, const RunOptions& options, const Site& site) {
-  constexpr double bytes_per_block = 128, bytes_per_interval = 512;
-  const double n = options.duration / options.frame_interval;
-  require_memory(n * (bytes_per_block * n_blocks(scene) + bytes_per_interval),
-                 where_of(site, "output.frame_interval_s"),
-                 text(n, 3) + " frames of " + counted(n_blocks(scene), "block"),
-                 "set a longer frame_interval_s or a shorter duration_s");
-}
-
-// From the checkpoint when there is one and it is asked for, else from the beginning.
-Runner runner_of(Tool& tool, const Scene& scene, const RunOptions& options,
-                 const std::vector<RecordLine>& lines, RunFile file, const Options& o) {
-  const auto from_start = [&] { return begin_run(scene, options, lines, std::move(file)); };
-  if (!o.resume || !fs::exists(part_of(o))) {
-    if (o.resume) tool.detail(part_of(o) + " does not exist: the run starts at its beginning");
-    return from_start();
-  }
-  RunFile part;
-  try {
-    RunParts parts;
-    parts.merge_pieces = false;  // all bodies that may still come off
-    part = read_run_file(part_of(o), parts);
-  } catch (const InputError& error) {
-    if (!tool.overwrite())
-      throw InputError({}, error.what(), "--overwrite starts again from the beginning");
-    tool.warn(std::string(error.what()) + ": the run starts at its beginning");
-    return from_start();
-  }
-  if (part.info.run_id != file.info.run_id && tool.overwrite()) {
-    tool.info(part_of(o) + " is of other inputs or settings: the run starts at its beginning");
-    return from_start();
-  }
-  if (part.info.run_id != file.info.run_id)
-    throw InputError(
-        {part_of(o)},
-        "belongs to a run of other inputs or settings (" + part.info.run_id + ", this one is " +
-            file.info.run_id + ")",
-        "give the same site file, options and inputs, or start again with --overwrite");
-  part.info = file.info;
-  Runner runner = resume_run(scene, options, lines, std::move(part), part_of(o));
-  tool.info("goes on at " + text(runner.state.time, 6) + " s");
-  return runner;
-}
-
-// Writes checkpoints at intervals, more rarely where writing one takes long.
-class Checkpoints {
- public:
-  Checkpoints(Tool& tool, std::string path, double interval_s)
-      : tool_(tool), path_(std::move(path)), interval_s_(interval_s) {}
-
-  void write(Runner& runner) {
-    const auto begin = Clock::now();
-    update_file(runner, true);
-    replace_run_file(path_, runner.file);
-    const double cost = std::chrono::duration<double>(Clock::now() - begin).count();
-    next_ = Clock::now() + to_duration(std::max(interval_s_, 20 * cost));
-  }
-  // A full disk does not end a run that still can end well.
-  void write_if_due(Runner& runner) {
-    if (Clock::now() < next_) return;
-    try {
-      write(runner);
-    } catch (const InputError& error) {
-      tool_.warn(std::string("no checkpoint: ") + error.what());
-      next_ = Clock::now() + to_duration(10 * interval_s_);
-    }
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  static Clock::duration to_duration(double seconds) {
-    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  }
-  Tool& tool_;
-  std::string path_;
-  double interval_s_;
-  Clock::time_point next_ = Clock::now() + to_duration(interval_s_);
-};
-
-// Blocks below which no loop is long enough to be shared.
-constexpr int least_shared_blocks = 64;
-
-// How many threads share a step.
-int n_threads(const Scene& scene, const ScenePlan& plan, const Options& o) {
-  if (!plan.block_contacts || n_blocks(scene) < least_shared_blocks) return 1;
-  return o.threads > 0 ? o.threads : threads_by_default();
-}
-
-// To the end, to a broken limit, to where the mass stands, or to a signal.
-void compute(Tool& tool, Runner& runner, const std::string& part, double interval_s,
-             bool may_end_standing) {
-  Checkpoints checkpoints(tool, part, interval_s);
-  const ProgressFunction progress = tool.progress();
-  std::size_t n_rows = runner.file.health.size();
-  while (!is_over(runner)) {
-    if (tool.interrupted()) {
-      checkpoints.write(runner);
-      tool.info("stopped at " + text(runner.state.time, 6) + " s; --resume goes on from " + part);
-      throw Interrupted();
-    }
-    advance(runner);
-    if (runner.file.health.size() > n_rows) {  // once an interval: clocks and limits
-      n_rows = runner.file.health.size();
-      if (has_failed(runner)) break;
-      if (may_end_standing && stands(runner)) break;
-      progress(std::min(1.0, runner.state.time / runner.options.duration));
-      checkpoints.write_if_due(runner);
-    }
-  }
-  finish(runner);
-  if (!may_end_standing || is_over(runner) || has_failed(runner)) return;
-  const std::string words = "the mass stands: no block moved more than " + text(standing_within_m) +
-                            " m in " + text(runner.state.time, 3) + " s; the other " +
-                            text(runner.options.duration - runner.state.time, 3) +
-                            " s were left out";
-  tool.warn(words);
-  runner.file.info.warnings += (runner.file.info.warnings.empty() ? "" : "\n") + words;
-}
-
-void write_outputs(Tool& tool, Runner& runner, const Site& site, const Trn& trn, const Options& o) {
-  runner.file.info.status = "done";
-  record_health(tool, runner);
-  update_file(runner, false);
-  const std::string path = tool.stage(o.out);
-  if (keeps_frames(site.output, site.solver.seed)) {
-    write_run_file(path, runner.file);
-    merge_pieces(runner.file);
-  } else {
-    merge_pieces(runner.file);  // the reach is that of the pieces
-    write_run_file(path, without_frames(runner.file, trn, {}));
-  }
-  if (o.xdmf.empty()) return;
-  const fs::path data = xdmf_data_of(o);
-  write_xdmf(tool.stage(o.xdmf), tool.stage(data.string()), data.filename().string(), runner.file);
-}
-
-// Also the half of one that a killed run left. One that cannot be removed does no harm.
-void remove_checkpoints(const Options& o) {
-  std::error_code error;
-  fs::remove(part_of(o), error);
-  fs::remove(part_of(o) + ".new", error);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options o;
+  DdaOptions o;
   Tool tool("talus-dda", "Moves blocks by three-dimensional discontinuous deformation analysis.");
   SiteOptions site_options(tool, DrawScope::all);
   site_options.take_additions(tool);
@@ -307,48 +69,15 @@ int main(int argc, char** argv) {
     const double cpu_start = processor_seconds();
     const Site& site = site_options.load();
     check_site_crs(site);
-    if (o.out.empty() && o.plan != "show")
-      throw UsageError({"", 0, "--out"}, "no output is named", "give -o RUN.h5");
-    if (!o.out.empty()) {
-      check_outputs_beside(tool, o);
-      check_leftover(tool, o);
-    }
-    check_times(site);
-    const std::vector<std::string> odd = warn_of_settings(tool, site);
-    DdaInputs inputs = read_dda_inputs(tool, site, o.files);
-    inputs.warnings.insert(inputs.warnings.begin(), odd.begin(), odd.end());
-    const ScenePlan plan = plan_of(site, inputs, o);
-    if (o.plan == "show") {
-      tool.result({{"plan", plan_json(plan)}}, as_text(plan));
-      return;
-    }
-    warn_of_plan(tool, site, plan, inputs);
-    check_start(tool, site, inputs, o.files, plan.block_contacts);
-    tool.detail(as_text(plan));
-    cut_fragments(tool, site, inputs);
-    RunFile file = new_file(tool, site, inputs, plan, o);
-    const BlockSet blocks = inputs.parts.blocks;
-    const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
-    file.blocks = run_blocks(scene, blocks);
-    RunOptions options = run_options(site, plan, o);
-    Workers workers(n_threads(scene, plan, o));
-    if (workers.n_threads() > 1) options.workers = &workers;
-    tool.detail(counted(workers.n_threads(), "thread"));
-    ask_for_frames(scene, options, site);
-    Runner runner = runner_of(tool, scene, options, inputs.lines, std::move(file), o);
-    const double from_s = runner.state.time;
-    compute(tool, runner, part_of(o), site.output.checkpoint_interval_s,
-            site.solver.end_when_standing);
-    write_outputs(tool, runner, site, scene.ground.trn, o);
-    const Json report = run_report(runner, plan, from_s, processor_seconds() - cpu_start);
-    for (const char* key : {"steps", "impacts", "unconverged", "left_domain", "largest_speed_m_s"})
-      tool.metric(key, report[key].get<double>(),
-                  std::string(key) == "largest_speed_m_s" ? "m/s" : "1");
-    warn_of_standing_mass(tool, runner.file);
-    tool.result(report, run_summary(report, runner.file));
+    check_options(tool, o);
+    o.request.full_plan = o.plan == "full";
+    SetUp setup = plan_scene(site, o.request, tool);
+    if (o.plan == "show")
+      return tool.result({{"plan", plan_json(setup.plan)}}, as_text(setup.plan));
+    make_scene(site, o.request, tool, setup);
+    compute_run(tool, site, setup, o, cpu_start);
     is_written = true;
   });
-  // the run is in place: what it could have been resumed from is of no more use
   if (is_written && (code == 0 || code == 3)) remove_checkpoints(o);
   return code;
 }

@@ -6,8 +6,8 @@
 #include "base/text.hpp"
 #include "run/runner.hpp"
 #include "setup/scene_inputs_gdal.hpp"
+#include "setup/set_up_gdal.hpp"
 #include "setup/site_layers_gdal.hpp"
-#include "terrain/trn_flags.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/machine.hpp"
@@ -70,10 +70,6 @@ bool breaks_health(const cases::Run& run, const SolverSettings& limits) {
              : run.result.largest_penetration > limits.max_penetration_m;
 }
 
-ScenePlan plan_for(const Site& site, const SceneParts& parts) {
-  return make_plan(plan_facts(site, parts.blocks, parts.trn, ground_flags(parts.trn)), false);
-}
-
 EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Candidate& c,
                              int n_runs) {
   Site changed = site;
@@ -83,7 +79,7 @@ EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Ca
   changed.solver.normal_stiffness_n_m = c.normal_stiffness;
   changed.solver.strain = c.strains ? "on" : "off";
   if (changed.solver.start_jitter_m_s == 0) changed.solver.start_jitter_m_s = 1e-3;
-  const ScenePlan plan = plan_for(changed, inputs.parts);
+  const ScenePlan plan = plan_of(changed, inputs.parts, false, false);
   const auto scene = [&](std::uint64_t seed) {
     changed.solver.seed = static_cast<std::int64_t>(seed);
     return make_site_scene(changed, plan, inputs.parts);
@@ -137,9 +133,10 @@ std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string&
   Site site = read_site(o.site);
   read_site_layers(tool, site);
   DdaInputs inputs = read_dda_inputs(tool, site, o.files);
-  check_start(tool, site, inputs, o.files, plan_for(site, inputs.parts).block_contacts);
+  check_start(tool, site, inputs, o.files,
+              plan_of(site, inputs.parts, false, false).block_contacts);
   const std::vector<Candidate> list =
-      candidates(plan_for(site, inputs.parts).strains, o.with_paper);
+      candidates(plan_of(site, inputs.parts, false, false).strains, o.with_paper);
   std::vector<EnsembleResult> results;
   const ProgressFunction progress = tool.progress();
   for (const Candidate& c : list) {

@@ -1,0 +1,42 @@
+#include "setup/set_up_gdal.hpp"
+
+#include <utility>
+
+#include "setup/run_settings.hpp"
+#include "setup/scene_inputs_gdal.hpp"
+#include "terrain/trn_flags.hpp"
+
+namespace talus {
+
+ScenePlan plan_of(const Site& site, const SceneParts& parts, bool independent, bool full) {
+  PlanFacts facts = plan_facts(site, parts.blocks, parts.trn, ground_flags(parts.trn));
+  facts.independent = independent;
+  return make_plan(facts, full);
+}
+
+SetUp plan_scene(const Site& site, const SetUpRequest& request, InputLog& log) {
+  check_times(site);
+  const std::vector<std::string> odd = warn_of_settings(log, site);
+  SetUp setup;
+  setup.inputs = read_dda_inputs(log, site, request.files);
+  setup.inputs.warnings.insert(setup.inputs.warnings.begin(), odd.begin(), odd.end());
+  setup.plan = plan_of(site, setup.inputs.parts, request.independent, request.full_plan);
+  return setup;
+}
+
+void make_scene(const Site& site, const SetUpRequest& request, InputLog& log, SetUp& setup) {
+  warn_of_plan(log, site, setup.plan, setup.inputs);
+  check_start(log, site, setup.inputs, request.files, setup.plan.block_contacts);
+  log.detail(as_text(setup.plan));
+  cut_fragments(log, site, setup.inputs);
+  setup.blocks = setup.inputs.parts.blocks;
+  setup.scene = make_site_scene(site, setup.plan, std::move(setup.inputs.parts));
+}
+
+SetUp set_up(const Site& site, const SetUpRequest& request, InputLog& log) {
+  SetUp setup = plan_scene(site, request, log);
+  make_scene(site, request, log, setup);
+  return setup;
+}
+
+}  // namespace talus

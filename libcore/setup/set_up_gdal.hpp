@@ -1,0 +1,40 @@
+// libcore/setup/set_up_gdal.hpp: public
+// From a site and the files of its terrain and blocks to a scene that a run can begin with.
+#pragma once
+
+#include "base/input_log.hpp"
+#include "scene/site_scene.hpp"
+#include "setup/dda_inputs.hpp"
+#include "site/plan.hpp"
+#include "site/site.hpp"
+
+namespace talus {
+
+struct SetUpRequest {
+  DdaFiles files;
+  bool independent = false;  ///< each block moves as if it were alone
+  bool full_plan = false;    ///< compute also what the scene could do without
+};
+
+struct SetUp {
+  DdaInputs inputs;  ///< without `parts` once the scene is made
+  ScenePlan plan;
+  Scene scene;      ///< of make_scene()
+  BlockSet blocks;  ///< that the scene was made of, with the pieces they may break into
+};
+
+/// What the scene of these parts has to compute.
+[[nodiscard]] ScenePlan plan_of(const Site& site, const SceneParts& parts, bool independent,
+                                bool full);
+
+/// Reads the inputs and plans the scene. Throws InputError as check_times() and read_dda_inputs().
+[[nodiscard]] SetUp plan_scene(const Site& site, const SetUpRequest& request, InputLog& log);
+
+/// Checks where the blocks start, reads the forests, cuts fragments and makes the scene. Throws
+/// InputError as check_start() and make_site_scene().
+void make_scene(const Site& site, const SetUpRequest& request, InputLog& log, SetUp& setup);
+
+/// Both.
+[[nodiscard]] SetUp set_up(const Site& site, const SetUpRequest& request, InputLog& log);
+
+}  // namespace talus
