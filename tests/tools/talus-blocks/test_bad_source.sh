@@ -9,19 +9,11 @@ refused --set 'source.polygon=[[500012,5200012],[500134,5200012],[500034,5200034
 says "reaches outside the terrain at (500134, 5200012)"
 refused --set 'source.polygon=[[500012.3,5200012.3],[500013.3,5200012.3],[500013,5200013]]'
 says "no node of the terrain lies in the source area"
-refused --set 'source.polygon=[[500012,5200012],[500034,5200034],[500034,5200012],[500012,5200030]]'
-says "the source area crosses itself"
-refused --set source.failure_surface=plane --set source.plane_dip_deg=10 \
-  --set source.plane_dip_direction_deg=180 --set 'source.plane_point_m=[500020,5200020,900]'
-says "lies nowhere below the ground"
 refused --set source.failure_surface=plane
 says 'failure_surface = "plane" needs plane_dip_deg'
 sed 's/polygon = .*/polygon_file = "nowhere.gpkg"/' site.toml >other.toml
 expect 1 talus-blocks other.toml --trn trn.tif -o blocks.h5 --no-db
 says "there is no such file"
-sed '/^polygon = /d' site.toml >other.toml
-expect 1 talus-blocks other.toml --trn trn.tif -o blocks.h5 --no-db
-says "has neither polygon nor polygon_file"
 
 awk 'NR == 16 { $12 = -9999 } { print }' slope.asc >hole.asc
 gdal_translate -q -ot Float64 -a_srs EPSG:32633 -a_nodata -9999 hole.asc hole.tif

@@ -1,4 +1,5 @@
-# Forests: drawn in a polygon, from rasters, from a list; what of them is refused; the same bytes.
+# Forests: drawn in a polygon, from rasters, from a list; the same bytes. What of them is refused:
+# tests/unit/setup/test_forest_inputs.cpp.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
 polygon='polygon = [[500050, 5000010], [500095, 5000010], [500095, 5000090], [500050, 5000090]]'
@@ -106,66 +107,8 @@ refused() {  # LINES TEXT
   nothing_left bad.h5
 }
 refused 'stems_per_ha = 400' 'forest.wood: does not say where it stands'
-refused "$polygon" 'does not say how many stems there are'
-refused "$polygon\nstems_per_ha = 400\nstems_file = \"stems.geojson\"" 'has both stems_file and polygon'
-refused "$polygon\nstems_per_ha = 400\nnrtrees_raster = \"nrtrees.asc\"" 'has both stems_per_ha and nrtrees_raster'
-refused "$rasters\ndbh_mean_cm = 30" 'has both dbh_mean_cm and dbhmean_raster'
-refused "$polygon\nstems_per_ha = 400\ndbhstd_raster = \"dbhstd.asc\"" 'has dbhstd_raster without nrtrees_raster'
-refused "$polygon\nstems_per_ha = 400\ndbh_mean_cm = 0" 'dbh_mean_cm is 0, expected above 0'
-refused "$polygon\nstems_per_ha = 400\ndeflection_m = 0" 'deflection_m is 0, expected above 0'
-refused 'polygon = [[600050, 5000010], [600095, 5000010], [600095, 5000090]]\nstems_per_ha = 400' \
-  'forest.wood: lies outside the terrain'
-refused "$polygon\nstems_per_ha = 0.01" 'forest.wood: has no stem on the terrain'
-refused "$polygon\nstems_per_ha = 400\ndbh_cm = 3" 'unknown key dbh_cm'
-refused "$polygon\ndrag_kg_s = -1" 'drag_kg_s is -1, expected 0 to 1e+05'
-refused 'drag_kg_s = 500' 'forest.wood: does not say where it drags'
-for stems in 'stems_per_ha = 400' 'stems_file = "stems.geojson"' 'nrtrees_raster = "nrtrees.asc"'; do
-  refused "$polygon\ndrag_kg_s = 500\n$stems" "forest.wood: has both drag_kg_s and ${stems%% *}"
-done
-refused 'polygon = [[600050, 5000010], [600095, 5000010], [600095, 5000090]]\ndrag_kg_s = 500' \
-  'forest.wood: lies outside the terrain'
-raster nothing.asc 0 0
-refused 'nrtrees_raster = "nrtrees.asc"\ndbhmean_raster = "nothing.asc"' 'dbhmean_raster is 0 where nrtrees_raster has trees'
-raster percent.asc 150 150
-refused 'nrtrees_raster = "nrtrees.asc"\nconif_percent_raster = "percent.asc"' 'conif_percent_raster is 150'
-sed 's/cellsize 20/cellsize 10/' dbhmean.asc >other.asc
-refused 'nrtrees_raster = "nrtrees.asc"\ndbhmean_raster = "other.asc"' 'has other cells than nrtrees_raster'
-sed 's/500040/700040/' nrtrees.asc >away.asc
-refused 'nrtrees_raster = "away.asc"' 'nrtrees_raster lies outside the terrain'
-sed 's/"dbh_cm": 60/"dbh_cm": 0/' stems.geojson >thin.geojson
-refused 'stems_file = "thin.geojson"' 'dbh_cm is 0, expected above 0'
-sed 's/oak/oka/' stems.geojson >oka.geojson
-refused 'stems_file = "oka.geojson"' 'species is oka'
-sed 's/500050, 5000030/500020, 5000030/' stems.geojson >inside.geojson
-refused 'stems_file = "inside.geojson"' 'stands in block 0 at the start'
-sed 's/\[500060, 5000050\]/[300000, 5000050]/; s/\[500050, 5000030\]/[300000, 5000030]/' stems.geojson >off.geojson
-refused 'stems_file = "off.geojson"' 'forest.wood: has no stem on the terrain'
 
-# two sections on the same ground count twice: said; one stem in two lists is refused
-{ cat drawn.toml && printf '[forest.again]\n%b\nstems_per_ha = 1500\n' "$polygon"; } >twice.toml
-expect 0 run twice --json
-says "warning: forest.again: 100 % of its area lies in forest.wood: there the stems of both stand"
-half='polygon = [[500070, 5000010], [500110, 5000010], [500110, 5000090], [500070, 5000090]]'
-{ cat drawn.toml && printf '[forest.fog]\n%b\ndrag_kg_s = 250\n' "$half"; } >layers.toml
-expect 0 run layers --json
-if grep -q 'lies in' err; then fail 'undergrowth below stems is no second stand'; fi
-printf '[forest.mist]\n%b\ndrag_kg_s = 250\n' "$polygon" >>layers.toml
-expect 0 talus-dda layers.toml --trn slope.tif --blocks blocks.h5 -o layers2.h5 --no-db
-says "forest.mist: 56 % of its area lies in forest.fog: there the drag of both acts"
-printf 'x,y,dbh_cm\n500060,5000030,40\n500060,5000050,40\n' >one_list.csv
-{ cat site.toml && printf '[forest.a]\nstems_file = "one_list.csv"\n[forest.b]\nstems_file = "one_list.csv"\n'; } >lists.toml
-expect 1 run lists --json
-says "forest.b: has a stem where forest.a has one, at 500060, 5000030"
-nothing_left lists.h5
-
-# magnitudes show units that were not meant: half of the stems decide, not one of them
-with_forest list 'stems_file = "stems.geojson"'
-expect 0 run list --overwrite
-says 'forest.wood: 2 stems, diameter 12.5 (12.5 to 60) cm, height 20 m'
-with_forest drawn "$polygon\nstems_per_ha = 1500\ndbh_mean_cm = 25\ndbh_std_cm = 0\nconifer_share = 0.5"
-expect 0 run drawn --overwrite
-says 'forest.wood: 1500 stems a hectare, conifers 50 %'
-says ' stems, diameter 25 cm, height 20 m'
+# diameters in another unit, in whatever file they come
 listed() {  # DIAMETER: nine stems, eight of them so thick
   printf 'x,y,dbh_cm\n500060,5000030,30\n'
   for row in 1 2 3 4 5 6 7 8; do echo "500060,50000$((30 + 5 * row)),$1"; done
@@ -184,20 +127,6 @@ if command -v ogr2ogr >/dev/null; then
   refused_unit metres 0.35 'half of the stems are thinner than 0.35 cm (0.35 to 30); read as metres it would be 35 cm'
   refused_unit millimetres 350 'half of the stems are thicker than 350 cm (30 to 350); read as millimetres it would be 35 cm'
 fi
-listed 1.2 >feet.csv
-with_forest list 'stems_file = "feet.csv"'
-expect 0 run list --overwrite
-says 'warning: forest.wood: half of the stems are thinner than 1.2 cm'
-refused "$polygon\nstems_per_ha = 400\ndbh_mean_cm = 0.3\ndbh_std_cm = 0.05" 'read as metres it would be 29.8 cm: that is no wood'
-refused "$polygon\nstems_per_ha = 400\nheight_m = 250" 'has trees of 250 m, expected up to 130'
-raster metres.asc 0.18 0.18
-refused 'nrtrees_raster = "nrtrees.asc"\ndbhmean_raster = "metres.asc"' 'dbhmean_raster metres.asc holds diameters at breast height in centimetres'
-raster shares.asc 0.8 0
-refused "$rasters\nconif_percent_raster = \"shares.asc\"" 'has a conif_percent_raster of 0.8 %, in no cell more than 1 %'
-raster cells.asc 16 0
-with_forest cells 'nrtrees_raster = "cells.asc"'
-expect 0 run cells --json
-says 'nrtrees_raster has 16 stems a hectare: are they stems a cell? Then there are 400 a hectare'
 
 # whole numbers of 8 bits are stems, centimetres and per cent as others
 if command -v gdal_translate >/dev/null; then

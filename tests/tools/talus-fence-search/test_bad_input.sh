@@ -14,14 +14,6 @@ refused() {
   nothing_left s.gpkg bad.h5
 }
 refused 's/^between_m.*/between_m = [60, 20]/' 'there is no room between these' 'the nearest distance from the object first'
-refused 's/^between_m.*/between_m = [300, 400]/' 'has no room: no known ground 300 to 400 m from object house' 'make the terrain larger'
-refused 's/^max_ground.*/max_ground_slope_deg = 20/' 'has no room: no line' 'raise max_line_slope_deg or max_ground_slope_deg'
-refused 's/^max_ground.*/min_fields = 40/' 'is 400 m long' 'lower min_fields'
-refused 's/^protect.*/protect = "hause"/' 'protects "hause", which is no object' 'did you mean house?'
-refused '/^protect/d' 'does not say what it protects' 'protect names an [object.*]: house'
-refused '/^\[object/,/^polygon/d' 'has no object to protect' 'add [object.NAME]'
-refused 's/^max_ground.*/heights_m = [4, 3]/' 'heights_m does not ascend' 'the least first'
-refused 's/^max_ground.*/classes_kj = [100, 500]\nprices_per_m = [1]/' 'has 1 price for 2 classes' 'one price for each'
 sed '/^\[fence_search/,$d' good.toml >site.toml
 expect 1 search run_1.h5 -o s.gpkg
 says 'has no section [fence_search.*]'
