@@ -1,8 +1,8 @@
 # talus_module(NAME [DEPENDS module...]): one folder with its subfolders, one target.
 #
 # Plain sources become talus_NAME, which needs Eigen and the modules it depends on. A source whose
-# name ends in _boost, _cairo, _cgal, _crypto, _gdal, _hdf5, _sqlite or _toml becomes part of talus_NAME_cgal and so on,
-# which alone sees that library. A tool therefore links what it uses and nothing else.
+# name ends in _boost, _cairo, _cgal, _crypto, _gdal, _hdf5, _json, _sqlite or _toml becomes part of
+# talus_NAME_cgal and so on, which alone sees that library. A tool therefore links what it uses and nothing else.
 
 option(TALUS_TOGETHER "Compile several sources of a target as one" ON)
 
@@ -62,6 +62,7 @@ set(TALUS_LIBRARY_cgal CGAL::CGAL)
 set(TALUS_LIBRARY_crypto OpenSSL::Crypto)
 set(TALUS_LIBRARY_gdal GDAL::GDAL PROJ::proj)
 set(TALUS_LIBRARY_hdf5 hdf5::hdf5)
+set(TALUS_LIBRARY_json nlohmann_json::nlohmann_json)
 set(TALUS_LIBRARY_sqlite SQLiteCpp SQLite::SQLite3)
 set(TALUS_LIBRARY_toml tomlplusplus::tomlplusplus)
 
@@ -69,7 +70,7 @@ function(talus_module name)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   set(plain ${sources})
-  list(FILTER plain EXCLUDE REGEX "_(boost|cairo|cgal|crypto|gdal|hdf5|sqlite|toml)\\.cpp$")
+  list(FILTER plain EXCLUDE REGEX "_(boost|cairo|cgal|crypto|gdal|hdf5|json|sqlite|toml)\\.cpp$")
   list(TRANSFORM ARG_DEPENDS PREPEND talus_ OUTPUT_VARIABLE modules)
 
   if(plain)
@@ -83,7 +84,7 @@ function(talus_module name)
   endif()
   target_link_libraries(talus_${name} ${scope} talus_options Eigen3::Eigen ${modules})
 
-  foreach(library boost cairo cgal crypto gdal hdf5 sqlite toml)
+  foreach(library boost cairo cgal crypto gdal hdf5 json sqlite toml)
     set(own ${sources})
     list(FILTER own INCLUDE REGEX "_${library}\\.cpp$")
     if(own)

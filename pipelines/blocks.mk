@@ -1,6 +1,6 @@
 # Terrain and site file -> blocks, their bed, and what to look at.
-# in: site.toml, BLOCKS_FLAGS (e.g. --exact)   out: $(OUT)/blocks.h5, $(OUT)/bed.tif, $(OUT)/blocks.json,
-#     $(OUT)/blocks.gpkg, $(OUT)/stereonet.svg, $(OUT)/sizes.svg
+# in: site.toml, BLOCKS_FLAGS (e.g. --exact)
+# out: $(OUT)/blocks.h5, bed.tif, blocks.json, blocks.gpkg, stereonet.svg, sizes.svg
 $(eval $(call remember,blocks,$(BLOCKS_FLAGS)))
 block_files := $(addprefix $(OUT)/,$(block_products))
 blocks: $(block_files) ## source and joints -> blocks and their bed
@@ -8,7 +8,8 @@ $(eval $(call together,$(block_files)))
 $(OUT)/blocks.h5: $(OUT)/trn.tif $(STAGES)/blocks.txt $(STAGES)/blocks.flags $(STAGES)/blocks.files
 	$(call not_in_a_shard,$@)
 	$(call say,blocks: source and joints -> blocks)
-	$(Q)$(BIN)talus-blocks site.toml --trn $(OUT)/trn.tif -o $(OUT)/blocks.h5 --trn-out $(OUT)/bed.tif \
-	  --report $(OUT)/blocks.json --footprints $(OUT)/blocks.gpkg --stereonet $(OUT)/stereonet.svg \
+	$(Q)$(BIN)talus-blocks site.toml --trn $(OUT)/trn.tif -o $(OUT)/blocks.h5 \
+	  --trn-out $(OUT)/bed.tif --report $(OUT)/blocks.json \
+	  --footprints $(OUT)/blocks.gpkg --stereonet $(OUT)/stereonet.svg \
 	  --size-curve $(OUT)/sizes.svg $(BLOCKS_FLAGS) --overwrite $(DB)
 	$(call made,talus-blocks)

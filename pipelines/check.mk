@@ -1,17 +1,20 @@
-# Terrain, blocks and site file -> a look before the runs: will it move, is all in its place, how long.
-# in: site.toml, CHECK_FLAGS (e.g. --probe-s 0, --accept-doubts)   out: $(OUT)/check.html, $(OUT)/check.json
+# Terrain, blocks and site file -> a look before the runs: will it move, is all in place, how long.
+# in: site.toml, CHECK_FLAGS (e.g. --probe-s 0, --accept-doubts)
 #     DDA_FLAGS    --independent and --settle of them, since they say how the blocks start and meet
-# What cannot be meant ends make here, before anything is computed; the page says why, and the next make
-# looks again.
+# out: $(OUT)/check.html, $(OUT)/check.json
+# What cannot be meant ends make here, before anything is computed; the page says why, and the next
+# make looks again.
 how_runs_start := $(filter --independent --settle,$(DDA_FLAGS))
 $(eval $(call remember,check,$(CHECK_FLAGS) $(how_runs_start)))
 check_files := $(addprefix $(OUT)/,$(check_products))
 check: $(check_files) ## a look before the runs: will the mass move, is all in its place, how long
 $(eval $(call together,$(check_files)))
+n_runs = $(word 5,$(status_runs)) * $(words $(kinds))
 $(OUT)/check.html: $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/check.flags $(STAGES)/check.files
 	$(call not_in_a_shard,$@)
 	$(call say,check: a look before the runs)
-	$(Q)$(BIN)talus-check site.toml --trn $(OUT)/trn.tif --bed $(OUT)/bed.tif --blocks $(OUT)/blocks.h5 -o $(OUT)/check.html \
-	  --report $(OUT)/check.json --runs $(words $(run_files) $(without_files)) $(CHECK_FLAGS) $(how_runs_start) --overwrite $(DB) \
+	$(Q)$(BIN)talus-check site.toml --trn $(OUT)/trn.tif --bed $(OUT)/bed.tif \
+	  --blocks $(OUT)/blocks.h5 -o $(OUT)/check.html --report $(OUT)/check.json \
+	  --runs $$(($(n_runs))) $(CHECK_FLAGS) $(how_runs_start) --overwrite $(DB) \
 	  || { code=$$?; touch -c -d @0 $(check_files); exit $$code; }
 	$(call made,talus-check)

@@ -1,4 +1,4 @@
-# A new site beside this one: make new-site NAME=folder DEM=elevations-or-contours SOURCE=release-polygon
+# A new site beside this one: make new-site NAME=folder DEM=ground SOURCE=release-polygon
 # The name goes by the environment and holds no order, neither for make nor for the shell.
 ifneq ($(and $(filter new-site,$(MAKECMDGOALS)),$(findstring $$,$(value NAME))),)
 $(error NAME is $(value NAME), expected letters (a to z), digits, _ and -)

@@ -1,5 +1,5 @@
 # Contours -> triangulated irregular network.
-# in: CONTOURS, [terrain], TIN_FLAGS (e.g. --hold-out-every 3)   out: $(OUT)/tin.ply, $(OUT)/tin.json
+# in: CONTOURS, [terrain], TIN_FLAGS (e.g. --hold-out-every 3)   out: $(OUT)/tin.ply, tin.json
 $(eval $(call remember,tin,$(CONTOURS) $(TIN_FLAGS)))
 ifneq ($(CONTOURS),)
 tin_files := $(addprefix $(OUT)/,$(tin_products))
@@ -7,6 +7,7 @@ $(eval $(call together,$(tin_files)))
 $(OUT)/tin.ply: $(STAGES)/tin.txt $(STAGES)/tin.flags $(STAGES)/tin.files | $(CONTOURS) $(OUT)
 	$(call not_in_a_shard,$@)
 	$(call say,tin: contours -> triangles)
-	$(Q)$(BIN)talus-tin $(CONTOURS) -o $(OUT)/tin.ply --report $(OUT)/tin.json $(SITE_TIN_FLAGS) $(TIN_FLAGS) --overwrite $(DB)
+	$(Q)$(BIN)talus-tin $(CONTOURS) -o $(OUT)/tin.ply --report $(OUT)/tin.json $(SITE_TIN_FLAGS) \
+	  $(TIN_FLAGS) --overwrite $(DB)
 	$(call made,talus-tin)
 endif

@@ -1,13 +1,14 @@
 # TIN or elevation model -> terrain of nodes, with its error report and a hillshade to look at.
-# in: [terrain], DEM, TRN_FLAGS (e.g. --like)   out: $(OUT)/trn.tif, $(OUT)/trn.json, $(OUT)/hillshade.png
+# in: [terrain], DEM, TRN_FLAGS (e.g. --like)   out: $(OUT)/trn.tif, $(OUT)/trn.json, hillshade.png
 $(eval $(call remember,trn,$(DEM) $(TRN_FLAGS)))
 ground_source := $(if $(CONTOURS),$(OUT)/tin.ply,$(DEM))
 trn_files := $(addprefix $(OUT)/,$(trn_products))
 terrain: $(trn_files) ## contours or elevation model -> terrain
 $(eval $(call together,$(trn_files)))
-$(OUT)/trn.tif: $(if $(CONTOURS),$(OUT)/tin.ply) $(STAGES)/trn.txt $(STAGES)/trn.flags $(STAGES)/trn.files | $(DEM) $(OUT)
+$(OUT)/trn.tif: $(if $(CONTOURS),$(OUT)/tin.ply) $(STAGES)/trn.txt $(STAGES)/trn.flags \
+  $(STAGES)/trn.files | $(DEM) $(OUT)
 	$(call not_in_a_shard,$@)
 	$(call say,trn: $(if $(CONTOURS),triangles,elevation model) -> terrain)
-	$(Q)$(BIN)talus-trn $(ground_source) -o $(OUT)/trn.tif --report $(OUT)/trn.json --hillshade $(OUT)/hillshade.png \
-	  $(SITE_TRN_FLAGS) $(TRN_FLAGS) --overwrite $(DB)
+	$(Q)$(BIN)talus-trn $(ground_source) -o $(OUT)/trn.tif --report $(OUT)/trn.json \
+	  --hillshade $(OUT)/hillshade.png $(SITE_TRN_FLAGS) $(TRN_FLAGS) --overwrite $(DB)
 	$(call made,talus-trn)

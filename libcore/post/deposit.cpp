@@ -108,10 +108,6 @@ Fate fate_of(const RunFile& run, int block, double rest_speed) {
   return at_rest ? Fate::deposited : Fate::moving;
 }
 
-double weight_of(const RunFile& run, int block) {
-  return run.run_weight * (run.blocks.weight.empty() ? 1 : run.blocks.weight[block]);
-}
-
 std::vector<double> weights_of(const RunFile& run) {
   if (run.run_weight == 1) return run.blocks.weight;
   std::vector<double> weights;

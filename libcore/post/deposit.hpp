@@ -19,8 +19,6 @@ enum class Fate { deposited, moving, left_domain };
 /// blocks left the terrain has none that did.
 [[nodiscard]] Fate fate_of(const RunFile& run, int block, double rest_speed);
 
-/// Of a block, times that of its run; 1 when the run names none.
-[[nodiscard]] double weight_of(const RunFile& run, int block);
 [[nodiscard]] std::vector<double> weights_of(const RunFile& run);  ///< (n_blocks); empty: 1 each
 /// Pose of a block in the first or last frame; as cut when the run has no frame.
 [[nodiscard]] Pose first_pose(const RunFile& run, int block);

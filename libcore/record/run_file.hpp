@@ -38,6 +38,8 @@ struct RunInfo {
   std::string blocks_hash;     ///< of the block set
   std::string law;             ///< "talus" or "paper"
   std::int64_t seed = 0;
+  bool seed_draws = true;                ///< another seed gives another run
+  std::string case_name;                 ///< the variant of settings that it is of; "": none
   bool independent = false;              ///< each block moved as if it were alone, among
                                          ///< fences and trees as they were at the start
   bool weights_are_frequencies = false;  ///< weights of blocks are events a year, not shares
@@ -96,9 +98,6 @@ struct HealthRow {
   double rolling = 0, drag = 0, breakage = 0;                         ///< since the start [J]
   double removed = 0;                                                 ///< since the start [J]
 };
-
-/// How the warning of a run begins that is the same with any seed.
-inline constexpr const char* seed_draws_nothing = "the seed draws nothing";
 
 /// A panel of a fence that stood, as it was at the end. In a run of independent rocks: as it was at
 /// the start, and once more for each rock that pushed it, as that rock left it.
@@ -186,6 +185,10 @@ struct RunFile {
 }
 [[nodiscard]] inline int n_frames(const RunFrames& frames) {
   return static_cast<int>(frames.time.size());
+}
+/// Statistical weight of a block, times that of its run; 1 when the run names none.
+[[nodiscard]] inline double weight_of(const RunFile& run, int block) {
+  return run.run_weight * (run.blocks.weight.empty() ? 1 : run.blocks.weight[block]);
 }
 /// Block b in frame k; strain zero when it was not stored.
 [[nodiscard]] FrameBlock frame_block(const RunFile& run, int k, int b);

@@ -59,6 +59,16 @@ void check_times(const Site& site) {
                      "give a longer frame_interval_s");
 }
 
+bool seed_draws(const Site& site) {
+  const SolverSettings& solver = site.solver;
+  return site.uncertainty.sample != 0 || solver.start_jitter_m_s != 0 ||
+         solver.friction_scatter_deg != 0 || solver.cor_scatter != 0 ||
+         solver.rolling_scatter != 0 ||
+         std::any_of(site.forests.begin(), site.forests.end(), [](const ForestSettings& forest) {
+           return forest.active && forest.new_stand_per_run;
+         });
+}
+
 std::vector<std::string> warn_of_settings(InputLog& log, const Site& site) {
   std::vector<std::string> warnings;
   const double reached = duration_reached(site.solver);
@@ -92,7 +102,6 @@ std::vector<std::string> warn_of_settings(InputLog& log, const Site& site) {
                          " gives way with law talus alone: law paper knows its friction and COR");
       log.warn(warnings.back());
     }
-  const SolverSettings& solver = site.solver;
   if (!site.quantities.empty() && site.uncertainty.sample == 0) {
     warnings.push_back(std::to_string(site.quantities.size()) +
                        (site.quantities.size() == 1 ? " quantity" : " quantities") +
@@ -100,15 +109,10 @@ std::vector<std::string> warn_of_settings(InputLog& log, const Site& site) {
                        "site file hold");
     log.warn(warnings.back());
   }
-  if (solver.seed != SolverSettings{}.seed && site.uncertainty.sample == 0 &&
-      solver.start_jitter_m_s == 0 && solver.friction_scatter_deg == 0 && solver.cor_scatter == 0 &&
-      solver.rolling_scatter == 0 &&
-      std::none_of(site.forests.begin(), site.forests.end(), [](const ForestSettings& forest) {
-        return forest.active && forest.new_stand_per_run;
-      })) {
-    warnings.push_back(std::string(seed_draws_nothing) +
-                       ": start_jitter_m_s, friction_scatter_deg, cor_scatter and "
-                       "rolling_scatter are 0, so other seeds give the same run");
+  if (site.solver.seed != SolverSettings{}.seed && !seed_draws(site)) {
+    warnings.push_back(
+        "the seed draws nothing: start_jitter_m_s, friction_scatter_deg, cor_scatter and "
+        "rolling_scatter are 0, so other seeds give the same run");
     log.warn(warnings.back());
   }
   for (const UnusualValue& value : unusual_values(site)) {

@@ -15,6 +15,9 @@ namespace talus {
 /// Throws InputError for time steps out of order, a duration below one step, or too many frames.
 void check_times(const Site& site);
 
+/// Whether another seed gives another run: by scatter, jitter, a sample, or a new stand of trees.
+[[nodiscard]] bool seed_draws(const Site& site);
+
 /// Warns of settings that do nothing, or that are unusual. Returns the warnings for the run file.
 [[nodiscard]] std::vector<std::string> warn_of_settings(InputLog& log, const Site& site);
 

@@ -15,7 +15,7 @@ namespace talus {
 namespace {
 
 const char* const format_name = "talus-part";
-constexpr std::int64_t format_version = 3;
+constexpr std::int64_t format_version = 4;
 
 // --- what runs share ---------------------------------------------------------------------------
 
@@ -213,6 +213,7 @@ constexpr InfoText info_texts[] = {
      &RunInfo::terrain_digest},
     {"blocks_hash", "of the block set", &RunInfo::blocks_hash},
     {"law", "talus or paper", &RunInfo::law},
+    {"case", "variant of the settings", &RunInfo::case_name},
     {"status", "done or failed; running: not ended", &RunInfo::status},
     {"reason", "why it failed", &RunInfo::reason},
     {"config", "effective settings as TOML, each with its origin", &RunInfo::config},
@@ -237,7 +238,8 @@ constexpr InfoFlag info_flags[] = {
      "1: each block moved as if it were alone, among fences and trees as at the start",
      &RunInfo::independent},
     {"weights_are_frequencies", "1: weights of blocks are events a year",
-     &RunInfo::weights_are_frequencies}};
+     &RunInfo::weights_are_frequencies},
+    {"seed_draws", "0: another seed gives the same run", &RunInfo::seed_draws}};
 
 bool has_objects(const Part& part) {
   return std::any_of(part.objects.begin(), part.objects.end(),

@@ -41,6 +41,10 @@ void write_info(H5Writer& file, const RunFile& run) {
   file.attribute("", "reason", info.reason);
   file.attribute("", "duration_s", info.duration);
   file.attribute("", "time_s", info.time);
+  if (!info.seed_draws)
+    file.array<std::int32_t>("seed_draws", std::array<std::int32_t, 1>{0}, {1}, "1",
+                             "0: another seed gives the same run");
+  if (!info.case_name.empty()) file.text("case", info.case_name, "variant of the settings");
   if (!info.terrain_digest.empty())
     file.text("terrain_digest", info.terrain_digest, "of the terrain before the slide");
   file.text("config", info.config, "effective settings as TOML, each with its origin");
@@ -80,6 +84,8 @@ RunInfo read_info(const H5Reader& file, const std::string& path) {
   info.blocks_hash = file.attribute_text("", "blocks_hash");
   info.law = file.attribute_text("", "law");
   info.seed = file.attribute_integer("", "seed");
+  info.seed_draws = !file.has("seed_draws");
+  if (file.has("case")) info.case_name = file.text("case");
   info.independent = file.attribute_integer("", "independent") != 0;
   info.weights_are_frequencies = file.attribute_integer("", "weights_are_frequencies") != 0;
   info.status = file.attribute_text("", "status");

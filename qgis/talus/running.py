@@ -18,11 +18,9 @@ class Course:
         found = tools.said(line)
         if found is None:
             return
-        if found.kind in ("progress", "runs"):
+        if found.kind == "progress":
             self.feedback.setProgress(found.text)
-            if found.kind == "progress":
-                return
-        if found.kind == "warning":
+        elif found.kind == "warning":
             self.feedback.pushWarning(found.text)
         elif found.kind == "error":
             self.faults.append(found.text)
@@ -31,7 +29,7 @@ class Course:
             self.hints.append(found.text)
             self.feedback.pushInfo("hint: " + found.text)
         else:
-            self.feedback.pushInfo(line if found.kind == "runs" else found.text)
+            self.feedback.pushInfo(found.text)
 
 
 def run(program, arguments, feedback):

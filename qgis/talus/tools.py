@@ -236,10 +236,6 @@ def said(line):
             label = found["label"] + ": " if found.get("label") else ""
             return Said(found.get("level", "info"), label + found["text"])
         return Said("info", line)
-    runs = re.match(r"runs: (\d+) done, (\d+) failed, (\d+) to go", line)
-    if runs:
-        done = int(runs.group(1)) + int(runs.group(2))
-        return Said("runs", 100 * done / (done + int(runs.group(3))))
     if re.search(r"(^|: )talus-[a-z-]+: warning: |^\S+: WARNING: ", line):
         return Said("warning", line)
     if re.match(r"make(\[\d+\])?: \*\*\* |\S*\.mk:\d+: \*\*\* |(\S+: )?talus-[a-z-]+: |new-site: ", line):
@@ -267,7 +263,7 @@ class Lines:
 
 def has_failed_runs(lines):
     """Whether make ended with an error only because runs failed: the rest is made, and says so."""
-    return any(re.match(r"\d+ of \d+ runs? failed:", line) for line in lines)
+    return any(re.match(r"talus-batch: \d+ of \d+ runs? failed", line) for line in lines)
 
 
 # --- what they made ------------------------------------------------------------------------------

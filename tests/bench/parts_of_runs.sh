@@ -17,10 +17,9 @@ measured() {
 for k in $(seq "$n_parts"); do
   mkdir "runs_$k"
   run-probe "runs_$k" "$n_runs" frames=1 seed="$k"
-  find "runs_$k" -name 'run_*.h5' >list
-  [ "$k" = 1 ] && cp runs_1/slope.tif . && echo "$n_runs run files: $(cat $(cat list) | wc -c) bytes" &&
-    measured "maps of $n_runs run files" talus-maps --runs-from list --trn slope.tif -o maps_of_runs
-  measured "reduction $k" talus-reduce --runs-from list --trn slope.tif -o "part_$k.h5"
+  [ "$k" = 1 ] && cp runs_1/slope.tif . && echo "$n_runs run files: $(cat runs_1/run_*.h5 | wc -c) bytes" &&
+    measured "maps of $n_runs run files" talus-maps runs_1 --trn slope.tif -o maps_of_runs
+  measured "reduction $k" talus-reduce "runs_$k" --trn slope.tif -o "part_$k.h5"
   rm -r "runs_$k"
 done
 measured "$n_parts parts to one" talus-reduce part_*.h5 --trn slope.tif -o all.h5

@@ -94,12 +94,10 @@ class Bench:
             Job("talus-dda", [toml, "--trn", grid, "--blocks", str(made / "blocks.h5"),
                               "-o", "run.h5", "--xdmf", "run.xmf"], ["--overwrite", "--resume"]),
             Job("talus-runout", [str(made / "run.h5"), "--trn", grid, "-o", "runout.gpkg", "--json",
-                                 "runout.json", "--csv", "runout.csv", "--svg", "runout.svg",
-                                 "--allow-unfinished"]),
-            Job("talus-maps", [str(made / "run.h5"), "--trn", grid, "-o", ".", "--png",
-                               "--allow-unfinished"]),
+                                 "runout.json", "--csv", "runout.csv", "--svg", "runout.svg"]),
+            Job("talus-maps", [str(made / "run.h5"), "--trn", grid, "-o", ".", "--png"]),
             Job("talus-fence", [toml, str(made / "run.h5"), "--trn", grid, "-o", "fence.gpkg",
-                                "--json", "fence.json", "--csv", "fence.csv", "--allow-unfinished"]),
+                                "--json", "fence.json", "--csv", "fence.csv"]),
         ]
         made.mkdir()
         limit = memory_limit(self, 4096)
@@ -304,7 +302,7 @@ def pipeline_folder(bench, name):
 
 
 def make(*words):
-    return ["make", "BIN=", "EVALUATE_FLAGS=--allow-unfinished", *words]
+    return ["make", "BIN=", *words]
 
 
 def kill_pipeline(bench):
@@ -519,10 +517,8 @@ def stated_limits(bench):
     jobs = [Job("talus-dda", [toml, *trn, "--blocks", str(made / "blocks.h5"), "-o", "run.h5",
                               "--independent", "--frame-interval-s", str(FRAME_INTERVAL_S), "--set",
                               f"solver.duration_s={(MANY_FRAMES - 1) * FRAME_INTERVAL_S}"]),
-            Job("talus-runout", [run, *trn, "-o", "runout.gpkg", "--json", "runout.json",
-                                 "--allow-unfinished"]),
-            Job("talus-fence", [toml, run, *trn, "-o", "fence.gpkg", "--json", "fence.json",
-                                "--allow-unfinished"]),
+            Job("talus-runout", [run, *trn, "-o", "runout.gpkg", "--json", "runout.json"]),
+            Job("talus-fence", [toml, run, *trn, "-o", "fence.gpkg", "--json", "fence.json"]),
             Job("talus-report", [toml, "--dir", str(many), "-o", "report.html"])]
     n_blocks = json.loads((made / "blocks.json").read_text())["n_blocks"]
     bench.fresh(many)
@@ -781,10 +777,9 @@ def same_tables_at_other_frames(bench):
         folder = bench.fresh(bench.work / f"frames_{interval}")
         bench.must([dda.name, *dda.words, "--frame-interval-s", interval], folder)
         grid = bench.work / "site/made/bed.tif"
-        bench.must(["talus-maps", "run.h5", "--trn", grid, "-o", "maps", "--png",
-                    "--allow-unfinished"], folder)
+        bench.must(["talus-maps", "run.h5", "--trn", grid, "-o", "maps", "--png"], folder)
         bench.must(["talus-fence", bench.work / "site/site.toml", "run.h5", "--trn", grid, "-o",
-                    "fence.gpkg", "--csv", "fence.csv", "--allow-unfinished"], folder)
+                    "fence.gpkg", "--csv", "fence.csv"], folder)
     one, two = (bench.work / f"frames_{i}" for i in intervals)
     for file in outputs_of(one):
         # pages bear the numbers of their runs: of maps the values count

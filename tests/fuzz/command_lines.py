@@ -38,14 +38,13 @@ TOOLS = ("blocks check dda fence hazard maps places reduce report runout runs si
          "trn").split()
 # What an option without a unit in its name holds. Options of --help that are not here hold words.
 OUTPUTS = set("out report json csv svg run-table curves thickness trn-out footprints stereonet "
-              "size-curve hillshade doubts hold-out xdmf change qgis scenarios failures "
+              "size-curve hillshade doubts hold-out xdmf change qgis scenarios "
               "assume-joints page".split())
 OUTPUT_FOLDERS = {"obj", "rasters"}
-KEPT_IF_REFUSED = {"doubts", "failures"}
+KEPT_IF_REFUSED = {"doubts"}
 INPUTS = {"trn": "trn", "bed": "trn", "blocks": "blocks", "like": "trn", "reference": "trn",
           "reference-points": "vector", "breaklines": "vector", "spots": "vector",
-          "boundary": "vector", "labels": "vector", "runs-from": "list", "without": "run",
-          "without-from": "list", "compare": "run", "compare-from": "list", "mobility": "table",
+          "boundary": "vector", "labels": "vector", "without": "run", "compare": "run", "mobility": "table",
           "sizes": "table", "site": "site", "dir": "folder", "peers": "folder", "db": "registry",
           "source": "terrain", "contours": "vector", "run": "run", "cases": "word"}
 EXTENSIONS = {"out": ".out", "json": ".json", "report": ".json"}
@@ -56,7 +55,7 @@ WORDS = ["", " ", "a", "*", "?", "%s%n", "$(touch hurt)", "`touch hurt`", ";touc
          "'", '"', "[% 1 %]", "<b>", "NULL", "EPSG:32633", "EPSG:0", "EPSG:99999999", "none",
          "ellipsoidal", "+proj=utm +zone=33", "z > 0", "z = 'a", "1=1;DROP TABLE c", "elevation_m",
          "0,0,1,1", "500000,5200000,500224,5200320", "1,1,0,0", "nan,nan,nan,nan", "COMPRESS=LZW",
-         "BLOCKSIZE=1", "NBITS=1", "a=@list", "V1=@/dev/null", "\udcff"]
+         "BLOCKSIZE=1", "NBITS=1", "\udcff"]
 
 
 class Bench:
@@ -96,7 +95,6 @@ class Bench:
                   "bed.tif", "--no-db")
         self.must("talus-dda", "site.toml", "--trn", "bed.tif", "--blocks", "blocks.h5", "-o",
                   "run.h5", "--no-db")
-        (self.pool / "list").write_text("run_0.h5\nrun_1.h5\n")
         (self.pool / "table.csv").write_text("volume_m3\n1\n2\n3\n5\n8\n13\n")
         (self.pool / "points.csv").write_text("x,y,z\n500010,5200010,5\n500020,5200090,6\n")
         (self.pool / "empty").write_text("")
@@ -107,7 +105,7 @@ class Bench:
             "site": ["site.toml", "probe.toml"], "trn": ["trn.tif", "bed.tif", "slope.tif"],
             "blocks": ["blocks.h5"], "run": ["run_0.h5", "run_1.h5", "run.h5", "part.h5"],
             "vector": ["contours.gpkg", "points.csv"], "terrain": ["tin.ply", "trn.tif"],
-            "list": ["list"], "table": ["table.csv"], "registry": ["runs.sqlite"],
+            "table": ["table.csv"], "registry": ["runs.sqlite"],
             "folder": ["folder", "."], "word": WORDS,
             "other": ["empty", "noise", "folder", "loop", "missing", "/dev/null", "a\nb", "x" * 300]}
         for kind in ("site", "trn", "blocks", "run", "vector", "terrain"):

@@ -147,7 +147,7 @@ def study(site, options):
         command(folder, 'make.log', 'make', f'BIN={tools}', 'OUT=out', 'blocks')
     first = [file for seed in range(1, options.runs + 1) if (file := run(folder, tools, 'search', seed))]
     search = [f'{tools}talus-fence-search', 'site.toml', *first, '--trn', 'out/bed.tif', '--no-db', '--overwrite',
-              '--allow-unfinished', '--n-proposals', '1', '-o', 'search.gpkg', '--json', 'search.json', '--charts',
+              '--n-proposals', '1', '-o', 'search.gpkg', '--json', 'search.json', '--charts',
               'charts', '--proposals', 'proposals']
     command(folder, 'search.log', *search)
     both = json.load(open(f'{folder}/search.json', encoding='utf-8'))['searches']

@@ -25,7 +25,7 @@ def runout(tools, folder):
     runs = sorted(folder.glob("runs/run_*.h5")) or sorted(folder.glob("run_*.h5"))
     with tempfile.TemporaryDirectory() as scratch:
         done = subprocess.run([tools / "talus-runout", *runs, "--trn", folder / "bed.tif", "-o",
-                               scratch + "/runout.gpkg", "--json", "--allow-unfinished", "--no-db", "-q"],
+                               scratch + "/runout.gpkg", "--json", "--no-db", "-q"],
                               capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(done.stderr)

@@ -4,7 +4,8 @@
 //   run-probe DIR N_RUNS [site=NAME] [name=NAME] [version=V] [status=running|failed] [standing=1]
 //             [empty=1] [blocks=N] [step=H] [frames=DT] [seed=K] [height=H] [capacity=KJ|none]
 //             [hits=stopped|held|broken|pile] [moving=1] [still=N] [still_runs=N]
-//             [objects=watched|drawn] [weight=W] [independent=1] [passages=no]
+//             [objects=watched|drawn] [weight=W] [independent=1] [passages=no] [case=NAME]
+//             [share=MAX_FAILED_SHARE]
 // Box b of run r (edge 1 m, 2600 kg) starts at rest at x = 11, y = 10 + 6 b and slides with
 // a = 3 m/s2 along the slope for 4 s (24 m), then brakes evenly to rest within 2 s (12 m more); its
 // speed is that of run 0 times 1 + 0.01 r. Written: DIR/slope.tif, DIR/run_<r>.h5, DIR/site.toml.
@@ -117,6 +118,9 @@ std::string site_text(const Words& words) {
          word(words, "height", "3") + "\n" +
          (capacity == "none" ? "" : "capacity_kj = " + capacity + "\n") +
          "post_spacing_m = 8\nactive = false\n" +
+         (words.contains("share")
+              ? "\n[uncertainty]\nmax_failed_share = " + word(words, "share", "") + "\n"
+              : "") +
          (words.contains("objects")
               ? "\n[object.house]\npolygon = [[250030, 350008], [250036, 350008], [250036, "
                 "350012], "
@@ -172,6 +176,7 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
       "probe" + std::to_string(100000 + r + 1000 * std::lround(number(words, "seed", 0)));
   run.info.version = word(words, "version", "0.1.0");
   run.info.site = word(words, "site", "probe");
+  run.info.case_name = word(words, "case", "");
   run.info.crs_wkt = scene.ground.trn.crs_wkt;
   run.info.origin = scene.ground.trn.origin;
   run.info.trn_sha256 = trn_sha256;

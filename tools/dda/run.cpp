@@ -12,6 +12,7 @@
 #include "post/reduce.hpp"
 #include "record/pieces.hpp"
 #include "run/runner.hpp"
+#include "setup/run_settings.hpp"
 #include "store/xdmf_hdf5.hpp"
 #include "tools/dda/report.hpp"
 #include "tools/frame/build_info.hpp"
@@ -52,6 +53,8 @@ RunFile new_file(Tool& tool, const Site& site, const SetUp& setup, const DdaOpti
   info.blocks_hash = setup.blocks.content_hash;
   info.law = site.solver.law;
   info.seed = site.solver.seed;
+  info.seed_draws = seed_draws(site);
+  info.case_name = o.case_name;
   info.independent = o.request.independent;
   info.weights_are_frequencies = !setup.blocks.weight.empty();
   info.config = print_config(site);

@@ -30,6 +30,9 @@ void declare(Tool& tool, SiteOptions& site, DdaOptions& o) {
       "--settle", o.request.files.settle,
       "lift blocks that start below the ground onto it with what lies on them, and move blocks "
       "apart that overlap a little");
+  tool.option("--case", o.case_name,
+              "name of the variant that the options make of the site: evaluated by itself, or "
+              "weighed against others");
   tool.option("--passages-by", o.passages_by,
               "a cell is passed while the footprint or only the centroid is over it")
       ->check(CLI::IsMember({"footprint", "centroid"}));
@@ -52,8 +55,8 @@ void declare(Tool& tool, SiteOptions& site, DdaOptions& o) {
   // All that was given or read counts for the run's id, but for what a resumed run may differ in.
   // The site file counts by its effective values.
   tool.leave_out_of_run_id(site.names());
-  tool.leave_out_of_run_id(
-      {"resume", "threads", "output.checkpoint_interval_s", "output.frames", "output.whole_share"});
+  tool.leave_out_of_run_id({"case", "resume", "threads", "output.checkpoint_interval_s",
+                            "output.frames", "output.whole_share"});
 }
 
 }  // namespace
@@ -72,8 +75,15 @@ int main(int argc, char** argv) {
     check_options(tool, o);
     o.request.full_plan = o.plan == "full";
     SetUp setup = plan_scene(site, o.request, tool);
-    if (o.plan == "show")
-      return tool.result({{"plan", plan_json(setup.plan)}}, as_text(setup.plan));
+    if (o.plan == "show") {
+      tool.leave_out_of_run_id({"plan"});
+      return tool.result({{"plan", plan_json(setup.plan)},
+                          {"config", print_config(site)},
+                          {"made_with", tool.made_with({"trn", "blocks"})},
+                          {"trn_sha256", setup.inputs.trn_sha256},
+                          {"blocks_hash", setup.inputs.parts.blocks.content_hash}},
+                         as_text(setup.plan));
+    }
     make_scene(site, o.request, tool, setup);
     compute_run(tool, site, setup, o, cpu_start);
     is_written = true;

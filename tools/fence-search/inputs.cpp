@@ -8,7 +8,6 @@
 #include "base/text.hpp"
 #include "post/trace/trace.hpp"
 #include "setup/site_places_gdal.hpp"
-#include "tools/frame/class_runs.hpp"
 #include "tools/frame/fence_code.hpp"
 
 namespace talus {
@@ -168,27 +167,28 @@ void weigh_classes(RunInputs& runs, std::vector<HazardRuns>& classes, std::vecto
         hit.arrival.weight *= factor[static_cast<std::size_t>(hit.arrival.run)];
 }
 
-// The same for runs in which a fence stood, by the names of their files; by run.
+// The same for runs in which a fence stood, by their cases; by run.
 std::vector<double> verified_factors(const std::vector<RunMember>& members,
                                      const std::vector<HazardRuns>& classes) {
   if (classes.size() < 2) return std::vector<double>(members.size(), 1.0);
   std::vector<int> n(classes.size(), 0);
   std::vector<std::size_t> kind;
   for (const RunMember& member : members) {
-    const std::string name = case_of(member.file);
+    const std::string name = member.info.case_name;
     const auto found = std::find_if(classes.begin(), classes.end(),
                                     [&](const HazardRuns& of) { return of.kind.name == name; });
     if (found == classes.end())
-      throw InputError({where_of(member)}, "is of no class of [hazard.class.*] by its name",
-                       "name runs of class " + classes[0].kind.name + " run_" +
-                           classes[0].kind.name + "_SEED.h5");
+      throw InputError({where_of(member)},
+                       "is of case '" + name + "', which is no class of [hazard.class.*]",
+                       "compute runs of class " + classes[0].kind.name + " with talus-dda --case " +
+                           classes[0].kind.name);
     kind.push_back(static_cast<std::size_t>(found - classes.begin()));
     ++n[kind.back()];
   }
   for (std::size_t c = 0; c < classes.size(); ++c)
     if (n[c] == 0)
       throw InputError({"", 0, "--verified"}, "has no run of class " + classes[c].kind.name,
-                       "give runs of all classes, named run_CLASS_SEED.h5");
+                       "give runs of all classes (talus-dda --case)");
   const std::vector<double> factors = class_factors(classes, n);
   std::vector<double> out;
   for (const std::size_t c : kind) out.push_back(factors[c]);
@@ -265,18 +265,17 @@ std::vector<SearchCase> search_cases(Tool& tool, const Site& site, const std::st
 }
 
 void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
-                      const std::vector<std::string>& of_class, std::vector<SearchCase>& cases) {
+                      std::vector<SearchCase>& cases) {
   const std::vector<HazardClass> classes = hazard_classes(site);
   Rock rock;
   std::vector<double> released;
   std::vector<HazardRuns> rates;
   std::set<std::string> standing;
   bool single = true;
-  for (const ClassFiles& files : class_files(tool, runs, of_class, classes, site.file)) {
-    HazardClass kind;
-    if (!classes.empty()) kind = classes[rates.size()];
+  for (const RunSet& set : runs.of_classes(classes)) {
+    const HazardClass kind = class_at(classes, rates.size());
     const int first = static_cast<int>(runs.members.size());
-    runs.read(files.files, "class." + files.name, wanted, [&](RunFile& run, int index) {
+    runs.read(set, "class." + kind.name, wanted, [&](RunFile& run, int index) {
       const RunMember& member = runs.members[static_cast<std::size_t>(index)];
       for (SearchCase& search : cases) add_run(search, run, index, where_of(member));
       for (int b = 0; b < n_blocks(run); ++b) {
@@ -309,7 +308,7 @@ void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
 }
 
 VerifiedFence read_verified(RunInputs& runs, const std::string& name,
-                            const std::vector<std::string>& files, const std::vector<Fence>& fences,
+                            const std::vector<std::string>& paths, const std::vector<Fence>& fences,
                             const SearchCase& search) {
   std::set<std::string> ids;
   std::set<std::int64_t> seeds;
@@ -344,7 +343,8 @@ VerifiedFence read_verified(RunInputs& runs, const std::string& name,
       if (std::isfinite(touched[block])) hits.back() += weight_of(run, block);
     single = single && member.n_blocks <= 1;
   };
-  runs.read(files, "verified." + name, wanted, take, RunSettings::with_other_fences);
+  runs.read(runs.set_of(paths, "verified." + name), "verified." + name, wanted, take,
+            RunSettings::with_other_fences);
   const std::vector<RunMember> members(runs.members.begin() + static_cast<std::ptrdiff_t>(before),
                                        runs.members.end());
   const std::vector<double> factor = verified_factors(members, search.classes);

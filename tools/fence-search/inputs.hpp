@@ -36,7 +36,7 @@ struct SearchCase {
 /// Warns of fences that stood. Throws InputError for runs that did not watch the lines of a search,
 /// or its object.
 void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
-                      const std::vector<std::string>& of_class, std::vector<SearchCase>& cases);
+                      std::vector<SearchCase>& cases);
 
 /// What comes to an object behind a fence that stands.
 struct VerifiedFence {
@@ -45,11 +45,11 @@ struct VerifiedFence {
   Interval interval;    ///< 95 %
   double hits_a_run = 0;
 };
-/// Reads runs in which `fences` stood, by their names; of several classes those of class C are
-/// named run_C_SEED.h5. Throws InputError where the fences did not stand there, for runs that are
+/// Reads runs in which `fences` stood, by their names; of several classes those of class C are of
+/// case C. Throws InputError where the fences did not stand there, for runs that are
 /// among those of the search or have the seed of one, and for runs of no class.
 [[nodiscard]] VerifiedFence read_verified(RunInputs& runs, const std::string& name,
-                                          const std::vector<std::string>& files,
+                                          const std::vector<std::string>& paths,
                                           const std::vector<Fence>& fences,
                                           const SearchCase& search);
 

@@ -8,7 +8,6 @@
 #include "base/units.hpp"
 #include "setup/section_state_gdal.hpp"
 #include "tools/fence-search/output.hpp"
-#include "tools/frame/class_runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
@@ -22,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string out, json, charts, proposals, only;
-  std::vector<std::string> of_class, verified;
+  std::vector<std::string> verified;
   int n_proposals = 3;
   bool no_refine = false;
 };
@@ -39,17 +38,16 @@ void declare(Tool& tool, Options& o) {
   tool.flag("--no-refine", o.no_refine, "leave fences on their candidate lines");
   tool.app()
       .add_option("--verified", o.verified,
-                  "NAME=RUN.h5 or NAME=@LIST: runs with other seeds in which proposal NAME stood")
+                  "NAME=FOLDER or NAME=RUN.h5: runs with other seeds in which proposal NAME stood")
       ->allow_extra_args(false);
-  add_class_option(tool, o.of_class);
   tool.footer(
       "Example:\n  talus-fence-search site.toml run_*.h5 --trn bed.tif -o search.gpkg --proposals "
       "proposals\n  talus-dda site.toml --add proposals/house-1.toml --seed 101 ...\n  "
       "talus-fence-search site.toml run_*.h5 --trn bed.tif -o search.gpkg --verified "
-      "house-1=@list");
+      "house-1=verify/house-1");
 }
 
-/// Files of --verified by proposal.
+/// Runs of --verified by proposal.
 using Verified = std::map<std::string, std::vector<std::string>>;
 
 Verified verified_files(Tool& tool, const std::vector<std::string>& given) {
@@ -57,17 +55,12 @@ Verified verified_files(Tool& tool, const std::vector<std::string>& given) {
   for (const std::string& words : given) {
     const std::size_t sign = words.find('=');
     if (sign == std::string::npos || sign == 0 || sign + 1 == words.size())
-      throw UsageError({"", 0, "--verified"}, "is " + words + ", expected NAME=FILE or NAME=@LIST",
-                       "e.g. --verified house-1=verify/run_101.h5");
-    const std::string name = words.substr(0, sign), file = words.substr(sign + 1);
-    std::vector<std::string> files{file};
-    if (file[0] == '@') files = listed_files(file.substr(1));
-    for (const std::string& path : files) {
-      if (!fs::exists(path))
-        throw InputError({path}, "there is no such file", "it is named for proposal " + name);
-      tool.read_also("verified." + name, path);
-      out[name].push_back(path);
-    }
+      throw UsageError({"", 0, "--verified"}, "is " + words + ", expected NAME=FOLDER or NAME=FILE",
+                       "e.g. --verified house-1=verify/house-1");
+    const std::string name = words.substr(0, sign), path = words.substr(sign + 1);
+    tool.leave_out_of_run_id({"verified." + name});
+    tool.read_also("verified." + name, path);
+    out[name].push_back(path);
   }
   return out;
 }
@@ -231,7 +224,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   const Verified files = verified_files(tool, o.verified);
   const Trn& trn = runs.trn();
   std::vector<SearchCase> cases = search_cases(tool, site, o.only, trn);
-  read_search_runs(tool, runs, site, o.of_class, cases);
+  read_search_runs(tool, runs, site, cases);
   const std::vector<RunMember> members = runs.members;  // without those that verify
   std::vector<SearchAnswer> answers;
   for (const SearchCase& search : cases) {
@@ -279,7 +272,7 @@ int main(int argc, char** argv) {
   Options options;
   Tool tool("talus-fence-search", "Where a fence protects an object best, and what it leaves.");
   SiteOptions site(tool);
-  RunInputs runs(tool);
+  RunInputs runs(tool, RunUse::evaluated_with_frames);
   declare(tool, options);
   return tool.run(argc, argv, [&] { run_tool(tool, options, site, runs); });
 }

@@ -87,8 +87,8 @@ FenceRuns read_fence_runs(RunInputs& inputs, const std::vector<std::string>& wit
   inputs.read(parts, take_into(out.ground_with));
   const std::size_t n_with = runs.size(), n_parts_with = inputs.parts().size();
   if (!without_files.empty())
-    inputs.read(without_files, "runs_without", parts, take_into(out.ground_without),
-                RunSettings::with_other_fences);
+    inputs.read(inputs.set_of(without_files, "without"), "runs_without", parts,
+                take_into(out.ground_without), RunSettings::with_other_fences);
   for (std::size_t p = 0; p < inputs.parts().size(); ++p)
     add_speeds(p < n_parts_with ? out.ground_with : out.ground_without, inputs.parts()[p]);
   const auto split = [&](std::size_t first, std::size_t last) {

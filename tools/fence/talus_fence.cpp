@@ -18,7 +18,7 @@ namespace {
 using namespace talus;  // NOLINT: a program of its own
 
 struct Options {
-  std::string out, json, csv, change, without_from, code = "uni";
+  std::string out, json, csv, change, code = "uni";
   std::vector<std::string> without;
   FenceResultSettings result;
 };
@@ -29,8 +29,8 @@ void declare(Tool& tool, Options& o) {
   tool.output("-o,--out", o.out, "fields, posts and arrivals (GeoPackage)")->required();
   tool.json_output(o.json, "verdicts, statistics, design check, comparison (JSON)");
   tool.output("--csv", o.csv, "one row a block and fence: its verdict (CSV)");
-  tool.inputs("--without", o.without, "runs or parts without the fence, to compare with");
-  tool.input("--without-from", o.without_from, "list of these, a line each, taken as well");
+  tool.inputs("--without", o.without,
+              "runs, parts or their folder without the fence, to compare with");
   tool.output("--change", o.change,
               "deposit and speed with the fences minus those of --without (GeoTIFF; style and "
               "pages beside it)");
@@ -102,10 +102,6 @@ void write_change(Tool& tool, RunInputs& inputs, const std::string& path, const 
 void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inputs) {
   const Site& site = site_options.load();
   const FenceCode code = read_fence_code(o.code);
-  for (const std::string& path : listed_files(o.without_from)) {
-    tool.read_also("without", path);
-    o.without.push_back(path);
-  }
   if (!o.change.empty() && o.without.empty())
     throw InputError({"", 0, "--change"}, "has nothing to compare with",
                      "give runs without the fences by --without");

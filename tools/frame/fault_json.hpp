@@ -1,8 +1,8 @@
 // tools/frame/fault_json.hpp
-// Runs that failed or have not ended, as every tool that evaluates runs writes them to JSON.
+// Runs that failed, as every tool that evaluates runs writes them to JSON.
 #pragma once
 
-#include "post/run_set.hpp"
+#include "ensemble/run_set.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {
@@ -17,10 +17,9 @@ namespace talus {
   return list;
 }
 
-/// Adds the keys failed_runs, unfinished_runs and, where there are any, left_out_runs.
+/// Adds the keys failed_runs and, where there are any, left_out_runs.
 inline void add_faults(Json& result, const RunFaults& faults) {
   result["failed_runs"] = fault_json(faults.failed);
-  result["unfinished_runs"] = fault_json(faults.unfinished);
   if (!faults.left_out.empty()) result["left_out_runs"] = fault_json(faults.left_out);
 }
 

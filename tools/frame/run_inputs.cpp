@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
-#include <sstream>
 
-#include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "io/trn_digest.hpp"
 #include "post/deposit.hpp"
-#include "tools/frame/command_line.hpp"
+#include "site/site.hpp"
 #include "tools/frame/options.hpp"
 
 namespace talus {
@@ -19,6 +18,8 @@ namespace {
 // Files of runs that are read once and held together, where little of each is wanted: opening them
 // again to check them first takes a tenth of the time of all maps.
 constexpr std::uintmax_t most_at_once = 200'000'000;  // [bytes]
+
+constexpr const char* share_key = "uncertainty.max_failed_share";
 
 std::uintmax_t bytes_of(const std::vector<std::string>& paths) {
   std::uintmax_t sum = 0;
@@ -38,51 +39,14 @@ std::string content_of(const std::vector<RunMember>& runs) {
   return run_set_id(std::move(ids));
 }
 
-CaseWeight case_weight(const std::string& text) {
-  const std::size_t at = text.rfind('=');
-  CaseWeight out{text.substr(0, std::min(at, text.size())), 0, 0};
-  if (at == std::string::npos || !parse_double(text.substr(at + 1), out.weight)) out.weight = 0;
-  return out;
-}
-
-std::string check_case_weight(const std::string& text) {
-  const double weight = case_weight(text).weight;
-  return weight >= 1e-9 && weight <= 1e9 ? ""
-                                         : text +
-                                               " is no weight of a case, expected NAME=WEIGHT "
-                                               "with a weight from 1e-9 to 1e9";
-}
-
 }  // namespace
 
-RunInputs::RunInputs(Tool& tool, RunUse use) : tool_(tool) {
-  tool.inputs("run", files_, "runs of talus-dda and parts of talus-reduce (HDF5), in any order")
-      ->required(false);
-  tool.input("--runs-from", runs_from_, "list of runs and parts, a line each, taken as well");
+RunInputs::RunInputs(Tool& tool, RunUse use) : tool_(tool), use_(use) {
+  tool.inputs("run", paths_,
+              "runs of talus-dda and parts of talus-reduce (HDF5), in any order, or their folder");
   tool.input("--trn", trn_file, "terrain of the runs (GeoTIFF of talus-trn)")->required();
-  tool.flag("--allow-unfinished", allow_unfinished,
-            "take runs that were interrupted before their end; every output is marked");
-  tool.leave_out_of_run_id({"run", "runs-from", "without", "without-from", "compare",
-                            "compare-from"});  // the runs themselves stand for them
-  if (use == RunUse::reduced) {
-    max_failed_share = 0;
-    return;
-  }
-  tool.option("--rest-speed-m-s", rest_speed_m_s,
-              "blocks slower than this at the end count as deposited [m/s]")
-      ->check(number_between(0, 1000));
-  tool.option("--missing", n_missing,
-              "runs that were wanted and are not there: every output says so")
-      ->check(number_between(0, 1e9));
-  tool.option("--max-failed-share", max_failed_share,
-              "up to this share, runs that failed are left out and widen the intervals; of more, "
-              "every output says so")
-      ->check(number_between(0, 1));
-  tool.option("--case-weight", weights_given,
-              "NAME=WEIGHT: what a case (run_NAME_SEED.h5) counts among the others; of each case")
-      ->allow_extra_args(false)
-      ->check(check_case_weight);
-  tool.option("--only-case", only_case, "takes the runs of this case alone");
+  // the runs themselves stand for them
+  tool.leave_out_of_run_id({"run", "without", "compare"});
 }
 
 const Trn& RunInputs::trn() {
@@ -92,17 +56,50 @@ const Trn& RunInputs::trn() {
   return trn_;
 }
 
-const std::vector<std::string>& RunInputs::files() {
-  if (has_listed_) return files_;
-  has_listed_ = true;
-  for (const std::string& path : listed_files(runs_from_)) {
-    tool_.read_also("run", path);
-    files_.push_back(path);
+RunSet RunInputs::set_of(const std::vector<std::string>& paths, const std::string& role) {
+  RunSet set;
+  for (const std::string& path : paths) {
+    if (!is_ensemble(path)) {
+      set.files.push_back(path);
+      continue;
+    }
+    const Ensemble ensemble = read_ensemble(path);
+    for (std::string& file : files_of(ensemble, use_ == RunUse::evaluated)) {
+      tool_.read_also(role, file);
+      set.files.push_back(std::move(file));
+    }
+    set.n_missing += talus::n_missing(ensemble);
+    set.max_failed_share = ensemble.max_failed_share;
+    set.weights = ensemble.cases;
+    if (set.files.empty())
+      throw InputError({path}, "has no run with a result", "let talus-batch make its runs");
   }
-  if (files_.empty() && runs_from_.empty())
-    throw UsageError({"", 0, "run"}, "no run is named", "give RUN.h5..., or --runs-from FILE");
-  if (files_.empty()) throw InputError({runs_from_}, "names no run", "give it a line a run");
-  return files_;
+  return set;
+}
+
+const RunSet& RunInputs::runs() {
+  if (!runs_.files.empty()) return runs_;
+  runs_ = set_of(paths_, "run");
+  n_missing = runs_.n_missing;
+  return runs_;
+}
+
+std::vector<RunSet> RunInputs::of_classes(const std::vector<HazardClass>& classes) {
+  RunSet all = runs();
+  all.weights.clear();
+  if (classes.size() < 2) return {all};
+  std::map<std::string, int> missing;
+  for (const std::string& path : paths_)
+    if (is_ensemble(path))
+      for (const EnsembleMember& member : read_ensemble(path).members)
+        missing[member.case_name] += has_result(member) ? 0 : 1;
+  std::vector<RunSet> sets;
+  for (const HazardClass& kind : classes) {
+    sets.push_back(all);
+    sets.back().only_case = kind.name;
+    sets.back().n_missing = missing[kind.name];
+  }
+  return sets;
 }
 
 // The runs of a set, before they are put in order.
@@ -110,20 +107,26 @@ struct RunInputs::Found {
   std::vector<RunMember> members;
   std::vector<Place> places;
   std::vector<RunFile> runs;  // held; of runs of parts, and of all where not all are held, empty
+  double max_failed_share = UncertaintySettings{}.max_failed_share;  // as the first run says
 };
 
-RunInputs::Found RunInputs::look_at(const std::vector<std::string>& paths, const RunParts& parts,
-                                    bool at_once, SettingsCheck& settings) {
+RunInputs::Found RunInputs::look_at(const RunSet& set, const RunParts& parts, bool at_once,
+                                    SettingsCheck& settings) {
   Found found;
   RunParts with_words = parts;
   with_words.words = true;
   const ProgressFunction progress = tool_.progress();
   const auto add = [&](const std::string& name, RunFile&& run, const Place& place) {
+    if (!set.only_case.empty() && run.info.case_name != set.only_case) return;
     found.members.push_back(member_of(name, run));
     if (place.part >= 0) found.members.back().part = part_files_[place.part];
     check_member(found.members.back(), members.empty() ? found.members.front() : members.front(),
                  set_options_);
-    settings.add(name, where_of(found.members.back()), run.info);
+    if (found.members.size() == 1) {
+      const MadeWith made = made_with(run.info.config, "");
+      if (made.values.contains(share_key)) found.max_failed_share = number_of(made, share_key);
+    }
+    settings.add(where_of(found.members.back()), run.info);
     found.places.push_back(place);
     if (!at_once || place.part >= 0) run = {};
     if (!parts.words)
@@ -133,7 +136,7 @@ RunInputs::Found RunInputs::look_at(const std::vector<std::string>& paths, const
     found.runs.push_back(std::move(run));
   };
   std::size_t n_read = 0;
-  for (const std::string& path : paths) {
+  for (const std::string& path : set.files) {
     if (is_part_file(path)) {
       const int p = static_cast<int>(parts_.size());
       parts_.push_back({PartFile(path), {}});
@@ -144,17 +147,26 @@ RunInputs::Found RunInputs::look_at(const std::vector<std::string>& paths, const
     } else {
       add(path, at_once ? read_run_file(path, with_words) : read_run_head(path), {});
     }
-    progress(static_cast<double>(++n_read) / static_cast<double>(paths.size()));
+    progress(static_cast<double>(++n_read) / static_cast<double>(set.files.size()));
   }
+  if (found.members.empty())
+    throw InputError({set.files[0]}, "is of no case " + set.only_case + ", nor is any other run",
+                     "give runs of talus-dda --case " + set.only_case);
   return found;
 }
 
-void RunInputs::leave_out_failed(Found& found, bool is_first) {
+// What the runs say, unless their ensemble says it.
+double RunInputs::share_allowed(const RunSet& set, const Found& found) const {
+  if (use_ == RunUse::reduced) return 0;
+  return std::isnan(set.max_failed_share) ? found.max_failed_share : set.max_failed_share;
+}
+
+void RunInputs::leave_out_failed(Found& found, const RunSet& set, bool is_first) {
   const auto is_failed = [](const RunMember& run) { return run.info.status == "failed"; };
   const auto n_failed = std::count_if(found.members.begin(), found.members.end(), is_failed);
   const FailedShare failed =
       talus::failed_share(static_cast<int>(found.members.size()), static_cast<int>(n_failed),
-                          is_first ? n_missing : 0, max_failed_share);
+                          set.n_missing, max_failed_share_);
   last_failed_share_ = failed.share;
   if (is_first) failed_share_ = failed.share;
   if (!failed.is_left_out || n_failed == 0) return;
@@ -171,28 +183,11 @@ void RunInputs::leave_out_failed(Found& found, bool is_first) {
   found = std::move(kept);
 }
 
-void RunInputs::take_one_case(Found& found) const {
-  if (only_case.empty() || found.members.empty()) return;
-  Found kept;
-  for (std::size_t i = 0; i < found.members.size(); ++i) {
-    if (case_of(found.members[i].file) != only_case) continue;
-    kept.members.push_back(std::move(found.members[i]));
-    kept.places.push_back(found.places[i]);
-    kept.runs.push_back(std::move(found.runs[i]));
-  }
-  if (kept.members.empty())
-    throw InputError(
-        {"", 0, "--only-case"}, "no run is of case '" + only_case + "'",
-        "cases are those of the names run_CASE_SEED.h5: " + text(cases_of(found.members, {})));
-  found = std::move(kept);
-}
-
-void RunInputs::weigh(std::vector<RunMember>& found, bool is_first) {
-  std::vector<CaseWeight> given;
-  for (const std::string& one : weights_given) given.push_back(case_weight(one));
-  const std::vector<CaseWeight> cases = cases_of(found, given);
+void RunInputs::weigh(std::vector<RunMember>& found, const RunSet& set, bool is_first) {
+  const std::vector<CaseWeight> cases = cases_of(found, set.weights);
   if (is_first) cases_ = cases;
-  if (given.empty()) return;
+  if (is_first) is_weighed_ = !set.weights.empty();
+  if (set.weights.empty()) return;
   const std::vector<double> weights = run_weights(found, cases);
   for (std::size_t i = 0; i < found.size(); ++i) {
     found[i].run_weight = weights[i];
@@ -210,22 +205,20 @@ void RunInputs::check_reach(const RunFile& run, const RunMember& member) const {
       "give --path-tolerance-m " + text(run.reach->tolerance) + ", or runs with their frames");
 }
 
-void RunInputs::read(const std::vector<std::string>& paths, const std::string& role,
-                     const RunParts& parts, const std::function<void(RunFile&, int)>& take,
-                     RunSettings settings) {
+void RunInputs::read(const RunSet& set, const std::string& role, const RunParts& parts,
+                     const std::function<void(RunFile&, int)>& take, RunSettings settings) {
   const bool is_first = set_options_.trn_sha256.empty();
-  if (is_first)
-    set_options_ = {allow_unfinished, trn_file, sha256_of_file(trn_file), trn_digest(trn())};
-  const bool at_once = parts.only_last_frame && bytes_of(paths) <= most_at_once;
+  if (is_first) set_options_ = {trn_file, sha256_of_file(trn_file), trn_digest(trn())};
+  const bool at_once = parts.only_last_frame && bytes_of(set.files) <= most_at_once;
   SettingsCheck check =
       settings == RunSettings::with_other_fences ? settings_.for_other_fences() : SettingsCheck();
-  Found found = look_at(paths, parts, at_once, check);
+  Found found = look_at(set, parts, at_once, check);
   settings_.merge(check);
-  take_one_case(found);
   static_cast<void>(order_by_id(found.members));  // the same run twice
   tool_.content_read(role, content_of(found.members));
-  leave_out_failed(found, is_first);
-  weigh(found.members, is_first);
+  max_failed_share_ = share_allowed(set, found);
+  leave_out_failed(found, set, is_first);
+  weigh(found.members, set, is_first);
   const std::size_t first = members.size();
   const std::vector<int> order = order_by_id(found.members);
   for (const int i : order) {
@@ -234,7 +227,7 @@ void RunInputs::read(const std::vector<std::string>& paths, const std::string& r
     members.push_back(std::move(found.members[i]));
     places_.push_back(place);
   }
-  if (is_first) n_first_ = members.size();
+  if (is_first || !set.only_case.empty()) n_first_ = members.size();
   const auto hand_over = [&](RunFile& run, int i) {
     members[i].n_moving = balance_of(run, rest_speed_m_s).n_moving;
     check_reach(run, members[i]);
@@ -251,9 +244,10 @@ void RunInputs::read(const std::vector<std::string>& paths, const std::string& r
     return;
   }
   read_members(first, parts, [&](RunFile& run, int i) {
-    const std::string part = members[i].part;
-    members[i] = member_of(members[i].file, run);
-    members[i].part = part;
+    RunMember whole = member_of(members[i].file, run);
+    whole.part = std::move(members[i].part);
+    whole.settings = std::move(members[i].settings);
+    members[i] = std::move(whole);
     hand_over(run, i);
   });
 }
@@ -328,7 +322,7 @@ std::string RunInputs::remark() const {
     const std::string missing =
         std::to_string(n_missing) + " of " + std::to_string(n_wanted) + " runs missing";
     const auto add = [&missing](std::string& to) { to += (to.empty() ? "" : "; ") + missing; };
-    if (n_missing + static_cast<int>(left_out.size()) <= max_failed_share * n_wanted) {
+    if (n_missing + static_cast<int>(left_out.size()) <= max_failed_share_ * n_wanted) {
       add(few);
     } else {
       add(words);
@@ -346,22 +340,11 @@ std::string RunInputs::remark() const {
                                " cases pooled, each run alike: no probability";
     short_words += (short_words.empty() ? "" : "; ") + pooled;
     tool_.warn(pooled + " (" + text(cases_) +
-               "): give --case-weight NAME=WEIGHT of each, or --only-case NAME");
+               "): give a weight to each (talus-batch --weight), or evaluate the folder of one");
   }
   if (!few.empty()) tool_.warn(few + ": the intervals of shares count them");
   if (!words.empty()) tool_.warn(words + ": every output says so");
   return short_words;
-}
-
-std::vector<std::string> listed_files(const std::string& list) {
-  std::vector<std::string> files;
-  if (list.empty()) return files;
-  std::istringstream lines(read_file(list));
-  for (std::string line; std::getline(lines, line);) {
-    if (line.ends_with("\r")) line.pop_back();
-    if (!line.empty()) files.push_back(line);
-  }
-  return files;
 }
 
 void mark_layers(std::vector<VectorLayer>& layers, const std::string& remark) {

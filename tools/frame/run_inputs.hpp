@@ -2,15 +2,18 @@
 // Run files and their terrain as every tool that evaluates runs takes them.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "ensemble/ensemble.hpp"
+#include "ensemble/made_with.hpp"
+#include "ensemble/run_set.hpp"
 #include "io/geopackage_gdal.hpp"
 #include "io/raster_gdal.hpp"
-#include "post/made_with.hpp"
+#include "post/hazard/frequency.hpp"
 #include "post/maps/map_places.hpp"
-#include "post/run_set.hpp"
 #include "record/part_file.hpp"
 #include "tools/frame/tool.hpp"
 
@@ -22,8 +25,18 @@ struct PartInput {
   std::vector<int> member;  ///< of each of its runs, in RunInputs::members; -1: left out
 };
 
-/// What runs are read for: to say something of them, or to keep them, with all that failed.
-enum class RunUse { evaluated, reduced };
+/// What runs are read for: to say something of them, by their frames too, or to keep them, with all
+/// that failed.
+enum class RunUse { evaluated, evaluated_with_frames, reduced };
+
+/// Runs that were wanted together.
+struct RunSet {
+  std::vector<std::string> files;          ///< runs and parts
+  std::vector<CaseWeight> weights{};       ///< of the cases, as given
+  std::string only_case{};                 ///< of these files the runs of this case; "": all
+  int n_missing = 0;                       ///< runs that were wanted and have no result
+  double max_failed_share = std::nan("");  ///< nan: what the first run says
+};
 
 /// How the settings of a set of runs compare with those of the sets before it (SettingsCheck).
 enum class RunSettings {
@@ -33,28 +46,31 @@ enum class RunSettings {
 
 class RunInputs {
  public:
-  /// Declares RUN.h5|PART.h5..., --runs-from, --trn and --allow-unfinished on a tool; of runs that
-  /// are evaluated also --missing, --max-failed-share and --rest-speed-m-s.
+  /// Declares FOLDER|RUN.h5|PART.h5... and --trn on a tool.
   explicit RunInputs(Tool& tool, RunUse use = RunUse::evaluated);
 
   /// The terrain. Throws InputError (read_trn).
   [[nodiscard]] const Trn& trn();
 
-  /// The files of the command line and of the list that --runs-from names. Throws InputError when
-  /// there is none.
-  [[nodiscard]] const std::vector<std::string>& files();
+  /// Runs by what names them: files, or folders and their ensemble.json. `role`: in the registry.
+  [[nodiscard]] RunSet set_of(const std::vector<std::string>& paths, const std::string& role);
+  /// Those that the command line names first.
+  [[nodiscard]] const RunSet& runs();
+  /// Those of each class of hazard, which are of the case of its name where there are several; all
+  /// without classes. Cases are not weighed: classes have frequencies.
+  [[nodiscard]] std::vector<RunSet> of_classes(const std::vector<HazardClass>& classes);
 
   /// Checks that all runs of files and parts belong together (run_set.hpp), then hands them over
   /// one by one in the order of their run ids, with their places in `members`. So results do not
   /// depend on how runs are spread over files. A run of a part has no passages: parts() has. No
   /// more than one run file is held, except where of each only its last frame is wanted: then all,
-  /// up to 200 MB of files. Failed runs within --max-failed-share are left out. `role` names the
-  /// set for run_id(). Throws InputError; Interrupted between two files.
-  void read(const std::vector<std::string>& paths, const std::string& role, const RunParts& parts,
+  /// up to 200 MB of files. Few failed runs are left out. `role` names the set for run_id(). Throws
+  /// InputError; Interrupted between two files.
+  void read(const RunSet& set, const std::string& role, const RunParts& parts,
             const std::function<void(RunFile&, int)>& take,
             RunSettings settings = RunSettings::of_their_own);
   void read(const RunParts& parts, const std::function<void(RunFile&, int)>& take) {
-    read(files(), "runs", parts, take);
+    read(runs(), "runs", parts, take);
   }
 
   /// Reads all members once more, in the same order; those of parts without their passages.
@@ -82,20 +98,16 @@ class RunInputs {
   /// The cases of the runs named by RUN.h5... with their shares of the whole.
   [[nodiscard]] const std::vector<CaseWeight>& cases() const { return cases_; }
   /// Several cases that nobody weighed: what stands for all of them is no probability.
-  [[nodiscard]] bool pools_unasked() const { return cases_.size() > 1 && weights_given.empty(); }
+  [[nodiscard]] bool pools_unasked() const { return cases_.size() > 1 && !is_weighed_; }
 
   /// Warns when blocks were still moving as their runs ended, or had left the known terrain:
   /// deposits leave them out.
   void warn_of_ends() const;
 
   std::string trn_file;
-  double rest_speed_m_s = 0.05;
-  double path_tolerance_m = 0.5;  ///< that lengths of paths are wanted with
-  double max_failed_share = 0.02;
-  std::vector<std::string> weights_given;  ///< NAME=WEIGHT of --case-weight
-  std::string only_case;                   ///< of --only-case
-  bool allow_unfinished = false;
-  int n_missing = 0;                ///< runs that were wanted and gave no file
+  static constexpr double rest_speed_m_s = 0.05;  ///< of deposited blocks, at most
+  double path_tolerance_m = 0.5;                  ///< that lengths of paths are wanted with
+  int n_missing = 0;                ///< runs that were wanted first and have no result
   std::vector<RunMember> members;   ///< of the files read so far; of one call by run id
   std::vector<RunMember> left_out;  ///< failed runs
 
@@ -105,11 +117,11 @@ class RunInputs {
     int part = -1, run = -1;
   };
   struct Found;
-  [[nodiscard]] Found look_at(const std::vector<std::string>& paths, const RunParts& parts,
-                              bool at_once, SettingsCheck& settings);
-  void leave_out_failed(Found& found, bool is_first);
-  void take_one_case(Found& found) const;
-  void weigh(std::vector<RunMember>& found, bool is_first);
+  [[nodiscard]] Found look_at(const RunSet& set, const RunParts& parts, bool at_once,
+                              SettingsCheck& settings);
+  [[nodiscard]] double share_allowed(const RunSet& set, const Found& found) const;
+  void leave_out_failed(Found& found, const RunSet& set, bool is_first);
+  void weigh(std::vector<RunMember>& found, const RunSet& set, bool is_first);
   void check_reach(const RunFile& run, const RunMember& member) const;
   [[nodiscard]] RunFile read_member(std::size_t i, const RunParts& parts) const;
   void read_members(std::size_t first, const RunParts& parts,
@@ -120,9 +132,11 @@ class RunInputs {
   SettingsCheck settings_;  // of the sets read so far
   Trn trn_;
   bool has_trn_ = false;
-  std::vector<std::string> files_;
-  std::string runs_from_;
-  bool has_listed_ = false;
+  RunUse use_;
+  std::vector<std::string> paths_;  // of the command line
+  RunSet runs_;
+  bool is_weighed_ = false;
+  double max_failed_share_ = 0;
   std::vector<CaseWeight> cases_;  // of RUN.h5...
   std::vector<PartInput> parts_;
   std::vector<std::string> part_files_;  // of parts_
@@ -130,9 +144,6 @@ class RunInputs {
   std::size_t n_first_ = 0;              // members of RUN.h5...
   double failed_share_ = 0, last_failed_share_ = 0;
 };
-
-/// The lines of a list of files, blanks left out; none where no list is named. Throws InputError.
-[[nodiscard]] std::vector<std::string> listed_files(const std::string& list);
 
 /// The remark behind the description of each layer.
 void mark_layers(std::vector<VectorLayer>& layers, const std::string& remark);

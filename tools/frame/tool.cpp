@@ -16,7 +16,6 @@
 #include "base/network.hpp"
 #include "base/printable.hpp"
 #include "base/text.hpp"
-#include "base/write_bytes.hpp"
 #include "store/runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/exit_code.hpp"
@@ -32,22 +31,6 @@
 namespace talus {
 namespace fs = std::filesystem;
 namespace {
-
-std::string one_line(std::string words) {
-  std::replace_if(
-      words.begin(), words.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
-  return words;
-}
-
-// A file that --failures may replace or remove: none yet, or such a list.
-bool may_hold_failures(const std::string& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) return !error;
-  std::ifstream file(path);
-  std::string word;
-  return fs::is_regular_file(path, error) &&
-         (!std::getline(file, word, '\t') || word == "kept" || word == "none");
-}
 
 // The value of an option on a command line that could not be parsed; "" where it is not there.
 std::string word_after(const std::string& option, int argc, char** argv) {
@@ -103,9 +86,6 @@ struct Tool::Impl {
   std::string summary;
   bool registered = false;  // to be recorded; record.id is 0 while it has no row
   bool is_late = false;     // the registry was locked once: it is not waited for again
-  bool in_place = false;    // the outputs
-  std::vector<std::string> failures;
-  std::set<std::string> hints;  // for what failed
   ProgressLine progress_line;
 
   Impl(std::string tool_name, std::string purpose)
@@ -177,9 +157,6 @@ struct Tool::Impl {
   }
 
   void begin(int argc, char** argv) {
-    if (!options.failures.empty() && !may_hold_failures(options.failures))
-      throw InputError({options.failures}, "is something else than a list of failures",
-                       "name a file for --failures that may be replaced");
     if (options.db == ":memory:")
       throw UsageError({"", 0, "--db"}, "is :memory:, which SQLite takes for no file",
                        "name a file, or run with --no-db");
@@ -270,7 +247,6 @@ struct Tool::Impl {
       for (const std::string& path : final_names(file)) kept.refuse(path);
     record_outputs(files);
     put_in_place(files, now);
-    in_place = true;
     staged.clear();
   }
 
@@ -315,32 +291,12 @@ struct Tool::Impl {
     event("error", what);
     say(error_level, what);
     say_hint(hint);
-    failures.push_back(what);
     return code;
   }
 
   void say_hint(const std::string& hint) {
     if (hint.empty()) return;
     say(hint_level, hint);
-    hints.insert(printable(hint));
-  }
-
-  // For who started many runs and lists what became of them.
-  void write_failures(int code) {
-    if (options.failures.empty() || !may_hold_failures(options.failures)) return;
-    std::error_code error;
-    fs::remove(options.failures, error);
-    if (code == done) return;
-    std::string lines;
-    for (const std::string& what : failures)
-      lines += (in_place ? "kept\t" : "none\t") + one_line(what) + "\n";
-    for (const std::string& hint : hints) lines += "hint\t" + one_line(hint) + "\n";
-    try {
-      write_bytes(options.failures,
-                  {reinterpret_cast<const unsigned char*>(lines.data()), lines.size()});
-    } catch (const InputError& unwritten) {
-      say(error_level, unwritten.what());
-    }
   }
 
   int guarded(const std::function<int()>& work) {
@@ -378,7 +334,6 @@ struct Tool::Impl {
           check.name + " is " + text(check.value, 6) + ", limit " + text(check.limit, 6);
       say(error_level, "health: " + what);
       say_hint(check_hints[i]);
-      failures.push_back(what);
     }
     return all_checks_pass() ? done : numbers_failed;
   }
@@ -535,6 +490,8 @@ void Tool::result(Json result, const std::string& summary) {
 
 bool Tool::overwrite() const { return impl_->options.overwrite; }
 
+bool Tool::is_recorded() const { return !impl_->options.no_db; }
+
 std::string Tool::registry() const { return registry_path(impl_->options); }
 
 std::string Tool::run_id() {
@@ -568,13 +525,10 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     return std::cout.flush() ? code : input_unusable;
   } catch (const CLI::ParseError& error) {
     // What was given before or behind the fault has not been read.
-    impl.options.failures = word_after("--failures", argc, argv);
     impl.options.messages = word_after("--messages", argc, argv);
     impl.options.label.clear();
     impl.say(error_level, error.what());
     impl.say(hint_level, impl.name + " --help");
-    impl.failures.push_back(printable(error.what()));
-    impl.write_failures(usage_wrong);
     return usage_wrong;
   }
   impl.options.label = printable(impl.options.label);
@@ -600,7 +554,6 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
         impl.guarded([&] { return impl.finish_record(code), static_cast<int>(done); });
     if (code == done) code = recorded;
   }
-  impl.write_failures(code);
   return code;
 }
 

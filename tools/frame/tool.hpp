@@ -108,6 +108,7 @@ class Tool : public InputLog {
   /// What --json prints; without --json `summary` goes to stdout, not with -q.
   void result(Json result, const std::string& summary);
   [[nodiscard]] bool overwrite() const;
+  [[nodiscard]] bool is_recorded() const;      ///< not with --no-db
   [[nodiscard]] std::string registry() const;  ///< that runs are recorded in, whether or not there
   /// Leaves these out of run_id(): settings by their keys and inputs by their roles that equal
   /// results may differ in, or that other settings stand for. All others count, and so does every

@@ -41,8 +41,6 @@ void add_common_options(const std::string& tool, CLI::App& app, ToolOptions& opt
         app.add_option("--db", options.db, "run registry [runs.sqlite beside the output]"),
         app.add_flag("--no-db", options.no_db, "do not record the run"),
         app.add_option("--label", options.label, "put this word before every message"),
-        app.add_option("--failures", options.failures,
-                       "write what failed to this file too; none is left when nothing did"),
         app.add_option("--progress", options.progress,
                        "how much is done: on a terminal in place, else a line a minute (auto); a "
                        "line a second (plain, json), or none")

@@ -35,7 +35,6 @@ struct ToolOptions {
        print_config = false;
   std::string db;                 ///< as given; empty: beside the first output
   std::string label;              ///< before every message, to tell runs apart
-  std::string failures;           ///< file for what failed; empty: not wanted
   std::string progress = "auto";  ///< auto, plain, json or none
   std::string messages = "text";  ///< text or json
   std::string describe;           ///< json, or empty: the tool does its work

@@ -50,9 +50,8 @@ Recipe read_recipe(Tool& tool, const Site& site) {
   return recipe;
 }
 
-HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<ClassFiles>& files,
-                                const std::vector<HazardClass>& classes, const Recipe& recipe,
-                                double cell_size_m, std::uint64_t most_rows) {
+HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<HazardClass>& classes,
+                                const Recipe& recipe, double cell_size_m, std::uint64_t most_rows) {
   HazardInputs out;
   out.sources.recipe = recipe;
   out.sources.has_frequencies = !classes.empty();
@@ -66,26 +65,23 @@ HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<ClassFiles>& 
     else
       out.rows.insert(out.rows.end(), rows.begin(), rows.end());
   };
-  for (std::size_t c = 0; c < files.size(); ++c) {
-    HazardClass kind;
-    if (!classes.empty()) kind = classes[c];
-    kind.name = files[c].name;
+  for (const RunSet& set : runs.of_classes(classes)) {
+    const HazardClass kind = class_at(classes, out.sources.classes.size());
     const int first = static_cast<int>(runs.members.size());
     const std::size_t first_part = runs.parts().size();
-    runs.read(files[c].files, "class." + files[c].name, only_passages,
-              [&](RunFile& run, int index) {
-                const RunMember& member = runs.members[static_cast<std::size_t>(index)];
-                if (run.grid.n_rows == 0)
-                  throw InputError({where_of(member)}, "holds no passages",
-                                   "set [output] passages = true and run talus-dda again");
-                if (out.rows_of_cell.empty()) {
-                  out.map = map_grid(run.grid, cell_size_m, "--cell-size-m");
-                  out.rows_of_cell.assign(
-                      static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols, 0);
-                }
-                count(event_rows(map_rows(run.passages, run.grid, out.map, run.blocks.weight),
-                                 run.blocks, recipe, member, index));
-              });
+    runs.read(set, "class." + kind.name, only_passages, [&](RunFile& run, int index) {
+      const RunMember& member = runs.members[static_cast<std::size_t>(index)];
+      if (run.grid.n_rows == 0)
+        throw InputError({where_of(member)}, "holds no passages",
+                         "set [output] passages = true and run talus-dda again");
+      if (out.rows_of_cell.empty()) {
+        out.map = map_grid(run.grid, cell_size_m, "--cell-size-m");
+        out.rows_of_cell.assign(static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols,
+                                0);
+      }
+      count(event_rows(map_rows(run.passages, run.grid, out.map, run.blocks.weight), run.blocks,
+                       recipe, member, index));
+    });
     take_rows_of_parts(
         runs, first_part, out.map, {}, most_rows,
         [&](const std::vector<MapRow>& rows, const RunBlocks& blocks, int run) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "post/hazard/hazard_maps.hpp"
-#include "tools/frame/class_runs.hpp"
+#include "tools/frame/run_inputs.hpp"
 #include "tools/frame/site_options.hpp"
 
 namespace talus {
@@ -22,7 +22,7 @@ struct HazardInputs {
   std::uint64_t n_rows = 0;
   std::vector<EventRow> rows;  ///< empty when they are more than `most_rows`
 };
-[[nodiscard]] HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<ClassFiles>& files,
+[[nodiscard]] HazardInputs read_hazard_inputs(RunInputs& runs,
                                               const std::vector<HazardClass>& classes,
                                               const Recipe& recipe, double cell_size_m,
                                               std::uint64_t most_rows);

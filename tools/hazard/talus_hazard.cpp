@@ -23,7 +23,6 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string folder, json;
-  std::vector<std::string> of_class;
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   PageOptions pages;
   const CLI::Option* memory = nullptr;  // --memory-mb, of every tool
@@ -40,7 +39,6 @@ struct Options {
 
 void declare(Tool& tool, Options& o) {
   tool.output_folder("-o,--out", o.folder, "folder for the maps")->required();
-  add_class_option(tool, o.of_class);
   tool.option("--cell-size-m", o.cell_size_m,
               "cell of the maps, a whole multiple of the recorded one [m]; nan: as recorded")
       ->check(number_between(0, 1e6, true));
@@ -51,7 +49,7 @@ void declare(Tool& tool, Options& o) {
       ->check(check_creation_option);
   tool.footer(
       "Example:\n  talus-hazard site.toml run_1.h5 run_2.h5 --trn bed.tif -o hazard --png\n"
-      "  talus-hazard site.toml --class V1=small.h5 --class V2=large.h5 --trn bed.tif -o hazard");
+      "  talus-hazard site.toml runs --trn bed.tif -o hazard");
 }
 
 std::string short_hash(const std::string& sha256) { return sha256.substr(0, 12); }
@@ -210,10 +208,8 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   const Site& site = site_options.load();
   const std::vector<HazardClass> classes = hazard_classes(site);
   const Recipe recipe = read_recipe(tool, site);
-  const std::vector<ClassFiles> files = class_files(tool, runs, o.of_class, classes, site.file);
   const Trn& trn = runs.trn();
-  HazardInputs inputs =
-      read_hazard_inputs(runs, files, classes, recipe, o.cell_size_m, o.most_rows());
+  HazardInputs inputs = read_hazard_inputs(runs, classes, recipe, o.cell_size_m, o.most_rows());
   const std::vector<MapLayer> layers = read_hazard_layers(runs, inputs, o.most_rows());
   const HazardSources& sources = inputs.sources;
   if (inputs.n_rows == 0) tool.warn("no block passed any cell: the maps are empty");

@@ -27,7 +27,7 @@ using talus::RunFile;
 using talus::Tool;
 
 struct Options {
-  std::string folder, compare_from, window_of;
+  std::string folder, window_of;
   std::vector<std::string> compared;
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   talus::MapSettings settings;
@@ -62,12 +62,12 @@ void declare(Tool& tool, Options& o) {
   tool.option("--half-width", o.half_width,
               "wanted of the interval of reach_probability: says how many runs to add")
       ->check(talus::number_between(1e-4, 0.5));
-  tool.inputs("--compare", o.compared,
-              "runs or parts to compare with: compare.tif holds what these have more");
-  tool.input("--compare-from", o.compare_from, "list of these, a line each, taken as well");
+  tool.inputs(
+      "--compare", o.compared,
+      "runs, parts or their folder to compare with: compare.tif holds what these have more");
   tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE")
       ->check(talus::check_creation_option);
-  tool.footer("Example:\n  talus-maps run_1.h5 run_2.h5 --trn slope.tif -o maps --png");
+  tool.footer("Example:\n  talus-maps runs --trn slope.tif -o maps --png");
 }
 
 /// What the runs give to the maps.
@@ -114,8 +114,8 @@ void take_rows_of_parts(const talus::RunInputs& runs, const RunRange& range,
 }
 
 // All that does not grow with the number of runs, and the rows as long as they are few enough.
-Gathered gather(talus::RunInputs& runs, const std::vector<std::string>& paths,
-                const std::string& role, const Options& o) {
+Gathered gather(talus::RunInputs& runs, const talus::RunSet& set, const std::string& role,
+                const Options& o) {
   Gathered out;
   const RunRange range{static_cast<int>(runs.members.size()), runs.parts().size()};
   const talus::RunParts parts{.crossings = false,
@@ -131,7 +131,7 @@ Gathered gather(talus::RunInputs& runs, const std::vector<std::string>& paths,
     else
       add_rows(out.rows, std::move(rows), member);
   };
-  runs.read(paths, role, parts, [&](RunFile& run, int index) {
+  runs.read(set, role, parts, [&](RunFile& run, int index) {
     if (run.grid.n_rows == 0)
       throw talus::InputError({runs.members[index].file}, "holds no passages",
                               "set [output] passages = true and run talus-dda again");
@@ -207,7 +207,7 @@ const std::vector<std::uint32_t>& touched_cells(const std::vector<MapLayer>& lay
 
 // What the runs of --compare have more than the others. Both are held at once.
 MapLayer comparison_of(talus::RunInputs& runs, const Gathered& a, const Options& o) {
-  Gathered b = gather(runs, o.compared, "runs_compared", o);
+  Gathered b = gather(runs, runs.set_of(o.compared, "compare"), "runs_compared", o);
   if (a.n_rows + b.n_rows > o.most_rows())
     throw talus::InputError({"", 0, "--compare"},
                             "needs memory for all " + std::to_string(a.n_rows + b.n_rows) +
@@ -277,11 +277,7 @@ WrittenMaps write_layers(Tool& tool, const Options& o, const talus::MapFrame& fr
 void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   talus::limit_memory(0);  // --memory-mb is for rows alone; the rest needs what is free
   (void)runs.trn();        // read first: a wrong one is refused before long work
-  for (const std::string& path : talus::listed_files(o.compare_from)) {
-    tool.read_also("compare", path);
-    o.compared.push_back(path);
-  }
-  Gathered gathered = gather(runs, runs.files(), "runs", o);
+  Gathered gathered = gather(runs, runs.runs(), "runs", o);
   const std::vector<talus::RunMember> members = runs.members;
   std::optional<MapLayer> comparison;
   if (!o.compared.empty()) comparison = comparison_of(runs, gathered, o);

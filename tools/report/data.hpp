@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "post/run_set.hpp"
+#include "ensemble/run_set.hpp"
 #include "record/run_file.hpp"
 #include "report/map_figures.hpp"
 #include "report/run_health.hpp"

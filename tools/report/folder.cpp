@@ -6,9 +6,9 @@
 
 #include "base/read_file.hpp"
 #include "base/sha256.hpp"
+#include "ensemble/made_with.hpp"
+#include "ensemble/run_set.hpp"
 #include "io/tags_gdal.hpp"
-#include "post/made_with.hpp"
-#include "post/run_set.hpp"
 #include "setup/section_state_gdal.hpp"
 #include "site/stages.hpp"
 #include "site/uncertainty.hpp"

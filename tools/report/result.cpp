@@ -73,7 +73,6 @@ std::string trouble_tiles(const ReportData& data) {
       out += html_fact(n_of(n, data.faults.n_runs), texts.of(n == 1 ? one : several), "bad");
   };
   tile(data.faults.failed.size(), "result.one_failed", "result.several_failed");
-  tile(data.faults.unfinished.size(), "result.one_unfinished", "result.several_unfinished");
   const int n_all = count_runs(data.runout, [](const Json&) { return true; });
   const int n_still = count_runs(
       data.runout, [](const Json& run) { return value_at(run, {"did_move"}) == Json(false); });
@@ -145,10 +144,8 @@ std::string motion_tiles(const Texts& texts, const Json& r) {
 
 std::string fault_table(const Texts& texts, const RunFaults& faults) {
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [list, kind] : {std::pair{&faults.failed, "result.failed"},
-                                   std::pair{&faults.unfinished, "result.not_finished"}})
-    for (const RunFault& fault : *list)
-      rows.push_back({xml_escaped(fault.name), texts.of(kind), xml_escaped(fault.words)});
+  for (const RunFault& fault : faults.failed)
+    rows.push_back({xml_escaped(fault.name), texts.of("result.failed"), xml_escaped(fault.words)});
   return html_table(texts.list("result.fault_heads"), rows);
 }
 

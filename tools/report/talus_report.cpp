@@ -11,10 +11,11 @@
 #include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "ensemble/ensemble.hpp"
+#include "ensemble/made_with.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/tags_gdal.hpp"
 #include "io/vectors_gdal.hpp"
-#include "post/made_with.hpp"
 #include "post/maps/map_layers.hpp"
 #include "record/part_file.hpp"
 #include "report/check_view.hpp"
@@ -65,13 +66,12 @@ RunFile read_place(const RunPlace& place, bool whole) {
   return run;
 }
 
-std::vector<fs::path> files_in(const fs::path& folder, const std::string& begin) {
+std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!fs::exists(folder)) return files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with(begin) && name.ends_with(".h5") &&
-        name[0] != '.')  // staged ones are hidden
+    if (name.ends_with(".h5") && name[0] != '.')  // staged ones are hidden
       files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
@@ -85,11 +85,12 @@ std::vector<RunPlace> evaluated_runs(const ResultFolder& folder, const Json& run
   std::set<std::string> ids(listed.begin(), listed.end());
   const std::size_t n_wanted = ids.size();
   std::vector<RunPlace> found;
-  for (const fs::path& file : files_in(folder.path("runs"), "run_")) {
-    const RunInfo info = read_run_file(file.string(), {false, false, false, false, false}).info;
-    if (ids.erase(info.run_id) > 0) found.push_back({info.seed, file, nullptr, 0, info.run_id});
-  }
-  for (const fs::path& file : files_in(folder.path("parts"), "")) {
+  if (fs::exists(folder.path("runs")))
+    for (const EnsembleMember& member : read_ensemble(folder.path("runs").string()).members)
+      if (ids.erase(member.run_id) > 0)
+        found.push_back(
+            {member.seed, folder.path("runs") / member.file, nullptr, 0, member.run_id});
+  for (const fs::path& file : files_in(folder.path("parts"))) {
     if (ids.empty()) break;
     const auto part = std::make_shared<const PartFile>(file.string());
     for (int r = 0; r < n_runs(part->part); ++r) {
@@ -153,8 +154,10 @@ void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<RunPlac
       ++data.n_in_parts;
     RunFile run = read_place(place, false);
     check_site_of(run, place.file.string(), data.site, folder);
-    settings.add(place.file.string(), place.file.string(), run.info);
-    data.run_names.push_back(place.file.stem().string().substr(4));  // without "run_"
+    settings.add(place.file.string(), run.info);
+    const std::string& of_case = run.info.case_name;
+    data.run_names.push_back((of_case.empty() ? "" : of_case + "_") +
+                             std::to_string(run.info.seed));
     if (run.info.run_id == shown) {
       data.shown = read_place(place, true);
       data.shown_name = data.run_names.back();
@@ -163,7 +166,7 @@ void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<RunPlac
     if (place.part != nullptr) run.blocks.vertices.clear();
     data.runs.push_back(std::move(run));
   }
-  for (const fs::path& file : files_in(folder.path("parts"), ""))
+  for (const fs::path& file : files_in(folder.path("parts")))
     if (data.n_in_parts > 0) tool.read_also("part", file.string());
   data.faults = faults_of(members);
   data.repeats = repeats_text(members);

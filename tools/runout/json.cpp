@@ -101,7 +101,7 @@ Json run_json(const RunoutRun& r, double friction_deg) {
   return {{"run_id", r.member.info.run_id},
           {"seed", r.member.info.seed},
           {"status", r.member.info.status},
-          {"case", case_of(r.member.file)},
+          {"case", r.member.info.case_name},
           {"drawn", drawn_json(r)},
           {"did_move", e.moved.any()},
           {"is_event", e.moved.is_event()},

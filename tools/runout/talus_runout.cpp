@@ -222,7 +222,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
 int main(int argc, char** argv) {
   Options options;
   Tool tool("talus-runout", "How far runs came: deposit, paths, angle of reach, mobility.");
-  RunInputs runs(tool);
+  RunInputs runs(tool, RunUse::evaluated_with_frames);
   declare(tool, options);
   return tool.run(argc, argv, [&] { run_tool(tool, options, runs); });
 }

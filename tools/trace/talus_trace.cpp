@@ -12,7 +12,6 @@
 #include "post/reduce.hpp"
 #include "setup/section_state_gdal.hpp"
 #include "setup/site_places_gdal.hpp"
-#include "tools/frame/class_runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
@@ -30,7 +29,6 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 struct Options {
   std::string out, csv, json, rasters;
-  std::vector<std::string> of_class;
   double source_cell_m = none;
   bool by_cells = false;
   PageOptions pages;
@@ -42,7 +40,6 @@ void declare(Tool& tool, Options& o) {
   tool.json_output(o.json, "the result (JSON)");
   tool.output_folder("--rasters", o.rasters, "folder for a raster of source cells an object");
   add_page_options(tool, o.pages);
-  add_class_option(tool, o.of_class);
   tool.option("--source-cell-m", o.source_cell_m,
               "cells that blocks are put together by where they were released [m]; nan: the "
               "terrain's")
@@ -110,13 +107,12 @@ Traced trace(Tool& tool, const Site& site, RunInputs& runs, const Options& o,
   out.sums.sources = passage_grid(trn, o.source_cell_m);
   ObjectCells cells;
   bool by_centroid = false;
-  for (const ClassFiles& files : class_files(tool, runs, o.of_class, classes, site.file)) {
-    HazardClass kind;
-    if (!classes.empty()) kind = classes[out.classes.size()];
+  for (const RunSet& set : runs.of_classes(classes)) {
+    const HazardClass kind = class_at(classes, out.classes.size());
     const int first = static_cast<int>(runs.members.size());
     const std::size_t first_part = runs.parts().size();
     bool any_cells = false;
-    runs.read(files.files, "class." + files.name, wanted, [&](RunFile& run, int index) {
+    runs.read(set, "class." + kind.name, wanted, [&](RunFile& run, int index) {
       const RunMember& member = runs.members[static_cast<std::size_t>(index)];
       const bool needs = needs_cells(run, out.sums, o, member);
       if (needs && cells.empty()) cells = object_cells(run.grid, out.sums.objects);

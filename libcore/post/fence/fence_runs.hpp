@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "ensemble/run_set.hpp"
 #include "post/fence/fence.hpp"
 #include "post/fence/fence_change.hpp"
 #include "post/fence/fence_design.hpp"
-#include "post/run_set.hpp"
 #include "post/runout/runout.hpp"
 
 namespace talus {

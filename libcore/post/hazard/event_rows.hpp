@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "ensemble/run_set.hpp"
 #include "post/hazard/recipe.hpp"
 #include "post/maps/map_rows.hpp"
-#include "post/run_set.hpp"
 
 namespace talus {
 

@@ -47,6 +47,15 @@ struct HazardClass {
 /// where release points and all classes have frequencies.
 [[nodiscard]] std::vector<HazardClass> hazard_classes(const Site& site);
 
+/// The class of number `index`; "all", without a frequency, where there are none.
+[[nodiscard]] inline HazardClass class_at(const std::vector<HazardClass>& classes,
+                                          std::size_t index) {
+  if (!classes.empty()) return classes[index];
+  HazardClass all;
+  all.name = "all";
+  return all;
+}
+
 /// What to do where a class and its release points both have a frequency.
 inline constexpr const char* two_frequencies_hint =
     "by_weights = true in the class counts each release point by its own frequency; or take the "

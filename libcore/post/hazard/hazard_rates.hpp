@@ -14,9 +14,9 @@
 #include <span>
 #include <vector>
 
+#include "ensemble/run_set.hpp"
 #include "post/hazard/event_rows.hpp"
 #include "post/hazard/frequency.hpp"
-#include "post/run_set.hpp"
 #include "post/share_interval.hpp"
 
 namespace talus {

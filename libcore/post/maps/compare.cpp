@@ -31,9 +31,9 @@ constexpr std::array<Level, 2> levels = {{{"p50", 0.5}, {"p95", 0.95}}};
 
 // One side, read cell by cell in ascending order.
 struct Side {
-  explicit Side(const Ensemble& of) : ensemble(of), basis(share_basis_of(of.released)) {}
+  explicit Side(const ComparedRuns& of) : ensemble(of), basis(share_basis_of(of.released)) {}
 
-  const Ensemble& ensemble;
+  const ComparedRuns& ensemble;
   ShareBasis basis;
   std::size_t next = 0;  // the first touched cell that was not passed by
 
@@ -111,7 +111,7 @@ Difference difference(const Estimate& a, const Estimate& b) {
           d + std::hypot(b.high - b.value, a.value - a.low)};
 }
 
-MapLayer comparison_layer(const Ensemble& a, const Ensemble& b) {
+MapLayer comparison_layer(const ComparedRuns& a, const ComparedRuns& b) {
   MapLayer layer{"compare", {}, {}};
   std::set_union(a.cells.cell.begin(), a.cells.cell.end(), b.cells.cell.begin(), b.cells.cell.end(),
                  std::back_inserter(layer.cell));

@@ -11,7 +11,7 @@
 
 namespace talus {
 
-struct Ensemble {
+struct ComparedRuns {
   const CellRows& cells;
   const Released& released;
 };
@@ -28,6 +28,6 @@ struct Estimate {
 
 /// `b` minus `a` over the cells that either touched: reach_probability_difference, and of speed,
 /// energy and height of the top the differences of p50 and p95, each with _lo and _hi.
-[[nodiscard]] MapLayer comparison_layer(const Ensemble& a, const Ensemble& b);
+[[nodiscard]] MapLayer comparison_layer(const ComparedRuns& a, const ComparedRuns& b);
 
 }  // namespace talus

@@ -96,7 +96,7 @@ Spread spread_over(const std::vector<RunoutRun>& runs, double (*value)(const Run
 std::vector<RunoutCase> cases_of(const std::vector<RunoutRun>& runs) {
   std::map<std::string, std::vector<int>> by_name;
   for (std::size_t i = 0; i < runs.size(); ++i)
-    by_name[case_of(runs[i].member.file)].push_back(static_cast<int>(i));
+    by_name[runs[i].member.info.case_name].push_back(static_cast<int>(i));
   std::vector<RunoutCase> cases;
   if (by_name.size() < 2) return cases;
   for (auto& [name, of_case] : by_name) {

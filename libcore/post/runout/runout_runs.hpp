@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "post/run_set.hpp"
+#include "ensemble/run_set.hpp"
 #include "post/runout/runout.hpp"
 #include "post/runout/tree_summary.hpp"
 

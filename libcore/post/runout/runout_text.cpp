@@ -112,7 +112,7 @@ constexpr RunColumn run_columns[] = {
     {"share_beyond_L95", true, [](Run r) { return text(r.event.mass.beyond_share, 7); }},
     {"toe_share", true, [](Run r) { return text(r.event.mass.toe_share, 7); }},
     {"outliers", true, [](Run r) { return std::to_string(r.event.mass.n_outliers); }},
-    {"case", false, [](Run r) { return case_of(r.member.file); }},
+    {"case", false, [](Run r) { return r.member.info.case_name; }},
     {"event", false, [](Run r) { return std::string(r.event.moved.is_event() ? "1" : "0"); }},
     {"run_weight", false, [](Run r) { return text(r.member.run_weight, 7); }},
 };

@@ -46,20 +46,11 @@ expect 3 frame-probe in.txt -o kept.txt --mode check
 says "health: largest_penetration_m is 2, limit 1"
 [ -s kept.txt ] || fail "the output of a run with a broken limit must be kept"
 
-# Runs side by side are told apart, and what failed is written for who started them.
-tab=$(printf '\t')
-expect 3 frame-probe in.txt -o kept.txt --overwrite --mode check --label run_7 --failures what.txt
+# Runs side by side are told apart.
+expect 3 frame-probe in.txt -o kept.txt --overwrite --mode check --label run_7
 says "run_7: frame-probe: health: largest_penetration_m"
 says "run_7: frame-probe: warning: a warning"
 prints "run_7: copied"
-[ "$(cat what.txt)" = "kept${tab}largest_penetration_m is 2, limit 1" ] || fail "what failed: $(cat what.txt)"
-expect 1 frame-probe in.txt -o new.txt --mode refuse --failures what.txt
-[ "$(cat what.txt)" = "none${tab}in.txt:3: found a, expected b
-hint${tab}write b" ] || fail "what failed: $(cat what.txt)"
-expect 2 frame-probe in.txt -o new.txt --colour red --failures what.txt
-grep -q "^none${tab}.*--colour" what.txt || fail "what failed: $(cat what.txt)"
-expect 0 frame-probe in.txt -o kept.txt --overwrite --failures what.txt
-[ ! -e what.txt ] || fail "nothing failed, and yet there is: $(cat what.txt)"
 # names that leave no room for work in progress are refused before it
 long=$(printf 'x%.0s' $(seq 161))
 expect 1 frame-probe in.txt -o "$long"
@@ -69,13 +60,7 @@ ln -s loop loop
 expect 1 frame-probe loop -o new.txt
 says 'loop'
 grep -q unexpected err && fail 'a link to itself is an unexpected failure'
-# a file that is something else is not replaced, nor removed when nothing fails
-echo precious >mine.txt
-expect 1 frame-probe in.txt -o new.txt --failures mine.txt
-says 'mine.txt: is something else than a list of failures'
-expect 2 frame-probe in.txt -o new.txt --colour red --failures mine.txt
-[ "$(cat mine.txt)" = precious ] || fail '--failures replaced a file'
-frame-probe in.txt -o one.txt --json --no-db --label a --failures b.txt >labelled
+frame-probe in.txt -o one.txt --json --no-db --label a >labelled
 frame-probe in.txt -o one.txt --json --no-db --overwrite >plain
 cmp labelled plain || fail "a label makes another run of it"
 

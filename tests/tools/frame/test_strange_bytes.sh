@@ -20,9 +20,9 @@ printf hello >"$old.txt"
 expect 0 frame-probe "$old.txt" -o "out $old.txt" --json
 clean out err
 prints '"warnings"'
-expect 1 frame-probe "$old.txt" -o "out $old.txt" --failures what.txt --label "$escape[2J"
+expect 1 frame-probe "$old.txt" -o "out $old.txt" --label "$escape[2J"
 says 'out h\xf6hen.txt: exists already'
-clean out err what.txt
+clean out err
 expect 1 frame-probe "$old.txt" -o "out $old.txt" --messages json
 clean out err
 python3 -c 'import json; [json.loads(line) for line in open("err")]' || fail "no JSON: $(cat err)"

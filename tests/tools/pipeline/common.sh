@@ -17,12 +17,12 @@ made() {
 # same FOLDER FOLDER: all outputs byte by byte, but for the registry and memories, with
 # their times and paths
 same() {
-  diff -r -q --exclude='runs.sqlite*' --exclude=.digests --exclude=.lock --exclude=made --exclude='.*.part-*' "$1/out" "$2/out" >differences ||
+  diff -r -q --exclude='runs.sqlite*' --exclude=.digests --exclude=.lock --exclude='.*.part-*' "$1/out" "$2/out" >differences ||
     { cat differences >&2; fail "the outputs of $1 and $2 differ"; }
 }
 # same_results FOLDER FOLDER: as `same`, but for what shards leave: their registries and parts
 same_results() {
-  diff -r -q -x 'runs.sqlite*' -x .digests -x .lock -x made -x shards -x parts -x '*.list' -x '*.in_parts' -x '.progress-*' -x '.*.part-*' "$1/out" "$2/out" >differences ||
+  diff -r -q -x 'runs.sqlite*' -x .digests -x .lock -x shards -x parts -x ensemble.json -x '*.made' -x '.*.part-*' "$1/out" "$2/out" >differences ||
     { cat differences >&2; fail "the results of $1, by shards, and of $2, by one make, differ"; }
 }
 # was_made_by FOLDER FILE TEXT: the command that made FILE holds TEXT

@@ -26,7 +26,7 @@ would_be "report*1" "a comment in the site file"
 
 sed -i 's/^height_m = 8/height_m = 7/' slope/site.toml
 would
-would_be "check*1 dda*2 fence*1 maps*1 report*1 runout*1" "another fence"
+would_be "batch*2 check*1 fence*1 maps*1 report*1 runout*1" "another fence"
 sed -i 's/^height_m = 7/height_m = 8/' slope/site.toml
 would
 would_be "report*1" "a fence that was moved and put back, and a comment"
@@ -34,15 +34,15 @@ made slope
 
 printf '[fragmentation]\nenabled = true\n' >>slope/site.toml
 would
-would_be "check*1 dda*2 fence*1 maps*1 report*1 runout*1" "blocks that break"
+would_be "batch*2 check*1 fence*1 maps*1 report*1 runout*1" "blocks that break"
 sed -i '/^\[fragmentation\]$/,$d' slope/site.toml
 would
 would_be "" "blocks that break no longer"
 
 would RUNS=3
-would_be "dda*4 fence*1 maps*1 report*1 runout*1" "two more seeds"
+would_be "batch*2 fence*1 maps*1 report*1 runout*1" "two more seeds"
 would RUNS=2 CASES='low high' CASE_low='--set ground.slope.friction_deg=20'
-would_be "dda*8 fence*1 maps*1 report*1 runout*1" "two cases of two seeds"
+would_be "batch*2 fence*3 maps*3 report*1 runout*1" "two cases of two seeds"
 would
 would_be "" "nothing changed"
 
@@ -57,7 +57,7 @@ made slope
 
 sed -i 's/^plane_dip_deg = 33/plane_dip_deg = 32/' slope/site.toml
 would
-would_be "blocks*1 check*1 dda*2 fence*1 maps*1 report*1 runout*1" "another failure plane"
+would_be "batch*2 blocks*1 check*1 fence*1 maps*1 report*1 runout*1" "another failure plane"
 sed -i 's/^plane_dip_deg = 32/plane_dip_deg = 33/' slope/site.toml
 
 touch slope/contours.gpkg
@@ -65,7 +65,7 @@ would
 would_be "" "the same contours with another time"
 cp "$source_dir/sample_sites/maungawhau/contours.gpkg" slope/contours.gpkg
 would
-would_be "blocks*1 check*1 dda*2 fence*1 maps*1 report*1 runout*1 tin*1 trn*1" "other contours"
+would_be "batch*2 blocks*1 check*1 fence*1 maps*1 report*1 runout*1 tin*1 trn*1" "other contours"
 cp "$source_dir/sample_sites/designed/contours.gpkg" slope/contours.gpkg
 
 sed -i 's/^friction_deg = 25/friction_deg = 250/' slope/site.toml

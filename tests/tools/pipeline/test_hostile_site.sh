@@ -49,7 +49,7 @@ for name in 'x;touch hurt' '$(shell touch hurt)' 'a=b' 'road #2, 50 %' "it's" 'a
   printf '[fence."%s"]\nline = [[500060, %s], [500164, %s]]\nheight_m = 3\n' "$name" $y $y >>fences/site.toml
 done
 made fences WITHOUT=yes runs
-talus-runs --db fences/out/runs.sqlite list | grep 'without/run_1.h5' >command
+talus-runs --db fences/out/runs.sqlite list | grep 'talus-dda .*without/run_1.h5' >command
 [ "$(grep -o 'active=false' command | wc -l)" -eq 8 ] || fail "not all fences were taken away: $(cat command)"
 nothing_left hurt fences/hurt
 

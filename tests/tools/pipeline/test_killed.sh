@@ -21,7 +21,7 @@ for pause in 1 4 16 64; do
   make -C asked BIN= WITHOUT=no runs DDA_FLAGS='--time-step-s 0.00002' >log 2>&1 &
   process=$!
   n=0
-  until grep -q '^dda: run_1' log; do
+  until grep -q '^batch: runs' log; do
     n=$((n + 1))
     [ $n -lt 600 ] || fail "make does not come to its run"
     sleep 0.05

@@ -30,7 +30,7 @@ for _ in 1 2 3 4; do
   case $drawn in
     0) victims=-$group signal=KILL ;;
     1) victims=$group signal=TERM ;;
-    2) victims=$(pgrep -g $group talus-dda || true) signal=KILL ;;
+    2) victims=$(pgrep -P "$(pgrep -d, -g $group talus-batch)" talus-dda 2>/dev/null || true) signal=KILL ;;
     3)
       all=$(pgrep -g $group || true)
       drawn 1000

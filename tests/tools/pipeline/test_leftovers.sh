@@ -54,7 +54,7 @@ expect 0 talus-report slope/site.toml --dir slope/out -o one.html --no-db
 says "maps/velocity.tif: not of the runs that runout.json is of"
 says "left out: fence.json: not of the runs"
 if grep -q 'src="data:image/png' one.html; then fail "maps of other runs"; fi
-expect 0 talus-runout slope/out/runs/run_1.h5 --trn slope/out/bed.tif -o other.gpkg --overwrite --no-db --rest-speed-m-s 1
+expect 0 talus-runout slope/out/runs/run_1.h5 --trn slope/out/bed.tif -o other.gpkg --overwrite --no-db --path-tolerance-m 1
 cp other.gpkg slope/out/runout.gpkg
 expect 0 talus-report slope/site.toml --dir slope/out -o two.html --no-db
 says "left out: runout.gpkg: not of the run of talus-runout"

@@ -33,7 +33,7 @@ would "$@"
 would_be "fence report runout " "another design code"
 gdal_translate -q -co COMPRESS=DEFLATE slope/dem.tif dem.tif && cp dem.tif slope/dem.tif
 would "$@"
-would_be "blocks check dda fence maps report runout trn " "another reference"
+would_be "batch blocks check fence maps report runout trn " "another reference"
 made slope -j2 "$@"
 
 touch "slope/the source.dbf"
@@ -42,15 +42,15 @@ would_be "" "the same attributes"
 ogr2ogr -f "ESRI Shapefile" -a_srs EPSG:32633 -dialect SQLite -sql 'SELECT 2 AS id, geometry FROM source' other.shp source.geojson
 cp other.dbf "slope/the source.dbf"
 would "$@"
-would_be "blocks check dda fence maps report runout " "other attributes of the source"
+would_be "batch blocks check fence maps report runout " "other attributes of the source"
 made slope -j2 "$@"
 printf ISO-8859-1 >"slope/the source.cpg"
 would "$@"
-would_be "blocks check dda fence maps report runout " "an encoding that came later"
+would_be "batch blocks check fence maps report runout " "an encoding that came later"
 made slope -j2 "$@"
 rm "slope/the source.cpg"
 would "$@"
-would_be "blocks check dda fence maps report runout " "no encoding any more"
+would_be "batch blocks check fence maps report runout " "no encoding any more"
 
 # a file that a setting names with the quotes of TOML, and one with its layer
 sed -i 's/^line = .*/line_file = "first.geojson"/' slope/site.toml
@@ -66,9 +66,9 @@ would runs "$@"
 would_be "" "nothing changed"
 sed -i 's/5200150/5200151/g' slope/line.geojson
 would runs "$@"
-would_be "dda " "another line named by a setting"
+would_be "batch " "another line named by a setting"
 sed -i 's/5200151/5200150/g' slope/line.geojson
 sed -i 's/,55$/,56/' points.csv
 ogr2ogr -q -f GPKG -overwrite -a_srs EPSG:32633 -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z slope/points.gpkg points.csv
 would runs "$@"
-would_be "blocks check dda trn " "other points of a layer that an option names"
+would_be "batch blocks check trn " "other points of a layer that an option names"

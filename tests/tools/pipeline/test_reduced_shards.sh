@@ -30,32 +30,16 @@ both_ways() {
 set -- RUNS=2 CASES='low high' WEIGHTS='low=3 high=1' CASE_low='--set ground.slope.friction_deg=24' \
   CASE_high='--set ground.slope.friction_deg=32'
 both_ways "$@"
-parts='out/parts/high_1-of-2.h5 out/parts/high_2-of-2.h5 out/parts/low_1-of-2.h5 out/parts/low_2-of-2.h5'
-for product in maps/reach.tif places.json; do was_made_by slope $product " $parts --trn"; done
-without=$(echo "$parts" | sed 's,out/parts/,--without out/parts/without/,g')
-was_made_by slope fence.gpkg " $parts $without --change"
-for class in low high; do
-  [ "$(cat slope/out/stages/class_$class.list.in_parts)" = "out/parts/${class}_1-of-2.h5
-out/parts/${class}_2-of-2.h5" ] || fail "class $class is made from $(cat slope/out/stages/class_$class.list.in_parts)"
+for kind in runs without; do
+  [ "$(grep -c -- '-of-2.h5"' slope/out/$kind/ensemble.json)" -eq 2 ] || fail "the results are not made from parts"
 done
-was_made_by slope hazard.json "--class high=@out/stages/class_high.list.in_parts"
 
-# parts beside runs, with and without fences
-rm slope/out/parts/low_1-of-2.runs slope/out/parts/without/high_2-of-2.runs slope/out/fence.gpkg
-made slope "$@"
-was_made_by slope fence.gpkg " out/parts/low_2-of-2.h5 out/runs/run_low_1.h5 --without out/parts/without/high_1-of-2.h5 "
-same_results slope whole
-
-# Seeds 1 and 3 keep their frames: their runs stand in no part. Run-out takes the part of the other one, too.
+# Seeds 1 and 3 keep their frames.
 sed -i '/^\[hazard/,$d' slope/site.toml
 printf '[output]\nframes = false\nwhole_share = 0.5\n' >>slope/site.toml
 cp slope/site.toml whole
 for folder in slope whole; do made $folder clean; done
 both_ways RUNS=3 WITHOUT=no
-for product in maps/reach.tif runout.gpkg; do
-  was_made_by slope $product " out/parts/2-of-2.h5 out/runs/run_1.h5 out/runs/run_3.h5 --trn"
-done
-
 # no run keeps its frames
 sed -i '/^whole_share/d' slope/site.toml whole/site.toml
 both_ways RUNS=2 WITHOUT=no

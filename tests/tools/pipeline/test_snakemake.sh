@@ -11,7 +11,7 @@ by_snakemake
 site whole
 made whole RUNS=5 WITHOUT=no -j2 maps runout
 same_results slope whole
-was_made_by slope maps/reach.tif "talus-maps out/parts/1-of-3.h5 out/parts/2-of-3.h5 out/parts/3-of-3.h5 --trn"
+was_made_by slope maps/reach.tif "talus-maps out/runs --trn"
 expect 0 talus-runs --db slope/out/runs.sqlite list --summary
 grep -q '^talus-dda  *5  *0 ' out || fail "the registry: $(cat out)"
 [ -z "$(find slope/out/shards -name '*.ended')" ] || fail "marks of Snakemake are left"

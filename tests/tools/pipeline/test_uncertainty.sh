@@ -72,7 +72,7 @@ PY
 # blocks and beds of the two masses differ, and neither is that of the site file
 cmp -s slope/out/rock/blocks_1.h5 slope/out/rock/blocks_2.h5 && fail "two rock masses are alike"
 cmp -s slope/out/rock/bed_1.tif slope/out/bed.tif && fail "the ground of a mass is that of the map"
-expect 1 talus-maps slope/out/runs/run_*.h5 --trn slope/out/rock/bed_1.tif -o maps --no-db
+expect 1 talus-maps slope/out/runs --trn slope/out/rock/bed_1.tif -o maps --no-db
 says "runs of several rock masses are evaluated on the terrain that they were cut from"
 
 # without a sample nothing is drawn, and it is said
@@ -98,9 +98,9 @@ fence = "valley"
 half_width = 0.2
 END
 made auto -j2 WITHOUT=no RUNS=auto RUNS_MOST=12 maps
-prints "RUNS=auto: 12 runs do"
+says "--runs auto: 12 runs do"
 sed -i 's/^half_width = .*/half_width = 0.01/' auto/site.toml
 made auto -j2 WITHOUT=no RUNS=auto RUNS_MOST=12 places
-prints "RUNS=auto: 12 runs do not do"
+says "--runs auto: 12 runs do not do"
 made slope clean
 [ ! -d slope/out ] || fail "clean left $(find slope/out)"

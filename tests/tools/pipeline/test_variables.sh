@@ -16,13 +16,18 @@ for goal in clean all; do
   refused "OUT is '', expected the name of a folder" OUT= $goal
   refused "OUT is out;rm, expected the name of a folder without ;" OUT="out;rm" $goal
 done
-for runs in abc 0 -2 1.5 "1 2" ""; do refused "RUNS is '$runs', expected a whole number, 1 or more" RUNS="$runs"; done
-for seed in abc -2; do refused "SEED is '$seed', expected a whole number, 0 or more" SEED="$seed"; done
 refused "WITHOUT is 'maybe', expected yes or no" WITHOUT=maybe
-refused "CASES names 'a_b', expected a name without _" CASES=a_b CASE_a_b='--set ground.slope.friction_deg=20'
+# what talus-batch is given
+wrong() {
+  expect 2 make -C "a slope" BIN= "$@"
+  says "The runs cannot be made, see above: what is wrong with RUNS"
+}
+for runs in abc 0 -2 1.5 "1 2"; do wrong RUNS="$runs" && says "is $runs, expected a whole number"; done
+for seed in abc -2; do wrong SEED="$seed"; done
+wrong CASES=a/b
 
-made "a slope" -n RUNS="10 " SEED=0 WITHOUT=no CASES=a
-prints "runs/run_a_9.h5"
+made "a slope" -n RUNS=10 SEED=0 WITHOUT=no CASES=a
+prints "--into runs --runs '10' --seed '0'"
 made "a slope" terrain
 made "a slope" clean
 nothing_left "a slope/out"

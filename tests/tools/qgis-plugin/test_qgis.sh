@@ -98,7 +98,7 @@ def run(name, values, cancel_at=None):
 
 
 site = os.path.join(os.getcwd(), "long")
-results, ok, feedback, context = run("make_runs", {"SITE": site, "JOBS": 1}, cancel_at='{"label":"run_1","progress":')
+results, ok, feedback, context = run("make_runs", {"SITE": site, "JOBS": 1}, cancel_at="batch: runs")
 assert feedback.isCanceled() and ok, feedback.lines
 parts = [f for f in os.listdir(site + "/out/runs") if f.endswith(".h5.part")]
 assert parts == ["run_1.h5.part"], (parts, feedback.lines)

@@ -189,7 +189,7 @@ class Messages(unittest.TestCase):
                 ('{"progress":0.25,"eta_s":3}', ("progress", 25.0)), ('{"label":"run_2","progress":0.5}', None),
                 ('{"level":"warning","tool":"talus-x","label":"run_2","text":"a"}', ("warning", "run_2: a")),
                 ('{"level":"hint","tool":"talus-x","text":"b"}', ("hint", "b")), ("{broken", ("info", "{broken")),
-                ("runs: 12 done, 1 failed, 27 to go, about 35 s left", ("runs", 32.5)), ("", None),
+                ("", None),
                 ("talus-trn: warning: c", ("warning", "talus-trn: warning: c")),
                 ("run_1: talus-dda: no block", ("error", "run_1: talus-dda: no block")),
                 ("make: *** [a.mk:3: x] Error 1", ("error", "make: *** [a.mk:3: x] Error 1")),
@@ -208,7 +208,7 @@ class Messages(unittest.TestCase):
         self.assertEqual(lines, ["a", "bc", "é", "end"])
 
     def test_failed_runs_are_told_from_other_errors(self):
-        self.assertTrue(tools.has_failed_runs(["a", "2 of 12 runs failed:"]))
+        self.assertTrue(tools.has_failed_runs(["a", "talus-batch: 2 of 12 runs failed:"]))
         self.assertFalse(tools.has_failed_runs(["make: *** [x] Error 1"]))
 
 

@@ -47,8 +47,9 @@ rm run_broken_*.h5
 
 # it stands in other runs
 runs other 101 112 --add proposals/house-1.toml
-ls other_*.h5 >list
-expect 0 search run_*.h5 -o verified.gpkg --json verified.json --verified house-1=@list
+mkdir verify
+cp other_*.h5 verify
+expect 0 search run_*.h5 -o verified.gpkg --json verified.json --verified house-1=verify
 prints 'with the fence standing and 12 other runs: 0 %'
 prints 'as predicted'
 grep -q '"best": "house-1"' verified.json || fail 'what holds is not the best'
@@ -58,12 +59,11 @@ expect 0 talus-fence site.toml --add proposals/house-1.toml other_*.h5 --trn slo
 prints 'fence house-1'
 
 # runs of two classes count by how often these happen: 0.01 and 0.04 a year, only the rare one hits
-runs short 1 6 --duration-s 1
+runs rare 1 12 --case rare
+runs often 1 6 --case often --duration-s 1
 sed 's/^\[fence_search/[hazard]\n[hazard.class.rare]\nfrequency_per_a = 0.01\n[hazard.class.often]\nfrequency_per_a = 0.04\n&/' \
   site.toml >classes.toml
-ls run_*.h5 >rare.list
-ls short_*.h5 >often.list
-expect 0 talus-fence-search classes.toml --trn slope.tif --no-db --class rare=@rare.list --class often=@often.list \
+expect 0 talus-fence-search classes.toml rare_*.h5 often_*.h5 --trn slope.tif --no-db \
   -o classes.gpkg --json classes.json --no-refine
 python3 - <<'PY' || fail 'classes do not count by their frequency'
 import json

@@ -10,10 +10,7 @@ refused() { words=$1; shift; expect 1 talus-hazard bad.toml "$@" --trn slope.tif
 site '[hazard.class.V1]'
 refused 'hazard.class.V1: has no frequency' run_0.h5
 site '[hazard.class.V1]' 'frequency_per_a = 1' '[hazard.class.V5]' 'frequency_per_a = 1'
-refused 'nothing says which runs are of which' run_0.h5
-refused 'has no [hazard.class.V2]' --class V2=run_0.h5
-refused 'class V5 has no runs' --class V1=run_0.h5
-refused 'there is no such file' --class V1=run_0.h5 --class V5=gone.h5
+refused 'is of no case V1, nor is any other run' run_0.h5
 site '[hazard.class.V1]' 'by_weights = true'
 refused "the weights of the run's blocks are no frequencies" run_0.h5
 site '[hazard.class.V1]' 'failure_probability = 0.1' 'in_years = 50'

@@ -51,7 +51,12 @@ cat >>site.toml <<'TOML'
 events = 0
 observed_a = 1000
 TOML
-printf 'run_%s.h5\n' 3 4 5 >list
-expect 0 talus-hazard site.toml --class V5=run_0.h5 --class V1=@list --class V1=run_8.h5 --trn slope.tif -o two --max-failed-share 0
+mkdir -p cases/V1 cases/V5 cases/V9
+run-probe cases/V1 9 blocks=3 case=V1
+rm cases/V1/run_[01267].h5
+run-probe cases/V5 1 blocks=3 case=V5 seed=1
+run-probe cases/V9 2 blocks=3 case=V9 seed=2  # of no class
+expect 0 talus-hazard site.toml cases --trn slope.tif -o two
+gdalinfo two/class.tif | grep -q 'N_RUNS=5$' || fail 'the runs of two classes are not told apart by their cases'
 value=$(gdallocationinfo -valonly -b 1 two/event_frequency.tif 10 10)
 case $value in 0.0141* | 0.01409*) ;; *) fail "frequency of two classes: $value, expected 0.0136 + 0.5 / 1000" ;; esac

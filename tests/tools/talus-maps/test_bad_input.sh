@@ -18,7 +18,7 @@ says 'computed on another terrain'
 run-probe half 1 status=running seed=9
 expect 1 talus-maps half/run_0.h5 --trn slope.tif -o maps
 says 'the run is running at 5 of 8 s, expected one that has ended'
-says '--allow-unfinished'
+says 'let talus-dda finish it (--resume)'
 nothing_left maps/reach.tif
 
 # One that failed its health is taken, and every map, legend and picture says so.
@@ -47,7 +47,7 @@ says 'no such file'
 expect 2 talus-maps run_0.h5 --trn slope.tif -o maps --resamples 3
 expect 2 talus-maps --trn slope.tif -o maps
 
-for value in "--rest-speed-m-s nan" "--cell-size-m -8" "--memory-mb -1"; do
+for value in "--cell-size-m -8" "--memory-mb -1"; do
   expect 2 talus-maps run_0.h5 --trn slope.tif -o refused $value
   says 'out of range'
 done

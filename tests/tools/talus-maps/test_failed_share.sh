@@ -40,7 +40,19 @@ expect 0 talus-runout part.h5 --trn slope.tif -o b.gpkg --json b.json
 for side in a b; do ogr2ogr -f CSV $side.csv $side.gpkg envelope -lco GEOMETRY=AS_WKT; done
 cmp a.csv b.csv || fail 'cells of failed runs are in the envelope of a part'
 # as many missing runs: the same intervals
-expect 0 talus-maps run_*.h5 --missing 2 --trn slope.tif -o missing
+mkdir wanted
+cp run_*.h5 wanted
+expect 0 talus-maps wanted --trn slope.tif -o all
+python3 - <<'PY'
+import json
+e = json.load(open('wanted/ensemble.json'))
+e['planned'] = True
+for seed in 100, 101:
+    e['members'].append({**e['members'][0], 'file': 'run_%d.h5' % seed, 'seed': seed, 'digest': '', 'run_id': '',
+                         'outcome': 'not started'})
+json.dump(e, open('wanted/ensemble.json', 'w'))
+PY
+expect 0 talus-maps wanted --trn slope.tif -o missing
 for side in few missing; do gdal_translate -q -of XYZ -b 4 $side/reach.tif $side.xyz; done
 cmp few.xyz missing.xyz || fail 'missing runs count for less than failed ones'
 gdalinfo missing/reach.tif | grep -q REMARK && fail 'few missing runs are marked like many'
@@ -49,5 +61,9 @@ run-probe more 1 status=failed seed=9
 expect 0 talus-maps run_*.h5 failed/run_*.h5 more/run_0.h5 --trn slope.tif -o many
 says '3 of 103 runs failed their numerical checks'
 gdalinfo many/reach.tif | grep -q 'REMARK=3 of 103 runs failed' || fail 'many failed runs are not marked'
-expect 0 talus-maps run_*.h5 failed/run_*.h5 more/run_0.h5 --max-failed-share 0.03 --trn slope.tif -o allowed
+mkdir allows
+run-probe allows 100 share=0.03
+mkdir allows/failed
+run-probe allows/failed 3 status=failed seed=7 share=0.03
+expect 0 talus-maps allows --trn slope.tif -o allowed
 gdalinfo allowed/reach.tif | grep -q 'N_LEFT_OUT=3' || fail 'the share that is allowed is not taken'

@@ -67,13 +67,15 @@ refused "ground.ground.friction_deg: 10, there 20" part.h5 part_3.h5
 
 # The ways out: each by itself, or as cases, which differ in what the command line gave and in nothing else.
 expect 0 talus-maps x/run_3.h5 --trn slope.tif -o alone --no-db
-cp x/run_1.h5 run_hard_1.h5
-cp x/run_3.h5 run_soft_3.h5
-expect 0 talus-maps run_hard_1.h5 run_soft_3.h5 --trn slope.tif -o cases --no-db --case-weight hard=1 --case-weight soft=1
+mkdir -p cases/hard cases/soft
+dda cases/hard/run_1.h5 $same --seed 1 --case hard
+dda cases/soft/run_3.h5 $same --seed 3 --case soft --set ground.ground.friction_deg=10
+expect 0 talus-maps cases --trn slope.tif -o cases_maps --no-db
+says "runs of 2 cases pooled, each run alike: no probability"
 sed 's/^friction_deg = 20/friction_deg = 10/' site.toml >soft.toml
-talus-dda soft.toml --trn slope.tif --blocks blocks.h5 --no-db -q --duration-s 1 $same --seed 4 -o run_soft_4.h5
-expect 0 talus-maps run_soft_3.h5 run_soft_4.h5 --trn slope.tif -o soft --no-db
-expect 1 talus-maps run_hard_1.h5 run_soft_4.h5 --trn slope.tif -o m --no-db
+talus-dda soft.toml --trn slope.tif --blocks blocks.h5 --no-db -q --duration-s 1 $same --seed 4 --case soft -o soft_4.h5
+expect 0 talus-maps cases/soft/run_3.h5 soft_4.h5 --trn slope.tif -o soft --no-db
+expect 1 talus-maps cases/hard/run_1.h5 soft_4.h5 --trn slope.tif -o m --no-db
 says "ground.ground.friction_deg: 10, there 20"
 
 # Samples differ in what they draw. A run without a sample is of another distribution.

@@ -64,8 +64,6 @@ grep -q '"method": "ground alone"' framed.json || fail 'passages from nowhere'
 # nothing comes
 expect 0 talus-profile run_0.h5 run_1.h5 --trn slope.tif -o none.gpkg --line '250070,350004 250070,350020' --charts none
 prints 'line of 16 m: nothing crosses it in 2 runs (95 %: 0 - 0.658); by frames'
-expect 1 talus-profile --trn slope.tif -o p.gpkg --line "$line" --runs-from /dev/null
-says 'names no run'
 expect 1 talus-profile slope.tif --trn slope.tif -o p.gpkg --line "$line"
 : >empty.h5
 expect 1 talus-profile empty.h5 --trn slope.tif -o p.gpkg --line "$line"

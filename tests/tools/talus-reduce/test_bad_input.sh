@@ -26,17 +26,15 @@ expect 1 talus-maps damaged.h5 --trn slope.tif -o maps
 says 'is damaged'
 nothing_left both.h5 maps/reach.tif r.gpkg
 expect 2 talus-reduce --trn slope.tif -o none.h5
-says 'no run is named'
+says 'run is required'
 
-# --runs-from: the same as naming them
-printf 'run_2.h5\npart.h5\n' >list
-expect 0 talus-reduce --runs-from list --trn slope.tif -o listed.h5
-expect 0 talus-reduce run_0.h5 run_1.h5 run_2.h5 --trn slope.tif -o named.h5
-cmp listed.h5 named.h5 || fail 'a list gives another part'
-printf 'run_2.h5\r\nmissing.h5\n' >list
-expect 1 talus-maps run_0.h5 --runs-from list --trn slope.tif -o maps
-says 'missing.h5'
-: >empty
-expect 1 talus-maps --runs-from empty --trn slope.tif -o maps
-says 'names no run'
+# Those of a folder, beside which parts do not count
+mkdir folder
+cp run_0.h5 run_1.h5 run_2.h5 folder
+expect 0 talus-reduce folder --trn slope.tif -o of_folder.h5
+expect 0 talus-reduce folder/run_0.h5 folder/run_1.h5 folder/run_2.h5 --trn slope.tif -o named.h5
+cmp of_folder.h5 named.h5 || fail 'a folder gives another part'
+mkdir none
+expect 1 talus-maps none --trn slope.tif -o maps
+says 'holds no run'
 nothing_left maps/reach.tif

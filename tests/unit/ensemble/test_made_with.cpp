@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "post/made_with.hpp"
+#include "ensemble/made_with.hpp"
 
 using namespace talus;
 
@@ -20,7 +20,7 @@ RunInfo info_of(const std::string& config, const std::string& more = "") {
 
 std::string refusal(SettingsCheck check, const std::string& file, const RunInfo& info) {
   try {
-    check.add(file, file, info);
+    check.add(file, info);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -29,7 +29,7 @@ std::string refusal(SettingsCheck check, const std::string& file, const RunInfo&
 
 SettingsCheck after(const std::string& file, const RunInfo& info) {
   SettingsCheck check;
-  check.add(file, file, info);
+  check.add(file, info);
   return check;
 }
 
@@ -80,19 +80,37 @@ TEST(SettingsOfRuns, DrawnValuesDifferFromSampleToSampleAndFromNoRunWithoutOne) 
   EXPECT_NE(refusal(check, "run_3.h5", drawn("30", "file, line 7")), "");
 }
 
-// By the names of the files: run_CASE_SEED.h5.
 TEST(SettingsOfRuns, CasesDifferInWhatTheCommandLineGave) {
-  const RunInfo soft = info_of("[ground.slope]\nfriction_deg = 5  # cli\n");
-  const SettingsCheck check = after("run_hard_1.h5", info_of(slope));
-  EXPECT_EQ(refusal(check, "run_soft_1.h5", soft), "");
-  EXPECT_NE(refusal(check, "run_hard_2.h5", soft), "");
-  EXPECT_NE(refusal(check, "run_soft_1.h5",
-                    info_of("[ground.slope]\nfriction_deg = 5  # file, line 7\n")),
+  const auto of_case = [](const std::string& name, const std::string& config) {
+    RunInfo info = info_of(config);
+    info.case_name = name;
+    return info;
+  };
+  const std::string soft = "[ground.slope]\nfriction_deg = 5  # cli\n";
+  const SettingsCheck check = after("hard/run_1.h5", of_case("hard", slope));
+  EXPECT_EQ(refusal(check, "soft/run_1.h5", of_case("soft", soft)), "");
+  EXPECT_NE(refusal(check, "hard/run_2.h5", of_case("hard", soft)), "");
+  EXPECT_NE(refusal(check, "soft/run_1.h5",
+                    of_case("soft", "[ground.slope]\nfriction_deg = 5  # file, line 7\n")),
             "");
   SettingsCheck both = check;
-  both.add("run_soft_1.h5", "run_soft_1.h5", soft);
-  EXPECT_NE(refusal(both, "run_soft_2.h5", info_of("[ground.slope]\nfriction_deg = 6  # cli\n")),
-            "");
+  both.add("soft/run_1.h5", of_case("soft", soft));
+  EXPECT_NE(
+      refusal(both, "soft/run_2.h5", of_case("soft", "[ground.slope]\nfriction_deg = 6  # cli\n")),
+      "");
+}
+
+TEST(SettingsOfRuns, HaveOneDigestWhateverSeedAndSample) {
+  const auto drawn = [](const std::string& seed, const std::string& friction) {
+    return info_of("[solver]\nseed = " + seed + "  # cli\n\n[ground.slope]\nfriction_deg = " +
+                   friction + "  # sample " + seed + " of uncertainty.friction\n");
+  };
+  const std::string one = settings_digest(drawn("1", "28"));
+  EXPECT_EQ(settings_digest(drawn("2", "31")), one);
+  EXPECT_NE(settings_digest(info_of("[ground.slope]\nfriction_deg = 28  # cli\n")), one);
+  RunInfo other = drawn("1", "28");
+  other.blocks_hash = "others";
+  EXPECT_NE(settings_digest(other), one);
 }
 
 TEST(SettingsOfRuns, BlocksAndTerrainAreThoseOfTheRockMass) {
@@ -105,7 +123,7 @@ TEST(SettingsOfRuns, BlocksAndTerrainAreThoseOfTheRockMass) {
     return info;
   };
   SettingsCheck check = after("run_1.h5", of_mass(1, "one", "bed 1"));
-  check.add("run_2.h5", "run_2.h5", of_mass(2, "two", "bed 2"));
+  check.add("run_2.h5", of_mass(2, "two", "bed 2"));
   EXPECT_EQ(refusal(check, "run_3.h5", of_mass(3, "one", "bed 1")), "");
   EXPECT_NE(
       refusal(check, "run_3.h5", of_mass(3, "other", "bed 1")).find("other blocks of rock mass 1"),

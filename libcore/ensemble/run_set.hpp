@@ -1,4 +1,4 @@
-// libcore/post/run_set.hpp: public
+// libcore/ensemble/run_set.hpp: public
 // Runs that are evaluated together: what must agree, in which order they stand, how sound they are.
 // in:    run files in any order
 // out:   their order by run id, the sum of their health, tags for every output
@@ -27,15 +27,12 @@ struct RunMember {
   std::int64_t fell_through = 0, not_finite = 0;  ///< steps
   std::string part;                               ///< file of the part that it stands in; "": none
   double run_weight = 1;  ///< how much it counts among the others, 1 on average [-]
-  std::string outcome;    ///< digest of its overlaps in time; "": none
+  std::string settings;   ///< settings_digest()
 };
 /// What messages name.
 [[nodiscard]] std::string where_of(const RunMember& run);
 /// Of a run read in any parts; health, blocks and weight as far as they were read.
 [[nodiscard]] RunMember member_of(const std::string& file, const RunFile& run);
-
-/// The variant of settings that a run belongs to: "low" of run_low_3.h5; "" of run_3.h5.
-[[nodiscard]] std::string case_of(const std::string& file);
 
 /// What a case counts among others.
 struct CaseWeight {
@@ -56,23 +53,21 @@ struct CaseWeight {
 [[nodiscard]] std::string text(const std::vector<CaseWeight>& cases);
 
 struct RunSetOptions {
-  bool allow_unfinished = false;
   std::string trn_file, trn_sha256;  ///< that the evaluation is given
   std::string trn_digest{};          ///< of its contents
 };
 
-/// Throws InputError unless `run` has ended (or unfinished ones are allowed), was computed on the
-/// terrain of `options`, or on a bed in it where there are several rock masses, and agrees with
-/// `first`, another run of the set, in site, terrain, blocks' origin, version of the program and
-/// grid of passages.
+/// Throws InputError unless `run` has ended, was computed on the terrain of `options`, or on a bed
+/// in it where there are several rock masses, and agrees with `first`, another run of the set, in
+/// site, terrain, blocks' origin, version of the program and grid of passages.
 void check_member(const RunMember& run, const RunMember& first, const RunSetOptions& options);
 
 /// Order by run id. Throws InputError naming both files when the same run is given twice.
 [[nodiscard]] std::vector<int> order_by_id(const std::vector<RunMember>& runs);
 
-/// Which runs count as one, for they move the same one of several rock masses, or are the same but
-/// for a seed that draws nothing: a number from 0 for each run. Empty where each run counts for
-/// itself, as those of one mass alone do.                                               (n_runs)
+/// Which runs count as one, for they move the same one of several rock masses, or have the same
+/// settings and a seed that draws nothing: a number from 0 for each run. Empty where each run
+/// counts for itself, as those of one mass alone do. (n_runs)
 [[nodiscard]] std::vector<int> units_of(const std::vector<RunMember>& runs);
 
 /// The file's name without folder and ending; with the folder where two of the runs share it.
@@ -82,13 +77,12 @@ void check_member(const RunMember& run, const RunMember& first, const RunSetOpti
 struct RunFault {
   std::string name, run_id;
   std::int64_t seed = 0;
-  std::string words;  ///< the broken limits, or how far an unfinished run came
+  std::string words;  ///< the broken limits
 };
-/// Those of a set: runs that broke a limit of their health, and runs that have not ended. A run
-/// that a broken limit stopped counts as failed. By seed, then by name.
+/// Those of a set: runs that broke a limit of their health, by seed, then by name.
 struct RunFaults {
   int n_runs = 0;
-  std::vector<RunFault> failed, unfinished;
+  std::vector<RunFault> failed;
   std::vector<RunFault> left_out;  ///< failed, and not evaluated
 };
 /// `left_out`: failed runs that are not among `runs`.
@@ -121,7 +115,7 @@ struct FailedShare {
 /// What the runs were warned of, each once, sorted.
 [[nodiscard]] std::vector<std::string> warnings_of(const std::vector<RunMember>& runs);
 
-/// Tags N_RUNS, N_FAILED, N_UNFINISHED, DENOMINATOR, VERSION, SITE, HEALTH, HEALTH_* and, where
+/// Tags N_RUNS, N_FAILED, DENOMINATOR, VERSION, SITE, HEALTH, HEALTH_* and, where
 /// there are any, N_LEFT_OUT, N_REPEATS and WARNINGS; the same in whatever order the runs come.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> tags_of(
     const std::vector<RunMember>& runs, const std::vector<RunMember>& left_out = {});

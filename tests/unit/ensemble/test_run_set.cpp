@@ -1,20 +1,21 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "post/run_set.hpp"
+#include "ensemble/run_set.hpp"
 
 using namespace talus;
 
 namespace {
 
 RunMember member(const std::string& file, std::int64_t seed, const std::string& status,
-                 const std::string& reason = "") {
+                 const std::string& reason = "", const std::string& case_name = "") {
   RunMember run;
   run.file = file;
   run.info.run_id = "id" + std::to_string(seed);
   run.info.seed = seed;
   run.info.status = status;
   run.info.reason = reason;
+  run.info.case_name = case_name;
   run.info.duration = 60;
   run.info.time = status == "running" ? 12.5 : 60;
   return run;
@@ -31,17 +32,14 @@ std::string tag(const std::vector<RunMember>& runs, const std::string& name) {
 TEST(RunFaults, NameTheRunsThatFailedWithLimitAndValue) {
   const std::vector<RunMember> runs = {
       member("out/runs/run_10.h5", 10, "failed", "largest penetration [m] is 0.2, limit 0.1"),
-      member("out/runs/run_2.h5", 2, "done"), member("out/runs/run_1.h5", 1, "running")};
+      member("out/runs/run_2.h5", 2, "done")};
   const RunFaults faults = faults_of(runs);
-  EXPECT_EQ(headline(faults),
-            "1 of 3 runs failed its numerical checks; 1 of 3 runs has not reached its end");
-  EXPECT_EQ(
-      text(faults),
-      "1 of 3 runs failed its numerical checks: run_10 (largest penetration [m] is 0.2, limit "
-      "0.1); 1 of 3 runs has not reached its end: run_1 (at 12.5 of 60 s)");
+  EXPECT_EQ(headline(faults), "1 of 2 runs failed its numerical checks");
+  EXPECT_EQ(text(faults),
+            "1 of 2 runs failed its numerical checks: run_10 (largest penetration [m] is 0.2, "
+            "limit 0.1)");
   EXPECT_EQ(tag(runs, "HEALTH"), text(faults));
   EXPECT_EQ(tag(runs, "N_FAILED"), "1");
-  EXPECT_EQ(tag(runs, "N_UNFINISHED"), "1");
 }
 
 TEST(RunFaults, AreNoneWhereAllRunsFinished) {
@@ -77,45 +75,34 @@ TEST(NamesOf, TellRunsOfTwoFoldersApart) {
 TEST(CheckMember, TakesFailedRunsAndRefusesInterruptedOnes) {
   RunMember stopped = member("run_1.h5", 1, "failed", "x is 2, limit 1");
   stopped.info.time = 3.5;
-  EXPECT_NO_THROW(check_member(stopped, stopped, {false, "trn.tif", ""}));
+  EXPECT_NO_THROW(check_member(stopped, stopped, {"trn.tif", ""}));
   EXPECT_EQ(text(faults_of({stopped})),
             "1 of 1 run failed its numerical checks: run_1 (x is 2, limit 1; ended at 3.5 of 60 "
             "s)");
   const RunMember running = member("run_1.h5", 1, "running");
-  EXPECT_THROW(check_member(running, running, {false, "trn.tif", ""}), InputError);
-  EXPECT_NO_THROW(check_member(running, running, {true, "trn.tif", ""}));
+  EXPECT_THROW(check_member(running, running, {"trn.tif", ""}), InputError);
 }
 
-// Seeds 2 and 3 draw nothing: three runs are one, and intervals know it. What a seed draws makes a
+// Their seeds draw nothing: three runs are one, and intervals know it. What a seed draws makes a
 // trial of its own, whatever comes out.
 TEST(RunSet, RunsThatAreTheSameButForTheirSeedCountOnce) {
   RunFile file;
-  file.health.resize(1);
-  file.health[0].largest_penetration = 7e-4;
-  file.health[0].friction = 9;
-  file.info.run_id = "a";
+  file.info.config = "[solver]\nseed = 1  # cli\nduration_s = 6  # default\n";
+  file.info.seed_draws = false;
   const RunMember first = member_of("run_1.h5", file);
-  file.info.run_id = "b";
-  file.info.warnings = "a note\n" + std::string(seed_draws_nothing) + ": for a reason";
+  file.info.config = "[solver]\nseed = 2  # cli\nduration_s = 6  # default\n";
   const RunMember second = member_of("run_2.h5", file);
-  file.info.run_id = "c";
-  const RunMember third = member_of("run_3.h5", file);
-  EXPECT_EQ(n_repeats({first, second, third}), 2);
-  file.health[0].friction = 0;  // as maps read it: what went wrong alone
-  EXPECT_EQ(member_of("run_3.h5", file).outcome, third.outcome);
-  EXPECT_EQ(units_of({first, second, third}), (std::vector<int>{0, 0, 0}));
-  EXPECT_EQ(repeats_text({first, second, third}),
+  EXPECT_EQ(n_repeats({first, second, second}), 2);
+  EXPECT_EQ(units_of({first, second, second}), (std::vector<int>{0, 0, 0}));
+  EXPECT_EQ(repeats_text({first, second, second}),
             "2 of 3 runs repeat another one: their seeds draw nothing");
-  const auto tags = tags_of({first, second, third});
-  EXPECT_TRUE(std::any_of(tags.begin(), tags.end(), [](const auto& tag) {
-    return tag == std::pair<std::string, std::string>("N_REPEATS", "2");
-  }));
-  file.health[0].largest_penetration = 8e-4;  // e.g. of another case
-  const RunMember other = member_of("run_far_2.h5", file);
-  EXPECT_EQ(units_of({second, other, third}), (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(tag({first, second, second}, "N_REPEATS"), "2");
+  file.info.case_name = "far";
+  const RunMember other = member_of("far/run_2.h5", file);
+  EXPECT_EQ(units_of({second, other, first}), (std::vector<int>{0, 1, 0}));
   EXPECT_EQ(repeats_text({first, other}), "");
   EXPECT_TRUE(units_of({second, other}).empty());
-  file.info.warnings = "";
+  file.info.seed_draws = true;
   EXPECT_EQ(n_repeats({member_of("run_1.h5", file), member_of("run_2.h5", file)}), 0);
 }
 
@@ -129,10 +116,9 @@ TEST(RunSet, RunsOfSeveralRockMassesBelongTogetherOnTheTerrainBefore) {
   RunMember second = first;
   second.info.trn_sha256 = "bed 2";
   second.info.blocks_hash = "blocks 2";
-  EXPECT_NO_THROW(check_member(second, first, {false, "trn.tif", "sha of trn.tif", "ground"}));
-  EXPECT_THROW(check_member(second, first, {false, "bed_1.tif", "bed 1", "digest of bed 1"}),
-               InputError);
-  EXPECT_THROW(check_member(second, first, {false, "other.tif", "sha", "other"}), InputError);
+  EXPECT_NO_THROW(check_member(second, first, {"trn.tif", "sha of trn.tif", "ground"}));
+  EXPECT_THROW(check_member(second, first, {"bed_1.tif", "bed 1", "digest of bed 1"}), InputError);
+  EXPECT_THROW(check_member(second, first, {"other.tif", "sha", "other"}), InputError);
   EXPECT_EQ(units_of({first, second, first}), (std::vector<int>{0, 1, 0}));
   EXPECT_TRUE(units_of({first, second}).empty());  // each has a mass of its own
   EXPECT_TRUE(units_of({first, first}).empty());   // one mass: nothing is said of others
@@ -146,8 +132,8 @@ TEST(RunSet, RunsOfSeveralRockMassesBelongTogetherOnTheTerrainBefore) {
 // Cases of 1 and 3 runs that shall count 1 : 1: the lone run counts for three of the others.
 TEST(CaseWeights, MakeRunsCountSoThatCasesHaveTheirShares) {
   const std::vector<RunMember> runs = {
-      member("run_high_1.h5", 1, "done"), member("run_low_1.h5", 2, "done"),
-      member("run_low_2.h5", 3, "done"), member("run_low_3.h5", 4, "done")};
+      member("high/run_1.h5", 1, "done", "", "high"), member("low/run_1.h5", 2, "done", "", "low"),
+      member("low/run_2.h5", 3, "done", "", "low"), member("low/run_3.h5", 4, "done", "", "low")};
   const std::vector<CaseWeight> cases = cases_of(runs, {{"low", 2}, {"high", 2}});
   const std::vector<double> weights = run_weights(runs, cases);
   EXPECT_EQ(text(cases), "high 0.5 (1 run), low 0.5 (3 runs)");
@@ -159,8 +145,8 @@ TEST(CaseWeights, MakeRunsCountSoThatCasesHaveTheirShares) {
 }
 
 TEST(CaseWeights, AreOfEachCaseAndOfNoOther) {
-  const std::vector<RunMember> runs = {member("run_high_1.h5", 1, "done"),
-                                       member("run_low_1.h5", 2, "done")};
+  const std::vector<RunMember> runs = {member("high/run_1.h5", 1, "done", "", "high"),
+                                       member("low/run_1.h5", 2, "done", "", "low")};
   EXPECT_THROW((void)cases_of(runs, {{"low", 1}}), InputError);
   EXPECT_THROW((void)cases_of(runs, {{"low", 1}, {"high", 1}, {"mid", 1}}), InputError);
 }

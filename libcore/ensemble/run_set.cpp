@@ -1,4 +1,4 @@
-#include "post/run_set.hpp"
+#include "ensemble/run_set.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
-#include "post/deposit.hpp"
+#include "ensemble/made_with.hpp"
 
 namespace talus {
 namespace {
@@ -24,7 +24,6 @@ std::string time_reached(const RunInfo& info) {
 }
 
 std::string fault_words(const RunInfo& info) {
-  if (info.status != "failed") return "at " + time_reached(info);
   return info.time < info.duration ? info.reason + "; ended at " + time_reached(info) : info.reason;
 }
 
@@ -44,16 +43,10 @@ std::string first_few(const std::vector<RunFault>& faults) {
 }
 
 std::string words_of(const RunFaults& faults, bool with_list) {
-  const auto kind = [&](const std::vector<RunFault>& list, const char* one, const char* several) {
-    return list.empty() ? ""
-                        : count_words(list.size(), faults.n_runs, one, several) +
-                              (with_list ? first_few(list) : "");
-  };
-  const std::string failed =
-      kind(faults.failed, " failed its numerical checks", " failed their numerical checks");
-  const std::string unfinished =
-      kind(faults.unfinished, " has not reached its end", " have not reached their end");
-  return failed + (failed.empty() || unfinished.empty() ? "" : "; ") + unfinished;
+  if (faults.failed.empty()) return "";
+  return count_words(faults.failed.size(), faults.n_runs, " failed its numerical checks",
+                     " failed their numerical checks") +
+         (with_list ? first_few(faults.failed) : "");
 }
 
 std::string file_name(const std::string& file) {
@@ -82,26 +75,12 @@ auto sum_of(const std::vector<RunMember>& runs, Field field) {
   return total;
 }
 
-// Of blocks and overlaps, which every tool reads (RunParts::only_faults): runs that move in
-// different ways do not agree in all of them. "": nothing was pressed, or health was not read.
-std::string outcome_of(const RunFile& run) {
-  Sha256 hash;
-  hash.add(run.info.blocks_hash.c_str(), run.info.blocks_hash.size() + 1);
-  bool any = false;
-  for (const HealthRow& row : run.health) {
-    any |= row.largest_penetration > 0;
-    hash.add(&row.largest_penetration, sizeof row.largest_penetration);
-    hash.add(&row.unconverged, sizeof row.unconverged);
-    hash.add(&row.left_domain, sizeof row.left_domain);
-  }
-  return any ? hash.hex() : "";
-}
-
 }  // namespace
 
 RunMember member_of(const std::string& file, const RunFile& run) {
   RunMember member{file, run.info, run.grid, n_blocks(run),  0, 0, 0, 0, 0,
                    0,    0,        "",       run.run_weight, ""};
+  member.settings = settings_digest(run.info);
   for (std::string* words : {&member.info.config, &member.info.made_with, &member.info.plan})
     std::string().swap(*words);
   for (int block = 0; block < member.n_blocks; ++block) member.weight += weight_of(run, block);
@@ -112,15 +91,7 @@ RunMember member_of(const std::string& file, const RunFile& run) {
     member.fell_through = row.fell_through;
     member.not_finite = row.not_finite;
   }
-  member.outcome = outcome_of(run);
   return member;
-}
-
-std::string case_of(const std::string& file) {
-  const std::string stem = file_name(file);
-  const std::size_t last = stem.rfind('_');
-  if (stem.rfind("run_", 0) != 0 || last <= 4 || last == std::string::npos) return "";
-  return stem.substr(4, last - 4);
 }
 
 std::vector<CaseWeight> cases_of(const std::vector<RunMember>& runs,
@@ -128,9 +99,9 @@ std::vector<CaseWeight> cases_of(const std::vector<RunMember>& runs,
   std::map<std::string, CaseWeight> by_name;
   for (const CaseWeight& one : given) by_name[one.name] = {one.name, one.weight, 0};
   for (const RunMember& run : runs) {
-    const std::string name = case_of(run.file);
+    const std::string name = run.info.case_name;
     if (!given.empty() && !by_name.contains(name))
-      throw InputError({where_of(run)}, "is of case '" + name + "', which has no --case-weight",
+      throw InputError({where_of(run)}, "is of case '" + name + "', which has no weight",
                        "give each case of the runs its weight, or leave its runs out");
     by_name[name].name = name;
     ++by_name[name].n_runs;
@@ -139,8 +110,8 @@ std::vector<CaseWeight> cases_of(const std::vector<RunMember>& runs,
   double sum = 0;
   for (auto& [name, one] : by_name) {
     if (one.n_runs == 0)
-      throw InputError({"", 0, "--case-weight"}, "names case '" + name + "', which has no run",
-                       "cases are those of the names run_CASE_SEED.h5");
+      throw InputError({}, "case '" + name + "' has a weight and no run",
+                       "compute runs of it, or give no weight to it");
     if (given.empty()) one.weight = one.n_runs;
     sum += one.weight;
     cases.push_back(one);
@@ -155,7 +126,7 @@ std::vector<double> run_weights(const std::vector<RunMember>& runs,
   for (const CaseWeight& one : cases)
     factor[one.name] = one.weight * static_cast<double>(runs.size()) / one.n_runs;
   std::vector<double> weights;
-  for (const RunMember& run : runs) weights.push_back(factor[case_of(run.file)]);
+  for (const RunMember& run : runs) weights.push_back(factor[run.info.case_name]);
   return weights;
 }
 
@@ -170,8 +141,8 @@ std::string text(const std::vector<CaseWeight>& cases) {
 std::vector<CaseWeight> case_shares(const std::vector<RunMember>& runs) {
   std::map<std::string, CaseWeight> by_name;
   for (const RunMember& run : runs) {
-    CaseWeight& one = by_name.try_emplace(case_of(run.file), CaseWeight{"", 0, 0}).first->second;
-    one.name = case_of(run.file);
+    CaseWeight& one = by_name.try_emplace(run.info.case_name, CaseWeight{"", 0, 0}).first->second;
+    one.name = run.info.case_name;
     one.weight += run.run_weight / static_cast<double>(runs.size());
     ++one.n_runs;
   }
@@ -185,11 +156,11 @@ std::string where_of(const RunMember& run) {
 }
 
 void check_member(const RunMember& run, const RunMember& first, const RunSetOptions& options) {
-  if (!has_ended(run.info) && !options.allow_unfinished)
+  if (!has_ended(run.info))
     throw InputError({where_of(run)},
                      "the run is " + run.info.status + " at " + time_reached(run.info) +
                          ", expected one that has ended",
-                     "let talus-dda finish it (--resume), or give --allow-unfinished");
+                     "let talus-dda finish it (--resume)");
   const bool on_bed = !run.info.terrain_digest.empty() &&
                       run.info.terrain_digest == options.trn_digest &&
                       first.info.terrain_digest == options.trn_digest;
@@ -243,18 +214,11 @@ std::vector<int> numbered(const std::vector<std::string>& keys, std::size_t& n) 
   return number;
 }
 
-// Equal for runs that are the same: what comes out of them is, and the seed of one draws nothing. A
-// mass that stands comes out the same whatever is drawn; its runs are trials all the same.
+// Equal for runs that are the same but for a seed that draws nothing.
 std::vector<std::string> sameness(const std::vector<RunMember>& runs) {
-  std::set<std::string> undrawn;
-  for (const RunMember& run : runs)
-    if (run.info.warnings.find(seed_draws_nothing) != std::string::npos)
-      undrawn.insert(run.outcome);
   std::vector<std::string> keys;
   for (const RunMember& run : runs)
-    keys.push_back(!run.outcome.empty() && undrawn.contains(run.outcome)
-                       ? run.outcome
-                       : "run " + std::to_string(keys.size()));
+    keys.push_back(run.info.seed_draws ? "run " + std::to_string(keys.size()) : run.settings);
   return keys;
 }
 
@@ -310,13 +274,11 @@ RunFaults faults_of(const std::vector<RunMember>& runs, const std::vector<RunMem
     return std::tie(all[a].info.seed, names[a], all[a].info.run_id) <
            std::tie(all[b].info.seed, names[b], all[b].info.run_id);
   });
-  RunFaults faults{static_cast<int>(runs.size()), {}, {}, {}};
+  RunFaults faults{static_cast<int>(runs.size()), {}, {}};
   for (const std::size_t i : order) {
     const RunInfo& info = all[i].info;
-    if (info.status == "done") continue;
-    std::vector<RunFault>& list = i >= runs.size()          ? faults.left_out
-                                  : info.status == "failed" ? faults.failed
-                                                            : faults.unfinished;
+    if (info.status != "failed") continue;
+    std::vector<RunFault>& list = i >= runs.size() ? faults.left_out : faults.failed;
     list.push_back({names[i], info.run_id, info.seed, fault_words(info)});
   }
   return faults;
@@ -366,7 +328,6 @@ std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMe
   std::vector<std::pair<std::string, std::string>> tags = {
       {"N_RUNS", n_runs},
       {"N_FAILED", std::to_string(faults.failed.size() + faults.left_out.size())},
-      {"N_UNFINISHED", std::to_string(faults.unfinished.size())},
       {"DENOMINATOR", "N = " + text(weight, 9) + ", the statistical weight of all " +
                           std::to_string(sum_of(runs, &RunMember::n_blocks)) +
                           " blocks released in " + n_runs + (runs.size() == 1 ? " run" : " runs")}};

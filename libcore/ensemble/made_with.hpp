@@ -1,4 +1,4 @@
-// libcore/post/made_with.hpp: public
+// libcore/ensemble/made_with.hpp: public
 // The settings that runs were made with, compared with one another and with a site file.
 // in:    the words of run files (RunInfo::config, made_with)
 // out:   the keys that differ, with both values
@@ -37,6 +37,19 @@ struct SettingDifference {
     const MadeWith& settings, const MadeWith& others,
     const std::function<bool(const std::string&, const EffectiveValue&, const EffectiveValue&)>&
         counts);
+/// Digest of all that a run was made with but for seed, sample and what a sample draws: settings
+/// that motion and record depend on, options, files read, blocks and terrain.
+[[nodiscard]] std::string settings_digest(const RunInfo& info);
+
+/// "solver.duration_s: 20, there 6; ...": what of that two runs differ in; "" in nothing, or in
+/// blocks and terrain alone.
+[[nodiscard]] std::string what_differs(const RunInfo& run, const RunInfo& other);
+
+/// The number of the sample of [uncertainty] that a run drew; 0: none.
+[[nodiscard]] std::int64_t sample_of(const MadeWith& settings);
+/// The numerical value of a setting; 0 where it is not given.
+[[nodiscard]] double number_of(const MadeWith& settings, const std::string& name);
+
 /// "solver.duration_s: 20, there 6; ...", the first five.
 [[nodiscard]] std::string text(const std::vector<SettingDifference>& list);
 
@@ -44,11 +57,11 @@ struct SettingDifference {
 ///
 /// Runs agree in all settings that motion and record depend on, and in blocks and terrain. Seed,
 /// sample and what a sample draws may differ; rock masses have blocks and beds of their own. Cases
-/// (by the names of the files) may differ in what the command line gave and in their blocks.
+/// may differ in what the command line gave and in their blocks.
 class SettingsCheck {
  public:
-  /// `run` and its info with all words. Throws InputError with the files, keys and values.
-  void add(const std::string& file, const std::string& where, const RunInfo& info);
+  /// `info` with all words. Throws InputError with the files, keys and values.
+  void add(const std::string& where, const RunInfo& info);
   /// The same for runs with other fences than those before.
   [[nodiscard]] SettingsCheck for_other_fences() const;
   /// Takes over the cases that are not known here.

@@ -1,13 +1,13 @@
 // Which settings of runs count, and what is said of those that differ.
-#include "post/made_with.hpp"
+#include "ensemble/made_with.hpp"
 
 #include <algorithm>
 #include <set>
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/sha256.hpp"
 #include "base/text.hpp"
-#include "post/run_set.hpp"
 #include "site/stages.hpp"
 #include "site/uncertainty.hpp"
 
@@ -46,18 +46,10 @@ bool counts_for_runs(const std::string& name, const EffectiveValue& value) {
          name != "output.whole_share";
 }
 
-std::int64_t whole_number(const MadeWith& settings, const std::string& name) {
-  const auto at = settings.values.find(name);
-  double number = 0;
-  return at != settings.values.end() && parse_double(at->second.value, number)
-             ? static_cast<std::int64_t>(number)
-             : 0;
-}
-
 std::int64_t rock_mass_of(const MadeWith& settings) {
   UncertaintySettings uncertainty;
-  uncertainty.sample = whole_number(settings, "uncertainty.sample");
-  uncertainty.rock_masses = static_cast<int>(whole_number(settings, "uncertainty.rock_masses"));
+  uncertainty.sample = sample_of(settings);
+  uncertainty.rock_masses = static_cast<int>(number_of(settings, "uncertainty.rock_masses"));
   return rock_mass(uncertainty);
 }
 
@@ -82,6 +74,38 @@ MadeWith made_with(const std::string& config, const std::string& more) {
   }
   add_more(more, out);
   return out;
+}
+
+double number_of(const MadeWith& settings, const std::string& name) {
+  const auto at = settings.values.find(name);
+  double number = 0;
+  return at != settings.values.end() && parse_double(at->second.value, number) ? number : 0;
+}
+
+std::int64_t sample_of(const MadeWith& settings) {
+  return static_cast<std::int64_t>(number_of(settings, "uncertainty.sample"));
+}
+
+std::string settings_digest(const RunInfo& info) {
+  const MadeWith settings = made_with(info.config, info.made_with);
+  Sha256 hash;
+  const auto add = [&hash](const std::string& word) { hash.add(word.c_str(), word.size() + 1); };
+  for (const auto& [name, value] : settings.values)
+    if (counts_for_runs(name, value) && !value.value.empty())
+      add(name), add(is_drawn(value) ? "drawn" : value.value);
+  for (const std::string& ground : settings.grounds) add(ground);
+  for (const std::string* word : {&info.case_name, &info.blocks_hash, &info.trn_sha256}) add(*word);
+  return hash.hex();
+}
+
+std::string what_differs(const RunInfo& run, const RunInfo& other) {
+  const auto counts = [](const std::string& name, const EffectiveValue& value,
+                         const EffectiveValue& there) {
+    return counts_for_runs(name, value.key.empty() ? there : value) &&
+           !(is_drawn(value) && is_drawn(there));
+  };
+  return text(differences(made_with(run.config, run.made_with),
+                          made_with(other.config, other.made_with), counts));
 }
 
 bool is_drawn(const EffectiveValue& value) {
@@ -140,13 +164,12 @@ void SettingsCheck::check_settings(const std::string& of_case, const std::string
   throw InputError({where},
                    "was computed with other settings than " + first.where + ": " + text(list),
                    "evaluate runs of other settings by themselves, or compute all with one site "
-                   "file and the same options; cases may differ by talus-dda --set, in runs named "
-                   "run_CASE_SEED.h5");
+                   "file and the same options; cases may differ by --set (talus-dda --case)");
 }
 
-void SettingsCheck::add(const std::string& file, const std::string& where, const RunInfo& info) {
+void SettingsCheck::add(const std::string& where, const RunInfo& info) {
   MadeWith settings = made_with(info.config, info.made_with);
-  const std::string of_case = case_of(file);
+  const std::string& of_case = info.case_name;
   if (!cases_.empty()) check_settings(of_case, where, settings);
   const std::int64_t mass = rock_mass_of(settings);
   const bool is_one_of_many = !info.terrain_digest.empty();

@@ -1,0 +1,28 @@
+# Cases lie in folders of their own, are weighed, and each is evaluated by itself.
+. "$source_dir/tests/tools/talus-batch/common.sh"
+set -- --runs 2 --case 'soft=--set ground.ground.friction_deg=10' --case 'hard=--set "site.description=a hard one"' \
+  -- --independent
+made_again 4 --weight soft=3 --weight hard=1 "$@"
+for file in soft/run_1.h5 hard/run_2.h5 ensemble.json soft/ensemble.json; do
+  [ -s "results/runs/$file" ] || fail "no $file"
+done
+made_again 0 --weight soft=3 --weight hard=1 "$@"
+python3 - <<'PY' || fail "the ensemble says something else of its cases"
+import json
+e = json.load(open('results/runs/ensemble.json'))
+assert e['weights'] == {'hard': 1, 'soft': 3}, e['weights']
+assert [m['weight'] for m in e['members']] == [1.5, 1.5, .5, .5], e['members']
+assert 'case soft: ground.ground.friction_deg = 10; case hard: 20' in e['settings_that_differ'], e
+assert len(json.load(open('results/runs/soft/ensemble.json'))['members']) == 2
+PY
+expect 0 talus-maps results/runs --trn results/bed.tif -o maps --no-db
+gdalinfo maps/reach.tif | grep -q 'CASES=hard 0.25 (2 runs), soft 0.75 (2 runs)' || fail "cases are not weighed"
+expect 0 talus-maps results/runs/soft --trn results/bed.tif -o soft --no-db
+gdalinfo soft/reach.tif | grep -q 'N_RUNS=2$' || fail "a case is not evaluated by itself"
+expect 2 batch --weight soft=3 "$@"
+says "has none of case hard"
+expect 2 batch --weight softer=3 "$@"
+expect 2 batch --case a/b= --runs 1
+made_again 0 "$@"
+expect 0 talus-maps results/runs --trn results/bed.tif -o pooled --no-db
+says "runs of 2 cases pooled, each run alike: no probability"
