@@ -35,7 +35,7 @@ products := $(foreach stage,tin trn source block check runout map fence change p
 run_folders := runs runs/* without without/* verify/*-* verify/*-*/*
 run_patterns := run_*[0-9].h5 run_*[0-9].h5.part run_*[0-9].h5.part.new ensemble.json .lock \
   .auto/ensemble.json
-stages_made := tin trn blocks rock check run runs without dda runout maps fence place places \
+stages_made := tin trn blocks rock check run runs dda runout maps fence place places \
   hazard trace profile search verify report
 registries := sqlite sqlite-wal sqlite-shm sqlite.late-*
 made_patterns := thickness.qml $(foreach end,h5 tif tif.aux.xml,rock/*_*[0-9].$(end)) \
@@ -45,7 +45,7 @@ made_patterns := thickness.qml $(foreach end,h5 tif tif.aux.xml,rock/*_*[0-9].$(
   $(foreach suffix,$(raster_suffixes),$(map_names:%=maps/*/%.$(suffix))) \
   fences/*/fence.json fences/*/fence.gpkg search/*-[1-9].toml search/*-10.toml \
   search/new/*.toml search/charts/fence_search_*.svg \
-  $(foreach ending,txt flags files made,$(stages_made:%=stages/%.$(ending))) \
+  $(foreach ending,txt flags files,$(stages_made:%=stages/%.$(ending))) \
   parts/*-of-*.h5 parts/without/*-of-*.h5 shards/merged shards/jobs shards/log/*_*.txt \
   stages/.digests stages/.lock stages/.now \
   $(addsuffix .*.part-*,$(sort $(dir $(products))) $(run_folders:%=%/) maps/*/ fences/*/ parts/ \

@@ -33,13 +33,13 @@ rock_masses := $(wordlist 6,9999,$(status_runs))
 ground_of_runs := $(OUT)/$(if $(rock_masses),trn,bed).tif
 before_runs := $(OUT)/blocks.h5 $(rock_masses:%=$(OUT)/rock/blocks_%.h5)
 define runs_of
-$(OUT)/$1/ensemble.json: $(STAGES)/$1.made ;
-$(STAGES)/$1.made: $(before_runs) | $(OUT)/check.html $(if $(filter without,$1),$(STAGES)/runs.made)
+$(OUT)/$1/ensemble.json: $(before_runs) $(if $(filter stale,$(status_$1)),stale-runs) | \
+  $(OUT)/check.html $(if $(filter without,$1),$(OUT)/runs/ensemble.json)
 	$$(call say,batch: $1)
 	$$(Q)$$(call batch_of,$1,$$(DB)) $$(some_failed)
-	@touch $$@
-$(if $(filter stale,$(status_$1)),.PHONY: $(STAGES)/$1.made)
+	@[ $$@ -nt $(OUT)/blocks.h5 ] || touch -c $$@
 endef
+.PHONY: stale-runs
 $(if $(SHARD),,$(foreach kind,$(kinds),$(eval $(call runs_of,$(kind)))))
 runs: $(ensembles) ## blocks -> runs (RUNS=50: with 50 seeds)
 
@@ -75,6 +75,6 @@ ifneq ($(and $(filter-out --%,$(DB)),$(shard_registries)),)
 $(OUT)/shards/merged: $(shard_registries) $(wildcard $(OUT)/shards/*.sqlite-wal)
 	$(Q)$(BIN)talus-runs merge $(shard_registries) -o $(filter-out --%,$(DB)) && touch $@ || \
 	  echo 'the logs of the shards are not merged; results do not need them' >&2
-$(STAGES)/runs.made $(ensembles): | $(OUT)/shards/merged
+$(ensembles): | $(OUT)/shards/merged
 %.sqlite-wal: ;
 endif

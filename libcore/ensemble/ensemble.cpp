@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "base/error.hpp"
 #include "record/part_file.hpp"
 
 namespace talus {
@@ -40,6 +41,17 @@ bool is_ensemble(const std::string& path) {
   return fs::is_directory(path) || fs::path(path).filename() == ensemble_name;
 }
 
+std::vector<std::string> ids_in_part(const std::string& path) {
+  std::vector<std::string> ids;
+  if (!fs::exists(path)) return ids;
+  try {
+    for (const RunFile& run : PartFile(path).part.runs) ids.push_back(run.info.run_id);
+  } catch (const InputError&) {
+    ids.clear();
+  }
+  return ids;
+}
+
 std::vector<std::string> files_of(const Ensemble& ensemble, bool with_parts) {
   std::map<std::string, std::string> file_of;  // by run id
   for (const EnsembleMember& member : ensemble.members)
@@ -48,13 +60,11 @@ std::vector<std::string> files_of(const Ensemble& ensemble, bool with_parts) {
   std::vector<std::string> files;
   for (const std::string& name : with_parts ? ensemble.parts : std::vector<std::string>{}) {
     const std::string path = (fs::path(ensemble.folder) / name).lexically_normal().string();
-    if (!fs::exists(path)) continue;
-    const std::vector<RunFile> runs = PartFile(path).part.runs;
-    const bool all_wanted = std::all_of(runs.begin(), runs.end(), [&](const RunFile& run) {
-      return file_of.contains(run.info.run_id);
-    });
-    if (!all_wanted) continue;
-    for (const RunFile& run : runs) file_of.erase(run.info.run_id);
+    const std::vector<std::string> ids = ids_in_part(path);
+    if (ids.empty() || !std::all_of(ids.begin(), ids.end(),
+                                    [&](const std::string& id) { return file_of.contains(id); }))
+      continue;
+    for (const std::string& id : ids) file_of.erase(id);
     files.push_back(path);
   }
   for (const EnsembleMember& member : ensemble.members)

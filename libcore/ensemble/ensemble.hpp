@@ -60,8 +60,12 @@ extern const char* const ensemble_name;
 /// Whether a file or folder of the command line stands for a set of runs.
 [[nodiscard]] bool is_ensemble(const std::string& path);
 
+/// Ids of the runs in a file of talus-reduce, sorted; none where it is missing or damaged: the runs
+/// themselves are there.
+[[nodiscard]] std::vector<std::string> ids_in_part(const std::string& path);
+
 /// The files that hold the runs with a result: with `with_parts` the parts all of whose runs are
-/// wanted, and the other runs. Throws InputError for a part that is damaged.
+/// wanted, and the other runs.
 [[nodiscard]] std::vector<std::string> files_of(const Ensemble& ensemble, bool with_parts);
 
 /// Of a folder, or of the ensemble.json in it. Brings it up to date, and writes it where that

@@ -157,11 +157,11 @@ void take(EnsembleMember& member, EnsembleMember found) {
   member = std::move(found);
 }
 
-// A member without a file keeps why it has no result. Returns whether anything changed.
-bool look_at(EnsembleMember& member, const std::string& folder) {
+// A member without a file keeps why it has no result.
+void look_at(EnsembleMember& member, const std::string& folder) {
   const std::string path = path_in(folder, member.file), digest = digest_in(path);
   const bool fits = member.wanted.empty() || member.settings == member.wanted;
-  if (digest == member.digest && (digest.empty() || has_result(member) == fits)) return false;
+  if (digest == member.digest && (digest.empty() || has_result(member) == fits)) return;
   EnsembleMember found;
   found.file = member.file;
   found.seed = member.seed;
@@ -174,7 +174,6 @@ bool look_at(EnsembleMember& member, const std::string& folder) {
     found.why = error.what();
   }
   take(member, std::move(found));
-  return true;
 }
 
 void weigh(Ensemble& ensemble) {
@@ -281,10 +280,9 @@ Ensemble stored_ensemble(const std::string& folder) {
 }
 
 void bring_up_to_date(Ensemble& ensemble) {
-  bool is_changed = false;
-  for (EnsembleMember& member : ensemble.members) is_changed |= look_at(member, ensemble.folder);
+  for (EnsembleMember& member : ensemble.members) look_at(member, ensemble.folder);
   weigh(ensemble);
-  if (is_changed) compare_cases(ensemble);
+  compare_cases(ensemble);
 }
 
 Ensemble read_ensemble(const std::string& path) {

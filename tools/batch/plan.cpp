@@ -11,7 +11,6 @@
 #include "base/text.hpp"
 #include "ensemble/made_with.hpp"
 #include "io/blocks_hdf5.hpp"
-#include "record/part_file.hpp"
 #include "site/uncertainty.hpp"
 #include "tools/batch/processes.hpp"
 #include "tools/frame/command_line.hpp"
@@ -59,7 +58,7 @@ std::vector<CaseWeight> weights_of(const BatchOptions& options,
   }
   std::vector<CaseWeight> out;
   for (const BatchCase& one : cases) {
-    if (weights.empty()) break;
+    if (options.weights.empty()) break;
     if (!weights.contains(one.name))
       throw UsageError({"", 0, "--weight"}, "has none of case " + one.name,
                        "give a weight to each case");
@@ -183,7 +182,7 @@ std::string ground_of(const BatchPlan& plan) {
   return in(plan.results, plan.rock_masses > 0 ? "trn.tif" : "bed.tif");
 }
 
-void compare_with_now(BatchPlan& plan, Tool& tool) {
+void compare_with_now(BatchPlan& plan, Tool& tool, bool says) {
   std::map<std::string, RunInfo> now;       // by case
   std::map<std::int64_t, RockMass> masses;  // but for the one that was asked with
   for (EnsembleMember& member : plan.ensemble.members) {
@@ -203,7 +202,7 @@ void compare_with_now(BatchPlan& plan, Tool& tool) {
     member.wanted = settings_digest(info);
   }
   bring_up_to_date(plan.ensemble);
-  if (!now.empty()) say_what_differs(plan, now, tool);
+  if (says && !now.empty()) say_what_differs(plan, now, tool);
 }
 
 std::vector<std::size_t> to_make(const BatchPlan& plan) {
@@ -266,13 +265,10 @@ std::vector<std::string> parts_of(const BatchPlan& plan) {
   for (const auto& entry : fs::directory_iterator(parts_folder(plan), error)) {
     const std::string name = entry.path().filename().string();
     if (!name.ends_with(".h5") || name[0] == '.') continue;
-    try {
-      const std::vector<RunFile> runs = PartFile(entry.path().string()).part.runs;
-      if (std::all_of(runs.begin(), runs.end(),
-                      [&ids](const RunFile& run) { return ids.contains(run.info.run_id); }))
-        parts.push_back(fs::relative(entry.path(), plan.folder).string());
-    } catch (const InputError&) {  // half a part: the runs themselves are there
-    }
+    const std::vector<std::string> in_part = ids_in_part(entry.path().string());
+    if (!in_part.empty() && std::all_of(in_part.begin(), in_part.end(),
+                                        [&ids](const auto& id) { return ids.contains(id); }))
+      parts.push_back(fs::relative(entry.path(), plan.folder).string());
   }
   std::sort(parts.begin(), parts.end());
   return parts;

@@ -56,10 +56,10 @@ struct BatchPlan {
 /// Wants `n_runs` of each case.
 void set_runs(BatchPlan& plan, int n_runs);
 
-/// Asks talus-dda what runs are made with now, and looks at those that are there. Says to `tool`
-/// what differs where runs are to be made again. Throws InputError where talus-dda refuses the
-/// site. Without blocks nothing is asked: all runs are to be made.
-void compare_with_now(BatchPlan& plan, Tool& tool);
+/// Asks talus-dda what runs are made with now, and looks at those that are there. With `says` it
+/// tells `tool` what differs where runs are to be made again. Throws InputError where talus-dda
+/// refuses the site. Without blocks nothing is asked: all runs are to be made.
+void compare_with_now(BatchPlan& plan, Tool& tool, bool says);
 
 /// The members that are to be made, of all parts or of the one of the plan.
 [[nodiscard]] std::vector<std::size_t> to_make(const BatchPlan& plan);

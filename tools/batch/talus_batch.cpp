@@ -19,7 +19,6 @@
 #include <thread>
 
 #include "base/text.hpp"
-#include "record/part_file.hpp"
 #include "tools/batch/plan.hpp"
 #include "tools/batch/processes.hpp"
 #include "tools/frame/machine.hpp"
@@ -141,17 +140,6 @@ void add_registry(std::vector<std::string>& words, const Tool& tool, const Batch
                {"--db", db.empty() ? (fs::path(plan.results) / "runs.sqlite").string() : db});
 }
 
-// Whether it is a part of these runs.
-bool holds(const std::string& part, const std::set<std::string>& ids) {
-  if (!fs::exists(part)) return false;
-  std::set<std::string> found;
-  try {
-    for (const RunFile& run : PartFile(part).part.runs) found.insert(run.info.run_id);
-  } catch (const InputError&) {  // half of one
-  }
-  return found == ids;
-}
-
 // --- the work ------------------------------------------------------------------------------------
 
 struct Job {
@@ -233,8 +221,7 @@ class Batch {
     one.folder = plan_.folder;
     one.members = {member};
     bring_up_to_date(one);
-    member = one.members[0];
-    if (!has_result(member)) {
+    if (!has_result(one.members[0])) {
       member.outcome = Outcome::no_result;
       member.why = job.process.why();
       is_cut_off = is_cut_off || job.process.was_cut_off() || job.process.exit_code() == 0;
@@ -242,7 +229,7 @@ class Batch {
         tool_.info(name_of(member) + ": " + member.why);
     }
     ++n_ended_;
-    n_failed_ += member.outcome == Outcome::done ? 0 : 1;
+    n_failed_ += one.members[0].outcome == Outcome::done ? 0 : 1;
     const std::size_t step = 100 * n_ended_ / n_;
     if (step > 100 * (n_ended_ - 1) / n_)
       tool_.info("runs: " + std::to_string(n_ended_ - n_failed_) + " done, " +
@@ -310,7 +297,8 @@ void reduce(Tool& tool, const BatchPlan& plan) {
       (fs::path(parts_folder(plan)) /
        (std::to_string(plan.part.number) + "-of-" + std::to_string(plan.part.n_parts) + ".h5"))
           .string();
-  if (holds(part, ids)) return;
+  const std::vector<std::string> there = ids_in_part(part);
+  if (there == std::vector<std::string>(ids.begin(), ids.end())) return;
   fs::create_directories(parts_folder(plan));
   for (const std::string& word :
        {std::string("--trn"), ground_of(plan), std::string("-o"), part, std::string("--overwrite")})
@@ -341,29 +329,33 @@ int runs_that_lack(const BatchPlan& plan) {
   return lacking;
 }
 
-std::string counts_text(const Ensemble& ensemble) {
-  const int n_done = count_of(ensemble, Outcome::done);
-  return counted(static_cast<std::int64_t>(ensemble.members.size()), "run") + ": " +
-         std::to_string(n_done) + " done, " +
-         std::to_string(static_cast<int>(ensemble.members.size()) - n_done) + " failed or missing";
+// Members of the part.
+std::vector<const EnsembleMember*> members_of(const BatchPlan& plan) {
+  std::vector<const EnsembleMember*> list;
+  for (std::size_t i = 0; i < plan.ensemble.members.size(); ++i)
+    if (plan.part.has(i)) list.push_back(&plan.ensemble.members[i]);
+  return list;
+}
+
+int n_done(const BatchPlan& plan) {
+  const auto list = members_of(plan);
+  return static_cast<int>(std::count_if(list.begin(), list.end(), [](const EnsembleMember* member) {
+    return member->outcome == Outcome::done;
+  }));
 }
 
 // "2 of 12 runs failed:" with a line each; "" where none did.
-std::string failed_text(const Ensemble& ensemble, const BatchPart& part) {
+std::string failed_text(const BatchPlan& plan) {
   std::string lines;
-  int n = 0, n_failed = 0;
-  for (std::size_t i = 0; i < ensemble.members.size(); ++i) {
-    if (!part.has(i)) continue;
-    ++n;
-    const EnsembleMember& member = ensemble.members[i];
-    if (member.outcome == Outcome::done) continue;
-    ++n_failed;
-    lines += "\n  " + name_of(member) + ": " +
-             (member.why.empty() ? "was not computed" : member.why) +
-             (has_result(member) ? "" : " (no result)");
-  }
+  const std::vector<const EnsembleMember*> list = members_of(plan);
+  for (const EnsembleMember* member : list)
+    if (member->outcome != Outcome::done)
+      lines += "\n  " + name_of(*member) + ": " +
+               (member->why.empty() ? "was not computed" : member->why) +
+               (has_result(*member) ? "" : " (no result)");
+  const auto n = static_cast<int>(list.size()), n_failed = n - n_done(plan);
   if (n_failed == 0) return "";
-  const bool few = n_failed <= ensemble.max_failed_share * n && n_failed < n;
+  const bool few = n_failed <= plan.ensemble.max_failed_share * n && n_failed < n;
   return std::to_string(n_failed) + " of " + counted(n, "run") + " failed" +
          (few ? ", few enough to be left out and counted into the intervals:" : ":") + lines;
 }
@@ -385,24 +377,23 @@ std::string parts_text(const BatchPlan& plan) {
 }
 
 // A line for make: whether ensemble.json is as it would be, how many runs are to be made, which
-// parts lack some, and the rock masses of all.
-void say_status(Tool& tool, BatchPlan& plan, bool is_auto) {
-  const bool is_current = !is_auto && to_make_here(plan).empty() && are_written(plan);
+// parts lack some, the seed after the last, how many runs are wanted, and the rock masses of all.
+std::string line_for_make(BatchPlan& plan, bool is_auto) {
+  const std::vector<EnsembleMember>& members = plan.ensemble.members;
+  const std::size_t n_to_make = to_make_here(plan).size();
+  const bool is_current = !is_auto && n_to_make == 0 && are_written(plan);
   std::set<std::int64_t> masses;
-  for (const EnsembleMember& member : plan.ensemble.members) masses.insert(mass_of(plan, member));
+  for (const EnsembleMember& member : members) masses.insert(mass_of(plan, member));
   masses.erase(0);
-  std::string words = (is_current ? "current " : "stale ") +
-                      std::to_string(to_make_here(plan).size()) + " " + parts_text(plan);
+  std::string words = (is_current ? "current " : "stale ") + std::to_string(n_to_make) + " " +
+                      parts_text(plan) + " " + std::to_string(members.back().seed + 1) + " " +
+                      std::to_string(members.size());
   for (const std::int64_t mass : masses) words += " " + std::to_string(mass);
-  tool.result({{"is_current", is_current},
-               {"n_to_make", to_make_here(plan).size()},
-               {"n_done", count_of(plan.ensemble, Outcome::done)},
-               {"failed", failed_text(plan.ensemble, plan.part)}},
-              words);
+  return words;
 }
 
 void make_part_or_all(Tool& tool, BatchPlan& plan, int n_jobs) {
-  compare_with_now(plan, tool);
+  compare_with_now(plan, tool, true);
   Batch batch(tool, plan, n_jobs);
   try {
     batch.make_runs();
@@ -411,7 +402,8 @@ void make_part_or_all(Tool& tool, BatchPlan& plan, int n_jobs) {
     throw;
   }
   if (plan.part.number == 0) return write_ensembles(plan);
-  if (batch.is_cut_off) throw InputError({plan.folder}, failed_text(plan.ensemble, plan.part));
+  bring_up_to_date(plan.ensemble);
+  if (batch.is_cut_off) throw InputError({plan.folder}, failed_text(plan));
   reduce(tool, plan);
 }
 
@@ -433,8 +425,9 @@ int n_runs_of(const Site& site, const BatchOptions& o) {
   double n = 0;
   if (o.runs.empty()) return site.solver.n_runs;
   if (o.runs == "auto") return std::min(50, o.most);
-  if (!parse_double(o.runs, n) || !(n >= 0 && n <= 1e6) || n != std::floor(n))
-    throw UsageError({"", 0, "--runs"}, "is " + o.runs + ", expected a whole number, or auto");
+  if (!parse_double(o.runs, n) || !(n >= 1 && n <= 1e6) || n != std::floor(n))
+    throw UsageError({"", 0, "--runs"},
+                     "is " + o.runs + ", expected a whole number, 1 or more, or auto");
   return static_cast<int>(n);
 }
 
@@ -449,8 +442,8 @@ void run_tool(Tool& tool, const Site& site, const std::string& site_file, BatchO
                                             : "is auto, and the site has no [place.NAME]");
   set_runs(plan, n_runs_of(site, o));
   if (o.status) {
-    compare_with_now(plan, tool);
-    say_status(tool, plan, is_auto);
+    compare_with_now(plan, tool, false);
+    if (!o.part.empty()) return tool.result({}, line_for_make(plan, is_auto));
   } else {
     const FolderHolder holder(plan.folder, plan.part.number > 0);
     const int n_jobs = o.jobs > 0 ? o.jobs : jobs_by_default();
@@ -458,14 +451,17 @@ void run_tool(Tool& tool, const Site& site, const std::string& site_file, BatchO
       make_as_many_as_needed(tool, plan, n_jobs, o.most);
     else
       make_part_or_all(tool, plan, n_jobs);
-    tool.result({{"folder", plan.folder}, {"n_done", count_of(plan.ensemble, Outcome::done)}},
-                counts_text(plan.ensemble));
   }
-  const std::string failed = failed_text(plan.ensemble, plan.part);
-  const bool any =
-      std::any_of(plan.ensemble.members.begin(), plan.ensemble.members.end(), has_result);
-  if (failed.empty() || (o.status && !to_make_here(plan).empty())) return;
-  if (!any && !o.status) throw InputError({plan.folder}, failed, "no run has a result");
+  const std::vector<const EnsembleMember*> list = members_of(plan);
+  const std::string failed = failed_text(plan);
+  tool.result({{"folder", plan.folder}, {"n_runs", list.size()}, {"n_done", n_done(plan)}},
+              std::to_string(n_done(plan)) + " of " +
+                  counted(static_cast<std::int64_t>(list.size()), "run") + " done, in " +
+                  plan.folder);
+  if (failed.empty()) return;
+  if (!o.status && std::none_of(list.begin(), list.end(),
+                                [](const EnsembleMember* member) { return has_result(*member); }))
+    throw InputError({plan.folder}, failed, "no run has a result");
   throw NumericsError(failed);
 }
 

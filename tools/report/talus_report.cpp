@@ -187,6 +187,7 @@ RunRecord writer_of(const std::string& db, const std::string& sha256, std::int64
 // `parts`.
 void add_runs(const std::string& db, const RunArtifact& file, std::int64_t before,
               std::vector<RunArtifact>& runs, std::vector<RunArtifact>& parts) {
+  if (file.sha256.empty() || fs::path(file.path).filename() == ensemble_name) return;  // of a set
   const bool is_part = fs::exists(file.path) && is_part_file(file.path);
   const RunRecord record = is_part ? writer_of(db, file.sha256, before) : RunRecord{};
   if (record.id == 0) {

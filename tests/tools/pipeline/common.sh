@@ -22,7 +22,7 @@ same() {
 }
 # same_results FOLDER FOLDER: as `same`, but for what shards leave: their registries and parts
 same_results() {
-  diff -r -q -x 'runs.sqlite*' -x .digests -x .lock -x shards -x parts -x ensemble.json -x '*.made' -x '.*.part-*' "$1/out" "$2/out" >differences ||
+  diff -r -q -x 'runs.sqlite*' -x .digests -x .lock -x shards -x parts -x ensemble.json -x '.*.part-*' "$1/out" "$2/out" >differences ||
     { cat differences >&2; fail "the results of $1, by shards, and of $2, by one make, differ"; }
 }
 # was_made_by FOLDER FILE TEXT: the command that made FILE holds TEXT

@@ -39,13 +39,13 @@ expect 0 batch --runs 3 --status --part 0/2 -- --independent
 made_again 2 --runs 2 --into without -- --independent --set fence.low.active=true
 expect 0 talus-maps results/runs --trn results/bed.tif -o maps --no-db
 gdalinfo maps/reach.tif | grep -q 'N_RUNS=3$' || fail "the folder does not stand for its runs"
-rm results/runs/ensemble.json
+rm results/runs/ensemble.json results/runs/run_[45].h5  # without a plan all count
 expect 0 talus-runout results/runs --trn results/bed.tif -o runout.gpkg --no-db
 [ -s results/runs/ensemble.json ] || fail "ensemble.json was not made again"
 
 # as with every tool
 expect 2 batch --runs many
-says "is many, expected a whole number, or auto"
+says "is many, expected a whole number, 1 or more, or auto"
 expect 2 batch --part 3/2
 says "is 3/2, expected K/N with K up to N"
 expect 1 talus-batch site.toml --results nowhere --no-db --runs 1

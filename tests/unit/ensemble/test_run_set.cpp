@@ -91,12 +91,15 @@ TEST(RunSet, RunsThatAreTheSameButForTheirSeedCountOnce) {
   file.info.seed_draws = false;
   const RunMember first = member_of("run_1.h5", file);
   file.info.config = "[solver]\nseed = 2  # cli\nduration_s = 6  # default\n";
+  file.info.run_id = "b";
   const RunMember second = member_of("run_2.h5", file);
-  EXPECT_EQ(n_repeats({first, second, second}), 2);
-  EXPECT_EQ(units_of({first, second, second}), (std::vector<int>{0, 0, 0}));
-  EXPECT_EQ(repeats_text({first, second, second}),
+  file.info.run_id = "c";
+  const RunMember third = member_of("run_3.h5", file);
+  EXPECT_EQ(n_repeats({first, second, third}), 2);
+  EXPECT_EQ(units_of({first, second, third}), (std::vector<int>{0, 0, 0}));
+  EXPECT_EQ(repeats_text({first, second, third}),
             "2 of 3 runs repeat another one: their seeds draw nothing");
-  EXPECT_EQ(tag({first, second, second}, "N_REPEATS"), "2");
+  EXPECT_EQ(tag({first, second, third}, "N_REPEATS"), "2");
   file.info.case_name = "far";
   const RunMember other = member_of("far/run_2.h5", file);
   EXPECT_EQ(units_of({second, other, first}), (std::vector<int>{0, 1, 0}));
