@@ -3,15 +3,15 @@
 # A word of a rule and of a recipe: it cannot hold what make or the shell would part or run.
 signs := ' " ` $$ ; & | < > * ? : %
 sign_in = $(firstword $(foreach sign,$(signs),$(if $(findstring $(sign),$1),$(sign))))
-one_word = $(if $(filter 1,$(words $1)),$(if $(sign_in),$(error $2 is $1, expected a name without \
-  $(sign_in))),$(error $2 is '$1', expected the name of one $3 without blanks))
-$(call one_word,$(OUT),OUT,folder)
+one_word = $(if $(filter 1,$(words $1)),$(if $(sign_in),$(error $2 is $1, expected the name of $3 \
+  without $(sign_in))),$(error $2 is '$1', expected the name of $3 without blanks))
+$(call one_word,$(OUT),OUT,a folder)
 override OUT := $(strip $(OUT))
 ifeq ($(realpath $(OUT)),$(realpath .))
 $(error OUT is $(OUT), the site's own folder, whose files results would replace: name another one)
 endif
 ifneq ($(LINE),)
-$(call one_word,$(LINE),LINE,file)
+$(call one_word,$(LINE),LINE,one file)
 $(if $(wildcard $(LINE)),,$(error LINE is $(LINE): there is no such file))
 else ifneq ($(filter profile,$(MAKECMDGOALS)),)
 $(error profile needs LINE, a file with one line: make profile LINE=road.geojson)

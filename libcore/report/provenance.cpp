@@ -64,8 +64,9 @@ bool holds_runs(const RunArtifact& file) {
   return file.role == "run" || file.role == "without" || file.role == "part";
 }
 
-// Without the registry, which is another one for runs that were computed in shards, and with one
-// name for all runs of an option, which may be named by parts of them: they stand beside it.
+// Without what results do not depend on: the registry, which is another one for runs that were
+// computed in shards, and how talus-batch started a run. With one name for all runs of an option,
+// which may be named by parts of them: they stand beside it.
 std::string short_command(const RunRecord& step) {
   std::set<fs::path> runs;
   for (const RunArtifact& file : step.inputs)
@@ -75,10 +76,11 @@ std::string short_command(const RunRecord& step) {
   std::string out;
   const auto add = [&out](const std::string& word) { out += (out.empty() ? "" : " ") + word; };
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "--db") {
+    if (words[i] == "--db" || words[i] == "--threads") {
       ++i;
       continue;
     }
+    if (words[i].starts_with("--messages=") || words[i].starts_with("--progress=")) continue;
     const bool is_without = words[i] == "--without" && i + 1 < words.size();
     const std::string& file = words[is_without ? i + 1 : i];
     if (runs.count((fs::path(step.folder) / file).lexically_normal()) == 0) {
@@ -100,12 +102,11 @@ std::string command_cell(const RunRecord& step) {
   return cell;
 }
 
-// Lists of runs, and parts of them, are left out: the runs are there themselves.
+// Parts of runs are left out: the runs are there themselves.
 std::vector<RunArtifact> shown_inputs(const RunRecord& step) {
   std::vector<RunArtifact> shown;
   for (const RunArtifact& file : step.inputs)
-    if (file.role != "runs-from" && file.role != "without-from" && file.role != "part")
-      shown.push_back(file);
+    if (file.role != "part") shown.push_back(file);
   return shown;
 }
 

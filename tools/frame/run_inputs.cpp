@@ -69,7 +69,7 @@ RunSet RunInputs::set_of(const std::vector<std::string>& paths, const std::strin
       set.files.push_back(std::move(file));
     }
     set.n_missing += talus::n_missing(ensemble);
-    set.max_failed_share = ensemble.max_failed_share;
+    if (ensemble.is_planned) set.max_failed_share = ensemble.max_failed_share;
     set.weights = ensemble.cases;
     if (set.files.empty())
       throw InputError({path}, "has no run with a result", "let talus-batch make its runs");

@@ -85,7 +85,7 @@ std::vector<RunPlace> evaluated_runs(const ResultFolder& folder, const Json& run
   std::set<std::string> ids(listed.begin(), listed.end());
   const std::size_t n_wanted = ids.size();
   std::vector<RunPlace> found;
-  if (fs::exists(folder.path("runs")))
+  if (fs::exists(folder.path("runs")) && !fs::is_empty(folder.path("runs")))
     for (const EnsembleMember& member : read_ensemble(folder.path("runs").string()).members)
       if (ids.erase(member.run_id) > 0)
         found.push_back(

@@ -12,7 +12,7 @@ failing "$@"
 says "2 of 4 runs failed:"
 says "  bad/run_1: largest penetration, m is"
 says "  bad/run_2: largest penetration, m is"
-says "hint: take a smaller time_step_s"
+says "take a smaller time_step_s"
 prints "good/run_2: "
 says "bad/run_2: error: health: largest penetration"
 for name in runs/bad/run_1.h5 runs/good/run_2.h5 report.html site.qgz maps/velocity.tif; do

@@ -53,7 +53,7 @@ deep='--set solver.max_penetration_m=1e-9'
 expect 2 make -C slope BIN= WITHOUT=no RUNS=1 DDA_FLAGS="$deep" maps
 begun_again 1 "a limit that the run breaks"
 expect 2 make -C slope BIN= WITHOUT=no RUNS=1 DDA_FLAGS="$deep" runs
-says "1 of 1 runs failed"
+says "1 of 1 run failed"
 begun_again 0 "a run that failed"
 
 touch -d '+40 seconds' slope/out/runs/run_1.h5

@@ -5,7 +5,7 @@ command -v unzip >/dev/null || skip "needs unzip"
 site slope
 expect 2 make -C slope BIN= DDA_FLAGS='--set solver.max_penetration_m=1e-9' WITHOUT=no
 says "run_1: error: health: largest penetration"
-says "1 of 1 runs failed:"
+says "1 of 1 run failed:"
 [ "$(grep -c '<p class="banner">[0-9 of]* runs* failed' slope/out/report.html)" -ge 8 ] || fail "the report does not say that the run failed"
 grep -q '<b>1 of 1 run</b><span>did not move' slope/out/report.html || fail "nothing says that nothing moved"
 unzip -p slope/out/site.qgz >project

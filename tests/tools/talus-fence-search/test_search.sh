@@ -40,7 +40,7 @@ assert a == b
 PY
 
 # pieces would count beside the block that they are part of
-runs run_broken 13 14 --set fragmentation.enabled=true --set fragmentation.energy_j_m2=1e4
+runs run_broken 13 14 --case broken --set fragmentation.enabled=true --set fragmentation.energy_j_m2=1e4
 expect 0 search run_*.h5 -o broken.gpkg --json broken.json
 says 'blocks broke in some runs: fences are not refined'
 rm run_broken_*.h5
