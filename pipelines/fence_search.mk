@@ -32,7 +32,8 @@ $(OUT)/search/screen.json: $(OUT)/runs/ensemble.json $(STAGES)/search.txt $(STAG
 proposals = $(patsubst $(OUT)/search/%.toml,%,$(wildcard $(OUT)/search/*-*.toml))
 verify_all = $(if $(filter 0,$(VERIFY_RUNS)),,$(foreach name,$(proposals),$(Q)$(call \
   verify,$(name),$(DB)) $(some_failed)$(newline)))
-verified = $(if $(filter 0,$(VERIFY_RUNS)),,$(proposals:%=--verified %=$(OUT)/verify/%))
+verified = $(if $(filter 0,$(VERIFY_RUNS)),,$(foreach \
+  name,$(proposals),--verified $(name)=$(OUT)/verify/$(name)))
 $(eval $(call together,$(search_files)))
 $(OUT)/fence_search.json: $(OUT)/search/screen.json $(STAGES)/verify.flags \
   $(verify_masses:%=$(OUT)/rock/blocks_%.h5)

@@ -33,6 +33,25 @@ std::pair<std::string, std::string> parted(const std::string& words, const char*
   return {words.substr(0, equals), words.substr(equals + 1)};
 }
 
+// As a shell parts them: quotes hold blanks together, wherever they begin.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  char quote = 0;
+  bool is_open = false;
+  for (const char c : text) {
+    const bool is_blank = quote == 0 && (c == ' ' || c == '\t');
+    if (!is_open && !is_blank) words.emplace_back();
+    is_open = !is_blank;
+    if (quote == 0 && (c == '\'' || c == '"'))
+      quote = c;
+    else if (c == quote)
+      quote = 0;
+    else if (!is_blank)
+      words.back() += c;
+  }
+  return words;
+}
+
 std::vector<BatchCase> cases_of(const BatchOptions& options) {
   std::vector<BatchCase> cases;
   for (const std::string& words : options.cases) {
@@ -40,9 +59,7 @@ std::vector<BatchCase> cases_of(const BatchOptions& options) {
     if (name.find('/') != std::string::npos || name[0] == '.')
       throw UsageError({"", 0, "--case"}, "names '" + name + "'",
                        "its runs go to a folder of that name");
-    std::vector<std::string> split = CLI::detail::split_up(rest);
-    for (std::string& word : split) CLI::detail::remove_quotes(word);
-    cases.push_back({name, split});
+    cases.push_back({name, words_of(rest)});
   }
   if (cases.empty()) cases.push_back({});
   return cases;

@@ -78,6 +78,14 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
+std::vector<EnsembleMember> members_in(const std::string& runs) {
+  try {
+    return read_ensemble(runs).members;
+  } catch (const InputError&) {  // parts stand for runs that are gone
+    return {};
+  }
+}
+
 // The runs that were evaluated, of runs/ or else of parts/: RUNOUT.json names them, others are left
 // from before. By seed and name.
 std::vector<RunPlace> evaluated_runs(const ResultFolder& folder, const Json& runout) {
@@ -85,11 +93,9 @@ std::vector<RunPlace> evaluated_runs(const ResultFolder& folder, const Json& run
   std::set<std::string> ids(listed.begin(), listed.end());
   const std::size_t n_wanted = ids.size();
   std::vector<RunPlace> found;
-  if (fs::exists(folder.path("runs")) && !fs::is_empty(folder.path("runs")))
-    for (const EnsembleMember& member : read_ensemble(folder.path("runs").string()).members)
-      if (ids.erase(member.run_id) > 0)
-        found.push_back(
-            {member.seed, folder.path("runs") / member.file, nullptr, 0, member.run_id});
+  for (const EnsembleMember& member : members_in(folder.path("runs").string()))
+    if (ids.erase(member.run_id) > 0)
+      found.push_back({member.seed, folder.path("runs") / member.file, nullptr, 0, member.run_id});
   for (const fs::path& file : files_in(folder.path("parts"))) {
     if (ids.empty()) break;
     const auto part = std::make_shared<const PartFile>(file.string());

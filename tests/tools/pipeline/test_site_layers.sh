@@ -58,12 +58,12 @@ sys.exit(subprocess.call(sys.argv[1:]))
 PY
 if python3 -c 'from osgeo import ogr' 2>/dev/null; then
   expect 0 python3 move.py make -C drawn BIN= -n fence
-  prints talus-dda
+  prints talus-batch
   if grep -q '^talus-blocks' out; then fail "another fence cuts the blocks again"; fi
 fi
 edit drawn "UPDATE fences SET height_m = 6"
 made drawn -n fence
-prints talus-dda
+prints talus-batch
 if grep -q '^talus-blocks' out; then fail "another height of a fence cuts the blocks again"; fi
 edit drawn "INSERT INTO places (geom, name) SELECT geom, 'school' FROM source"
 made drawn -n runs
