@@ -87,11 +87,12 @@ std::int64_t sample_of(const MadeWith& settings) {
 }
 
 std::string settings_digest(const RunInfo& info) {
+  static const std::set<std::string> keeps_frames = {"output.frames", "output.whole_share"};
   const MadeWith settings = made_with(info.config, info.made_with);
   Sha256 hash;
   const auto add = [&hash](const std::string& word) { hash.add(word.c_str(), word.size() + 1); };
   for (const auto& [name, value] : settings.values)
-    if (counts_for_runs(name, value) && !value.value.empty())
+    if ((counts_for_runs(name, value) || keeps_frames.contains(name)) && !value.value.empty())
       add(name), add(is_drawn(value) ? "drawn" : value.value);
   for (const std::string& ground : settings.grounds) add(ground);
   for (const std::string* word : {&info.case_name, &info.blocks_hash, &info.trn_sha256}) add(*word);

@@ -96,6 +96,11 @@ std::vector<RunPlace> evaluated_runs(const ResultFolder& folder, const Json& run
   for (const EnsembleMember& member : members_in(folder.path("runs").string()))
     if (ids.erase(member.run_id) > 0)
       found.push_back({member.seed, folder.path("runs") / member.file, nullptr, 0, member.run_id});
+  if (!ids.empty())  // of an evaluation by hand
+    for (const fs::path& file : files_in(folder.path("runs"))) {
+      const RunInfo info = read_run_head(file.string()).info;
+      if (ids.erase(info.run_id) > 0) found.push_back({info.seed, file, nullptr, 0, info.run_id});
+    }
   for (const fs::path& file : files_in(folder.path("parts"))) {
     if (ids.empty()) break;
     const auto part = std::make_shared<const PartFile>(file.string());
