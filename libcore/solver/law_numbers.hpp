@@ -252,14 +252,6 @@ inline constexpr int lone_free_steps = 6;
 inline constexpr int lone_halvings = 9;
 /// [promised gain] Least gain of a Newton step.
 inline constexpr double least_gain = 0.1;
-/// [stiffness] Softest stage when steps do not help ...
-inline constexpr double softest = 1.0 / 1024;
-/// [-] ... its growth from stage to stage ...
-inline constexpr double stiffening = 4;
-/// [start of the stage] ... and the residual of a stage before the last.
-inline constexpr double soft_goal = 1e-6;
-/// [-] Sweeps of Gauss and Seidel, when that fails too.
-inline constexpr int most_sweeps = 2000;
 
 // --- breakage ----------------------------------------------------------------------------------
 
