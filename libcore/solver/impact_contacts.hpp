@@ -52,7 +52,7 @@ struct ImpactRow {  // clang-format off
   double normal_damping = 0, shear_damping = 0;  ///< [kg]
   Vec3 expected = Vec3::Zero();        ///< impulse that the solution is sought around [N s]
   double missing_slip = 0;             ///< of the last round [m/s]
-  double slip = -1;                    ///< taken as known; < 0: it is not [m/s]
+  double slip = 0;                     ///< taken as known, in the convex form [m/s]
   Vec3 impulse = Vec3::Zero();         ///< [N s]
   Mat3 tangent = Mat3::Zero();         ///< - d impulse / d velocity [kg]
 };  // clang-format on

@@ -21,9 +21,8 @@ constexpr double settled = 1e-5;     // ... where a round hardly helps, for roun
 constexpr double tolerance = 1e-13;  // of the same: residual of the balance of momentum
 constexpr double loose_tolerance = 1e-7;  // ... where a step hardly helps
 constexpr double gain_rounding = 1e-12;   // of the kinetic energy: not a gain
-constexpr int most_rounds = 12;           // of expected impulses
-constexpr int convex_rounds = 15;         // ... in the convex form, before the other is tried ...
-constexpr int most_convex_tries = 8;      // ... so often
+constexpr int most_rounds = 12;           // of expected impulses ...
+constexpr int most_convex_rounds = 500;   // ... and in the convex form, where these do not settle
 constexpr double least_renewed = 0.05, most_renewed = 20;  // of what a slip misses
 constexpr int most_steps = 30, most_convex_steps = 100;    // of Newton in a round
 constexpr int whole_steps = 6;                             // before its line search
@@ -44,7 +43,7 @@ struct Solver {
   double rounding = 0;       // of velocities [m/s]
   double renewed = 1;        // share of what a slip misses that a round adds
   bool has_missing = false;  // of the round before
-  bool is_held = false;      // bounds of couples are those expected
+  bool is_convex = false;    // slips and the bounds of couples are those expected
   int passes = 0;
 
   [[nodiscard]] Vec6 of(const Eigen::VectorXd& v, int k) const { return v.segment<6>(6 * k); }
@@ -133,7 +132,7 @@ struct Solver {
     for (ImpactWork::Turn& turn : w.turns) {
       const Vec3 spin = v.segment<3>(6 * turn.body + 3) - turn.expected / turn.damping;
       turn.law.damping = turn.damping;
-      talus::evaluate(spin, is_held ? turn.held : turn.bounds, turn.law);
+      talus::evaluate(spin, is_convex ? turn.held : turn.bounds, turn.law);
       turn.couple = turn.law.couple;
       turn.tangent = tangent(turn.law);
       w.residual.segment<3>(6 * turn.body + 3) -= turn.couple;
@@ -144,7 +143,7 @@ struct Solver {
     for (const ImpactWork::Turn& turn : w.turns)
       w.matrix.diagonal[w.matrix.pattern.place[static_cast<size_t>(turn.body)]]
           .bottomRightCorner<3, 3>() += turn.tangent;
-    if (is_held) return;
+    if (is_convex) return;
     for (size_t i = 0; i < contacts.size(); ++i) {
       const ImpactContact& c = contacts[i];
       const Row& row = w.rows[i];
@@ -159,7 +158,7 @@ struct Solver {
   }
 
   // The law at velocity `u` of the contact's point: impulse and tangent.
-  static void evaluate(const ImpactContact& c, const Vec3& u, Row& row) {
+  void evaluate(const ImpactContact& c, const Vec3& u, Row& row) const {
     const Vec3& n = c.normal;
     const Mat3 across = Mat3::Identity() - n * n.transpose();
     if (c.is_bond) {
@@ -170,7 +169,7 @@ struct Solver {
     }
     row.impulse.setZero();
     row.tangent.setZero();
-    if (row.slip >= 0) return evaluate_convex(c, u, row);
+    if (is_convex) return evaluate_convex(c, u, row);
     const double pressed = n.dot(row.expected) - row.normal_damping * (n.dot(u) - row.target);
     if (pressed <= 0) return;
     const Vec3 trial = across * (row.shear_damping * u - row.expected);
@@ -336,7 +335,7 @@ struct Solver {
   }
 
   // One round: the velocities that belong to the expected impulses.
-  bool solve_round(bool is_convex) {
+  bool solve_round() {
     const double enough = tolerance * scale + rounding, nearly = loose_tolerance * scale + rounding;
     const int most = is_convex ? most_convex_steps : most_steps;
     double error = balance(w.velocity);
@@ -367,7 +366,7 @@ struct Solver {
     for (ImpactWork::Turn& turn : w.turns) {
       gives = std::max(gives, turn.lever * (turn.couple - turn.expected).norm() / turn.damping);
       turn.expected = turn.couple;
-      if (!is_held) continue;
+      if (!is_convex) continue;
       const double missing = std::abs(turn.bounds.rolling - turn.held.rolling) +
                              std::abs(turn.bounds.spinning - turn.held.spinning);
       gives = std::max(
@@ -380,16 +379,17 @@ struct Solver {
   // Rounds until no contact gives way any more, with ever stiffer contacts: what sticks, slides or
   // opens is found while they are soft. In the convex form slips are renewed with the impulses:
   // velocities do not depend on how contacts share impulses, so neither do they.
-  bool solve_rounds(bool is_convex, int most, double stiffness) {
-    double gives = 0, last = std::numeric_limits<double>::infinity();
+  bool solve_rounds() {
+    begin_rounds();
+    double gives = 0, last = std::numeric_limits<double>::infinity(), stiffness = first_stiffness;
     scale_stiffness(stiffness);
-    for (int round = 0; round < most; ++round) {
-      const bool solved = solve_round(is_convex);
+    for (int round = 0; round < (is_convex ? most_convex_rounds : most_rounds); ++round) {
+      const bool solved = solve_round();
       if (!solved && !is_convex) {
         gives = scale;
         break;
       }
-      gives = renew(is_convex);
+      gives = renew();
       if (solved && (gives <= round_tolerance * scale + rounding ||
                      (gives <= settled * scale && gives > last / 2)))
         break;
@@ -405,7 +405,7 @@ struct Solver {
   }
 
   // Impulses and slips found are those expected from now on: by how much they were not [m/s].
-  double renew(bool is_convex) {
+  double renew() {
     double gives = renew_couples(), along_change = 0, change = 0;
     for (size_t i = 0; i < contacts.size(); ++i) {
       Row& row = w.rows[i];
@@ -491,45 +491,23 @@ struct Solver {
 
   void begin_rounds() {
     w.velocity = w.before;
-    for (Row& row : w.rows) row.expected.setZero();
+    for (Row& row : w.rows) row.expected.setZero(), row.slip = 0;
     for (ImpactWork::Turn& turn : w.turns) {
       turn.expected.setZero();
       turn.held = {};
     }
-  }
-
-  void set_form(bool is_convex) {
-    for (Row& row : w.rows) row.slip = is_convex ? 0 : -1;
-    is_held = is_convex;
     has_missing = false;
     renewed = 1;
   }
 
   // Newton's method with friction that follows the normal impulses is quick, and fails where many
-  // contacts stick and slide. The convex form finds which do, and then it is quick again. What has
-  // not settled is nearly a solution, and whatever its slips are it gains no energy without
-  // restitution (theory 1.12).
+  // contacts stick and slide. The convex form then finds which do. What has not settled is nearly a
+  // solution, and whatever its slips are it gains no energy without restitution (theory 1.12).
   bool solve() {
     find_pattern();
-    begin_rounds();
-    set_form(false);
-    if (solve_rounds(false, most_rounds, first_stiffness)) return true;
-    begin_rounds();
-    set_form(true);
-    for (int k = 0; k < most_convex_tries; ++k) {
-      if (solve_rounds(true, convex_rounds, k == 0 ? first_stiffness : stiffness_ratio))
-        return true;
-      w.kept = w.rows;
-      w.kept_turns = w.turns;
-      w.kept_velocity = w.velocity;
-      set_form(false);
-      if (solve_rounds(false, most_rounds, stiffness_ratio / 100)) return true;
-      w.rows.swap(w.kept);
-      w.turns.swap(w.kept_turns);
-      is_held = true;
-      w.velocity.swap(w.kept_velocity);
-      has_missing = false;
-      renewed = 1;
+    for (const bool convex : {false, true}) {
+      is_convex = convex;
+      if (solve_rounds()) return true;
     }
     (void)balance(w.velocity);
     return false;

@@ -45,12 +45,12 @@ struct ImpactWork {  // clang-format off
     AngularRow law;                      ///< at the last evaluation
   };
   Workers* workers = nullptr;            ///< share the contacts of a large group
-  std::vector<Turn> turns, kept_turns;   ///< mostly none
+  std::vector<Turn> turns;               ///< mostly none
   std::vector<int> turn_of;              ///< of a body, -1: none; empty: no turns         (n_bodies)
   std::vector<Vec3> full_couple;         ///< with all of the restitution
-  std::vector<Row> rows, kept;           ///<                                            (n_contacts)
+  std::vector<Row> rows;                 ///<                                            (n_contacts)
   std::vector<Vec3> full_impulse;        ///< with all of the restitution                (n_contacts)
-  Eigen::VectorXd before, velocity, kept_velocity, full, tried, residual, step;  ///<   (6 n_bodies)
+  Eigen::VectorXd before, velocity, full, tried, residual, step;  ///<                  (6 n_bodies)
   FewContacts few;
   BlockLu<6> matrix;
   std::vector<std::pair<int, int>> edges;

@@ -76,9 +76,8 @@ void reserve_impacts(size_t n_contacts, ImpactScratch& scratch) {
   scratch.touching.reserve(n_contacts);
   scratch.hit.reserve(n_contacts);
   w.rows.reserve(n_contacts);
-  w.kept.reserve(n_contacts);
   w.full_impulse.reserve(n_contacts);
-  for (Eigen::VectorXd* v : {&w.full, &w.kept_velocity}) v->setZero(6);
+  w.full.setZero(6);
   ImpactBody body;  // an impact makes the rest
   body.per_mass = 1;
   body.velocity[2] = -1;
