@@ -26,7 +26,7 @@ void relax(double stiffness, int most_steps, IsOpen&& is_open, Advance&& advance
   for (int steps = 0; steps < most_steps && is_open(); ++steps) {
     const double left = advance(time);
     const double next = std::isfinite(left) ? std::sqrt(law::usually_left / left) : 0;
-    time *= std::clamp(next, 1 / law::longer, law::longer);
+    time *= std::clamp(next, 1 / law::largest_change, law::largest_change);
   }
 }
 

@@ -4,15 +4,13 @@
 #include <array>
 
 #include "contact/search.hpp"
+#include "solver/law_numbers.hpp"
 #include "step/soil.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
-
-constexpr int most_rounds = 40;   // in which contacts are hit at one time, one after the other
-constexpr double at_rest = 1e-9;  // of the fastest approach: a contact that does not part
 
 // The block in its own axes.
 ImpactBody body_of(const Scene& scene, size_t i, const Motion& motion, const Mat3& R) {
@@ -57,7 +55,8 @@ bool hit_once(std::span<const ImpactContact> touching, const HitSpeeds& speeds, 
   result.is_fast |= fastest > speeds.resting;
   scratch.hit.clear();
   for (const ImpactContact& contact : touching)
-    if (is_last || approach_of(body, contact) <= at_rest * fastest) scratch.hit.push_back(contact);
+    if (is_last || approach_of(body, contact) <= law::rounding * fastest)
+      scratch.hit.push_back(contact);
   if (is_last)
     for (ImpactContact& contact : scratch.hit) contact.restitution = 0;
   const Impact impact = solve_impact({&body, 1}, scratch.hit, scratch.solver);
@@ -104,8 +103,8 @@ ImpactResult apply_impact(const Scene& scene, int b, const HitSpeeds& speeds, Mo
   for (const Contact& found : work.contacts)
     scratch.touching.push_back(
         contact_of(scene, b, found, R, body, work.soil.slide, speeds.resting));
-  for (int round = 1; round <= most_rounds; ++round)
-    if (!hit_once(scratch.touching, speeds, round == most_rounds, body, scratch, result)) break;
+  for (int round = 1; round <= law::most_hits; ++round)
+    if (!hit_once(scratch.touching, speeds, round == law::most_hits, body, scratch, result)) break;
   if (!result.hit) return result;
   motion.velocity = R * body.velocity.head<3>();
   motion.angular_momentum =

@@ -146,9 +146,8 @@ void vary_friction(const GroundClass& ground, const Slide& slide, double speed, 
 
 void slide_on(const Scene& scene, const GroundClass& ground, int b, double speed, double time,
               double t, double h, State& state) {
-  constexpr double creeps = 1e-2;  // g h
   if (state.slid.empty()) return;
-  const double path = speed > creeps * scene.gravity.norm() * h ? time * speed : 0;
+  const double path = speed > law::island_tolerance * scene.gravity.norm() * h ? time * speed : 0;
   state.slid[static_cast<size_t>(b)] = {way_slid(slide_of(state, b, t), ground) + path, t + h};
 }
 

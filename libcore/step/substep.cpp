@@ -17,7 +17,7 @@ namespace {
 
 using std::size_t;
 
-using law::least_by_tolerance, law::most_by_turning, law::most_of_thickness, law::rebound_matters,
+using law::least_speed, law::shallow, law::most_of_thickness, law::rebound_matters,
     law::recovery_steps, law::same_law, law::stiffest_lone, law::touch_ratio;
 
 constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
@@ -25,9 +25,8 @@ constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::i
 // Below this approach there is no impact [m/s].
 double resting_speed(const Settings& settings, double g) {
   const double by_gravity = g * settings.dt;
-  return std::max({std::clamp(rebound_matters, law::resting_by_gravity * by_gravity,
-                              law::rebounds_by_gravity * by_gravity),
-                   least_by_tolerance * settings.tolerance_factor * by_gravity, 1e-6});
+  return std::max({std::clamp(rebound_matters, by_gravity, law::rebounds_by_gravity * by_gravity),
+                   least_speed * settings.tolerance_factor * by_gravity, 1e-6});
 }
 
 // The row that a remembered contact continues: same features, nearest normal.
@@ -69,7 +68,7 @@ double stiffness_to_bear(const ContactRow& row, double sag) {
 double softest_by_load(const BlockNumbers& c, double sag, double least, double stiffest,
                        const ContactRow& row) {
   const double k = std::clamp(stiffness_to_bear(row, sag), std::min(least, stiffest), stiffest);
-  const double far = std::max(law::most_sag_of_thickness * c.thickness, law::far_sag * sag);
+  const double far = std::max(law::sunk * c.thickness, law::far_sag * sag);
   return row.last_force > far * stiffest ? std::max(k, stiffness_to_bear(row, far)) : k;
 }
 
@@ -82,7 +81,7 @@ double stiffness_by_load(const BlockNumbers& c, double soft, double ready, doubl
   if (last > 0 && row.rests > 0)
     k = std::min(k, row.rests == law::most_rests ? last / law::relief : last);
   const bool moves = row.slip_speed > c.slow || row.speed_start > c.slow;
-  if (moves) k = std::min(k, last / law::softens);
+  if (moves) k = std::min(k, last / law::largest_change);
   return std::clamp(k, soft, std::max(soft, most));
 }
 
@@ -258,7 +257,7 @@ ContactRow& begin_row(const Scene& scene, int b, size_t i, const Mat3& to_row,
 bool comes_back_fast(const ContactMemory& memory, double approach, double h,
                      const BlockNumbers& c) {
   return memory.normal_force == 0 && memory.bond_area == 0 &&
-         -approach * h > law::far_in * c.thickness;
+         -approach * h > law::sunk * c.thickness;
 }
 
 Mat3 stretch_of(const State& state, int b) {
@@ -278,9 +277,8 @@ void inherit(const ContactMemory& memory, int index, bool same_features, const M
   const double jump = memory.gap_end - (row.gap_start + row.offset);
   if (jump > c.touch) {
     const bool by_turning = same_features || (to_row * memory.normal).dot(row.normal) > parallel;
-    const double limit = by_turning
-                             ? std::min(most_by_turning * c.radius, most_of_thickness * c.thickness)
-                             : no_limit;
+    const double limit =
+        by_turning ? std::min(shallow * c.radius, most_of_thickness * c.thickness) : no_limit;
     row.offset += std::min(
         {jump, std::max(0.0, -row.gap_start - row.offset), std::max(0.0, limit - row.offset)});
   }
@@ -354,9 +352,8 @@ BondCorner corner_of(const KeptContact& contact, const GroundClass& face, const 
 }
 
 double located_speed(const Scene& scene, const BlockNumbers& c, double speed) {
-  constexpr double of_resting = 2e-2;
   return std::min(c.resting_speed,
-                  std::max(scene.settings.accuracy * speed, of_resting * c.resting_speed));
+                  std::max(scene.settings.accuracy * speed, law::least_speed * c.resting_speed));
 }
 
 double time_to_touch(double gap, double speed, double gap_end, double touch, double h) {

@@ -87,8 +87,7 @@ struct SubstepAcceptance {
     if (contact.b >= 0) mass = std::min(mass, members.of(contact.b).mass);
     const double weight = mass * scene.gravity.norm();
     const double by_load = weight > 0 ? 2 - normal_force / (law::heavy * weight) : 0;
-    const double by_depth =
-        contact.offset / (law::relaxes_anyway * thickness_of(members, contact)) - 1;
+    const double by_depth = contact.offset / (law::sunk * thickness_of(members, contact)) - 1;
     return std::clamp(std::max(by_load, by_depth), 0.0, 1.0);
   }
 
@@ -113,7 +112,7 @@ struct SubstepAcceptance {
     const Vec3 normal = row.normal(), impulse = row.impulse();
     const bool was_hit = contact.hit >= 0;
     if (was_hit &&
-        (gives_way(system, r) || overlap <= law::remembered_hit * thickness_of(members, contact)))
+        (gives_way(system, r) || overlap <= law::shallow * thickness_of(members, contact)))
       return;
     const double p_n = normal.dot(impulse);
     std::vector<ContactMemory>& memories = state.memory[contact.a];

@@ -13,7 +13,7 @@ namespace {
 
 using std::size_t;
 
-using law::shortest_rest, law::stopping_stiffness, law::waits_within;
+using law::shortest_rest, law::stopping_stiffness, law::shallow;
 
 // Where member k is at the end of the substep without contact forces.
 PlacedMotion free_end(const FreeMotions& free, size_t k) {
@@ -291,7 +291,7 @@ int close_waiting(const IslandMembers& members, const FreeMotions& free, IslandS
     const double speed =
         normal.dot(relative(system, r, [&](size_t k) { return system.island.velocity[k]; }));
     if (speed < -members.of(contact.a).located_speed &&
-        (members.locates_hits || gap_end > -waits_within * thickness_of(members, contact)))
+        (members.locates_hits || gap_end > -shallow * thickness_of(members, contact)))
       return false;  // hit in the next substep
     stop(members, free, r, contact.gap_start, free.h, system, hits);
     return true;

@@ -17,8 +17,8 @@ namespace {
 
 using std::size_t;
 
-using law::after_hit, law::deep_end, law::deepened, law::most_deep_cuts, law::most_halvings,
-    law::most_used_up_cuts, law::pair_touch_ratio;
+using law::after_hit, law::deep_end, law::sunk, law::most_rounds_in_substep, law::most_halvings,
+    law::most_repetitions, law::pair_touch_ratio;
 
 /// Checks a substep; a struct so that its parts share what they all read.
 struct SubstepCheck {
@@ -45,7 +45,7 @@ struct SubstepCheck {
           contact.gap_start +
           row_of(system, hit.contact).normal().dot(path_of_contact(system, end, hit.contact));
       const double thickness = thickness_of(members, contact);
-      if (gap_end < std::min(-deep_end * thickness, contact.gap_start - deepened * thickness))
+      if (gap_end < std::min(-deep_end * thickness, contact.gap_start - sunk * thickness))
         first = std::min(first, hit.time + after_hit * free.h);
     }
     return first;
@@ -220,7 +220,7 @@ struct SubstepCheck {
     if (!converged && tries.halvings < most_halvings)
       return SubstepVerdict::again(unconverged, h / 2);
     set_displacements(free.h, system, hits, end.displacement);
-    if (tries.deep_cuts < most_deep_cuts)
+    if (tries.deep_cuts < most_rounds_in_substep)
       if (const double first = std::min(end_of_deepening_hit(), end_of_throw_into_ground());
           first < h)
         return SubstepVerdict::again(SubstepCut::deep, first);
@@ -234,7 +234,7 @@ struct SubstepCheck {
     find_pushes();
     const double used_up = std::min(time_to_first_break(scene, state.yielding, end.pushes, h),
                                     time_to_stop(scene, members, system, h));
-    if (used_up < h && tries.used_up_cuts < most_used_up_cuts)
+    if (used_up < h && tries.used_up_cuts < most_repetitions)
       return SubstepVerdict::again(yielding_used_up, used_up);
     return SubstepVerdict::accept();
   }

@@ -208,8 +208,7 @@ struct ContactMaker {
     const double to_lighter = ca.mass / std::min(ca.mass, cb.mass);
     const bool rest = ca.rests && cb.rests;
     const auto stiffness = [&](const BlockNumbers& c) {
-      return c.rests && !rest ? c.stiffness * (law::stiffest_in_island / law::stiffest_at_rest)
-                              : c.stiffness;
+      return c.rests && !rest ? c.stiffness * (1 / law::stiffest_at_rest) : c.stiffness;
     };
     meeting.numbers.stiffness = std::max(stiffness(ca), stiffness(cb)) * to_lighter;
     meeting.numbers.least_stiffness =
@@ -230,7 +229,7 @@ struct ContactMaker {
     if (approach < -c.resting_speed) {
       if (row.gap_start > c.touch) return false;
       if (comes_back_fast(then, approach, free.h, c)) return false;
-      if (!same_features && then.gap_end - then.offset - row.gap_start > law::far_deeper * c.radius)
+      if (!same_features && then.gap_end - then.offset - row.gap_start > law::shallow * c.radius)
         return false;
     }
     inherit(then, memory, same_features, Mat3::Identity(), c, row);

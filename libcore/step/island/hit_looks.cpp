@@ -16,7 +16,7 @@ namespace {
 
 using std::size_t;
 
-using law::hit_window, law::most_looks_for_time, law::most_pair_looks, law::one_time, law::parts,
+using law::hit_window, law::most_looks_for_time, law::most_pair_looks, law::rounding,
     law::support_drives, law::walk_on;
 
 // When a gap of `g` > 0 that closes at `v` and is `gap_end` after `h` is zero, its speed taken as
@@ -249,7 +249,7 @@ void HitLooks::take_due(std::vector<PairLook>& due) const {
     }
     if (!due.empty()) {
       const double after = next.time - due.front().time;
-      if (after > one_time * free.h && after * next.speed > hit_window * size_of(p)) return;
+      if (after > rounding * free.h && after * next.speed > hit_window * size_of(p)) return;
     }
     PairLook look = pop();
     if (!due.empty()) look.time = due.front().time;
@@ -394,7 +394,7 @@ void HitLooks::look_at(const PairLook& look) const {
   for (const TouchingContact& touching : hits.touching)
     if (touching.gap <= below) fastest = std::max(fastest, -touching.of.approach);
   for (const TouchingContact& touching : hits.touching)
-    if (touching.gap <= below && touching.of.approach <= parts * fastest)
+    if (touching.gap <= below && touching.of.approach <= rounding * fastest)
       hits.batch.push_back(touching);
 }
 

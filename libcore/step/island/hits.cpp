@@ -12,7 +12,7 @@ namespace {
 
 using std::size_t;
 
-using law::most_hit_rounds, law::most_pair_hits;
+using law::most_hits, law::most_pair_hits;
 
 /// Finds the hits of a substep; a struct so that its parts share what they all fill.
 struct HitPhase {
@@ -250,7 +250,7 @@ struct HitPhase {
     }
     if (system.has_bonds) add_bonds(time);
     hit_since = std::max(hit_since, hits.changed.size());
-    const bool stops = rounds >= most_hit_rounds + 2 * static_cast<int>(hit_since);
+    const bool stops = rounds >= most_hits + 2 * static_cast<int>(hit_since);
     note_hits(time);
     if (stops)
       for (const TouchingContact& touching : hits.batch) hits.is_closed[touching.pair] = 1;

@@ -10,7 +10,7 @@ namespace {
 
 using std::size_t;
 
-using law::island_tolerance, law::linear_tolerance, law::motion_tolerance, law::most_closing_rounds,
+using law::island_tolerance, law::relative_tolerance, law::most_rounds_in_substep,
     law::rest_tolerance, law::small_tolerance;
 
 double fastest(const FreeMotions& free) {
@@ -31,11 +31,11 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
   settings.tolerance = small_tolerance * by_gravity;
   settings.direct_bodies = members.is_small ? static_cast<int>(members.size()) : 0;
   if (!members.is_small) {
-    settings.tolerance = std::clamp(motion_tolerance * fastest(free), rest_tolerance * by_gravity,
+    settings.tolerance = std::clamp(relative_tolerance * fastest(free), rest_tolerance * by_gravity,
                                     island_tolerance * by_gravity);
     // a pile at rest is solved to far below what gravity does: good directions spare it steps
-    settings.linear_tolerance = std::clamp(settings.tolerance / by_gravity,
-                                           law::linear_tolerance_at_rest, linear_tolerance);
+    settings.linear_tolerance =
+        std::clamp(settings.tolerance / by_gravity, law::relative_tolerance, island_tolerance);
   }
   settings.tolerance *= scene.settings.tolerance_factor;
   const IslandResult solved = solve_island(system.island, settings, solver);
@@ -88,7 +88,7 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
     solve(scene, members, free, continues, system, hits, solver, solution);
     return solution.converged;
   };
-  for (int round = 0; round < most_closing_rounds; ++round) {
+  for (int round = 0; round < most_rounds_in_substep; ++round) {
     if (!solve_on(round > 0)) return;
     // at the start nobody knows what contacts bear
     const int settlings = round == 0 && free.t == 0 ? law::most_settlings : 0;

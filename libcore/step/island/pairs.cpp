@@ -92,7 +92,7 @@ void search_marked(const Scene& scene, double h, State& state, PairSearch& searc
   settings.closing = mass_reach(scene, h) + scene.gravity.norm() * h * h;
   search.in_mass.clear();
   for (const MassShare& share : state.mass) search.in_mass.push_back(share.is_in_mass ? 1 : 0);
-  settings.graze_m = scene.gravity.norm() * h * h / law::stiffest_in_island;
+  settings.graze_m = scene.gravity.norm() * h * h;
   const std::span<const Pose> poses = search.poses;
   const bool none_placed = state.placed.turned.size() != poses.size();
   const OwnShifts own(scene, state);

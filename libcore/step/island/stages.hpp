@@ -49,7 +49,7 @@ void see_size(const Scene& scene, const State& state, const PairSearch& search,
 void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
                       std::span<const int> manifolds, int eased, IslandMembers& members);
 /// Fills IslandMembers::locates_hits and the members' located speed. Hits end a substep in islands
-/// of at most law::small_island blocks, but for those between blocks that nothing presses, until
+/// of at most law::few_blocks blocks, but for those between blocks that nothing presses, until
 /// the step has had too many.
 void locate_hits(const Scene& scene, const State& state, const SubstepTries& tries,
                  IslandMembers& members);

@@ -57,7 +57,8 @@ struct Advance {
   bool breaks_bonds = false;  // of the substep under way; what is left is in work.unbonded
   double last_h = 0;          // of the substep before [s]
   double longest_h = 0;       // the next one is not tried longer, because of its error [s]
-  int most_tries = law::most_tries;  // of a substep; fewer once no forces were found in the step
+  int most_tries =
+      law::most_repetitions;  // of a substep; fewer once no forces were found in the step
 
   [[nodiscard]] size_t i() const { return static_cast<size_t>(b); }
   Motion& motion() { return state.motion[i()]; }
@@ -280,7 +281,7 @@ struct Advance {
   // Whether a vertex or an edge has gone through a ridge in a substep, so that the contacts at its
   // end say nothing of that. No use to ask where hardly anything moved.
   [[nodiscard]] bool goes_through_ridge(const Substep& s) {
-    if (s.h * top_speed() < law::short_move * c.thickness) return false;
+    if (s.h * top_speed() < law::shallow * c.thickness) return false;
     for (const ContactRow& row : work.rows)
       if (came_through_ridge(scene, c, s, work.contacts[row.contact], row)) return true;
     return depth_past_ridge(scene.ground, scene.blocks.shapes, b, work.world_vertices,
@@ -473,7 +474,7 @@ struct Advance {
     int events = 0, flights = 0;
     bool was_hit = false;
     const auto count_event = [&] {
-      if (++events > law::most_events) c.resting_speed *= 2;
+      if (++events > law::most_hits) c.resting_speed *= 2;
     };
     last_h = t_end - state.time;
     longest_h = no_normal_limit;

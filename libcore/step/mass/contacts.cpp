@@ -141,9 +141,9 @@ struct MassMaker {
       if (stiffness > law::same_law * then->stiffness)
         left += (1 - then->stiffness / stiffness) * std::max(0.0, -(motion.gap + left));
     }
-    const double deep = std::clamp(left / (law::relaxes_anyway * faces.thickness) - 1, 0.0, 1.0);
+    const double deep = std::clamp(left / (law::sunk * faces.thickness) - 1, 0.0, 1.0);
     const double relaxed = offset_relaxed(scene.gravity.norm(), free.h);
-    return std::max(0.0, left - relaxed - deep * (free.h * mass::fastest_push - relaxed));
+    return std::max(0.0, left - relaxed - deep * (free.h * law::fastest_relaxing - relaxed));
   }
 
   // Velocity below which the row presses, less that of its point.

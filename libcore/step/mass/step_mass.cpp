@@ -16,7 +16,7 @@ MassSettings settings_of(const Scene& scene, const MassShare& share, double h, W
   MassSettings settings;
   settings.sweeps = mass_sweeps(scene.settings.accuracy);
   settings.most_sweeps = std::max(settings.sweeps, mass::most_sweeps);
-  settings.settled = mass::settled * scene.gravity.norm() * h;
+  settings.settled = law::least_speed * scene.gravity.norm() * h;
   settings.compliance = mass_compliance(scene, share);
   settings.shear_ratio = scene.settings.shear_ratio;
   settings.workers = workers;
@@ -65,7 +65,7 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
     report.passes += w.solved.sweeps;
     const StageTimer timer(island.clock, IslandStage::accept);
     const double used_up = time_to_first_break(scene, state.yielding, w.pushes, h);
-    if (used_up < h && cuts < law::most_used_up_cuts) {
+    if (used_up < h && cuts < law::most_repetitions) {
       ++report.cuts[static_cast<std::size_t>(SubstepCut::yielding_used_up)];
       h = used_up;
       continue;
