@@ -251,7 +251,7 @@ int relist(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& moti
   box_parts(hulls, placed, motion, state, work.boxes);
   work.close.clear();
   if (motion.free_meet)
-    find_overlaps(work.boxes, std::span(hulls.body).first(work.boxes.size()), {}, work.overlaps,
+    find_overlaps(work.boxes, std::span(hulls.body).first(work.boxes.size()), work.strips,
                   work.close);
   const int n_near =
       motion.n_fixed > 0 ? add_fixed_pairs(hulls, placed, motion, state, arrangement, work) : 0;
