@@ -372,29 +372,17 @@ void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s,
 
 namespace {
 
-// Class of the ground below a point; `otherwise` off the grid.
-int class_below(const Ground& ground, const Vec3& x, int otherwise) {
-  if (!contains(ground.trn, x.x(), x.y())) return otherwise;
-  return class_of(ground, triangle_at(ground.trn, x.x(), x.y()));
-}
-
-// Friction of a vertex that ends on another class of ground than it starts on: the mean over its
-// path, so that where the class changes within the substep is not rounded to its end.
+// Friction of a vertex: the mean over its displacement, so that where the class of the ground
+// changes within the substep is not rounded to its end.
 double friction_on_path(const Scene& scene, const Substep& s, const Contact& contact) {
-  constexpr int halvings = 20;
   const std::vector<GroundClass>& classes = scene.ground.classes;
-  const int last = contact.ground_class;
-  const Vec3 from = place(s.start.pose, contact.point_a), to = place(s.free.pose, contact.point_a);
-  const int first = class_below(scene.ground, from, last);
-  const double at_end = classes[static_cast<size_t>(last)].friction;
-  if (first == last) return at_end;
-  double low = 0, high = 1;  // shares of the path: still on the first class, no longer on it
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = (low + high) / 2;
-    const bool is_first = class_below(scene.ground, from + middle * (to - from), last) == first;
-    (is_first ? low : high) = middle;
-  }
-  return high * classes[static_cast<size_t>(first)].friction + (1 - high) * at_end;
+  double sum = 0, left = 1;
+  for_each_class_below(scene.ground, place(s.start.pose, contact.point_a),
+                       place(s.free.pose, contact.point_a), [&](int ground, double share) {
+                         sum += share * classes[static_cast<size_t>(ground)].friction;
+                         left -= share;
+                       });
+  return sum + left * classes[static_cast<size_t>(contact.ground_class)].friction;
 }
 
 // Where the contacts are and how their points move without contact forces.
