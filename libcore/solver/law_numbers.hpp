@@ -15,8 +15,6 @@ namespace talus::law {
 
 // --- scales that many rules share --------------------------------------------------------------
 
-/// [-] Less than this part of a time, a speed or a capacity is rounding.
-inline constexpr double rounding = 1e-9;
 /// [thickness] Shallow: a hit that ends deeper is remembered (Tried: none; edges that slide while
 /// they turn are hit anew in every step, each time with all overlap as an offset), one of the next
 /// substep goes no deeper, bodies with more overlap are measured, a displacement counts as no less

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "contact/scales.hpp"
 #include "contact/search.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/soil.hpp"
@@ -55,8 +56,7 @@ bool hit_once(std::span<const ImpactContact> touching, const HitSpeeds& speeds, 
   result.is_fast |= fastest > speeds.resting;
   scratch.hit.clear();
   for (const ImpactContact& contact : touching)
-    if (is_last || approach_of(body, contact) <= law::rounding * fastest)
-      scratch.hit.push_back(contact);
+    if (is_last || approach_of(body, contact) <= rounding * fastest) scratch.hit.push_back(contact);
   if (is_last)
     for (ImpactContact& contact : scratch.hit) contact.restitution = 0;
   const Impact impact = solve_impact({&body, 1}, scratch.hit, scratch.solver);

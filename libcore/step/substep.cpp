@@ -333,9 +333,8 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
 }
 
 void hold(const GroundClass& face, double recovery_time, ContactRow& row) {
-  constexpr double without_limit = 1e100;
-  row.cohesion = without_limit;
-  row.tension = face.tension > 0 ? without_limit : 0;
+  row.cohesion = no_normal_limit;
+  row.tension = face.tension > 0 ? no_normal_limit : 0;
   row.bias = (row.gap_start + row.offset) / recovery_time;
 }
 

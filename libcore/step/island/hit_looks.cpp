@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/scales.hpp"
 #include "motion/rotation.hpp"
 #include "scene/fence.hpp"
 #include "solver/law_numbers.hpp"
@@ -16,8 +17,8 @@ namespace {
 
 using std::size_t;
 
-using law::hit_window, law::most_looks_for_time, law::most_pair_looks, law::rounding,
-    law::support_drives, law::walk_on;
+using law::hit_window, law::most_looks_for_time, law::most_pair_looks, law::support_drives,
+    law::walk_on;
 
 // When a gap of `g` > 0 that closes at `v` and is `gap_end` after `h` is zero, its speed taken as
 // linear.
