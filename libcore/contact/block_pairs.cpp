@@ -11,11 +11,9 @@ namespace talus {
 namespace {
 
 constexpr double look_now = -std::numeric_limits<double>::infinity();
-constexpr double passing_ratio = 1e-4;       // ... by more than this in a step
-constexpr double steps_ahead = 20;           // ... and along the motion of so many steps ahead ...
-constexpr double farthest_ahead = 0.5;       // ... up to this part of its radius
-constexpr std::size_t pairs_a_thread = 256;  // of the list, that a thread looks at in one go ...
-constexpr std::size_t most_looks = 64;       // ... in no more parts
+constexpr double passing_ratio = 1e-4;  // ... by more than this in a step
+constexpr double steps_ahead = 20;      // ... and along the motion of so many steps ahead ...
+constexpr double farthest_ahead = 0.5;  // ... up to this part of its radius
 
 int n_free(const Hulls& hulls, const PairMotion& motion) {
   return n_bodies(hulls) - motion.n_fixed;
@@ -527,11 +525,10 @@ void look_at_list(const Hulls& hulls, const PlacedHulls& placed, const PairMotio
   };
   const std::size_t n = state.watch.size();
   // an arrangement is one at a time
-  const bool is_shared = settings.workers != nullptr && motion.own == nullptr && n > pairs_a_thread;
-  const std::size_t chunk = std::max(pairs_a_thread, n / most_looks + 1);
-  const std::size_t n_looks = is_shared ? (n + chunk - 1) / chunk : 1;
+  Workers* const workers = motion.own == nullptr ? settings.workers : nullptr;
+  const std::size_t n_looks = talus::n_parts(workers, n);
   if (work.looks.size() < n_looks) work.looks.resize(n_looks);
-  if (!is_shared) {
+  if (n_looks == 1) {
     ListLook& look = work.looks[0];
     look_over(look, 0, n, false);
     work.manifolds.swap(look.manifolds);
@@ -542,8 +539,8 @@ void look_at_list(const Hulls& hulls, const PlacedHulls& placed, const PairMotio
     report.n_clipped = look.n_clipped;
     return;
   }
-  settings.workers->run(static_cast<std::uint32_t>(n_looks), [&](std::uint32_t i) {
-    look_over(work.looks[i], i * chunk, std::min((i + 1) * chunk, n), true);
+  in_parts(workers, n, [&](std::size_t i, std::size_t begin, std::size_t end) {
+    look_over(work.looks[i], begin, end, true);
   });
   join_looks(std::span(work.looks).first(n_looks), state, work, report);
 }

@@ -346,18 +346,16 @@ void place_one(const Hulls& hulls, int b, const Pose& pose, const Mat3* stretch,
 
 void place_hulls(const Hulls& hulls, std::span<const Pose> poses, std::span<const Mat3> stretch,
                  std::span<const std::uint8_t> moving, PlacedHulls& placed, Workers* workers) {
-  constexpr std::size_t bodies_a_thread = 128;
   const bool first = placed.turned.size() != hulls.radius.size();
   if (first) resize(hulls, placed);
   TALUS_ASSERT(!first || poses.size() == hulls.radius.size());
-  in_chunks(workers, poses.size(), bodies_a_thread, 2 * bodies_a_thread,
-            [&](std::size_t begin, std::size_t end) {
-              for (std::size_t b = begin; b < end; ++b) {
-                if (!first && !moving.empty() && moving[b] == 0) continue;
-                place_one(hulls, static_cast<int>(b), poses[b],
-                          stretch.empty() ? nullptr : &stretch[b], first, placed);
-              }
-            });
+  in_chunks(workers, poses.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      if (!first && !moving.empty() && moving[b] == 0) continue;
+      place_one(hulls, static_cast<int>(b), poses[b], stretch.empty() ? nullptr : &stretch[b],
+                first, placed);
+    }
+  });
 }
 
 void place_body(const Hulls& hulls, int b, const Pose& pose, PlacedHulls& placed) {

@@ -29,8 +29,6 @@ constexpr int whole_steps = 6;                             // before its line se
 
 constexpr int most_turns = 12;  // of Newton, for one contact alone
 
-constexpr size_t least_shared = 128;  // contacts: below, threads wait more than they spare
-
 using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
 
@@ -220,9 +218,9 @@ struct Solver {
       w.residual.segment<3>(at + 3) = bodies[k].inertia * dv.tail<3>();
     }
     const auto find = [&](size_t i) { evaluate(contacts[i], point_velocity(v, i), w.rows[i]); };
-    const bool shared = w.workers != nullptr && contacts.size() >= least_shared;
+    const bool shared = are_shared(w.workers, contacts.size());
     if (shared)
-      in_chunks(w.workers, contacts.size(), 16, least_shared, [&](size_t begin, size_t end) {
+      in_chunks(w.workers, contacts.size(), [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) find(i);
       });
     for (size_t i = 0; i < contacts.size(); ++i) {

@@ -17,8 +17,6 @@ using std::size_t;
 
 using law::slack;
 
-constexpr size_t least_shared = 128;  // pairs: below, threads wait more than they spare
-
 /// One solve; a struct so that its parts share what they all need.
 struct Solve {
   Island& island;
@@ -104,7 +102,7 @@ struct Solve {
     }
   }
 
-  using FewPairs = std::array<PairEvaluation, 32>;  // few enough to stay near
+  using FewPairs = std::array<PairEvaluation, chunk_size>;  // few enough to stay near
 
   [[gnu::always_inline]] void evaluate_few(std::span<const int> pairs, Evaluation evaluation,
                                            FewPairs& now) {
@@ -127,8 +125,7 @@ struct Solve {
 
   // Contacts of active bodies; what a body at rest had from them before is replaced.
   [[gnu::flatten]] void evaluate_contacts(std::span<const int> pairs, Evaluation evaluation) {
-    if (work.matrix.workers != nullptr && pairs.size() >= least_shared)
-      return evaluate_shared(pairs, evaluation);
+    if (are_shared(work.matrix.workers, pairs.size())) return evaluate_shared(pairs, evaluation);
     FewPairs now;
     for (size_t begin = 0; begin < pairs.size(); begin += now.size()) {
       const auto some = pairs.subspan(begin, std::min(now.size(), pairs.size() - begin));
@@ -142,7 +139,7 @@ struct Solve {
   void evaluate_shared(std::span<const int> pairs, Evaluation evaluation) {
     std::vector<PairImpulse>& found = work.evaluated;
     if (found.size() < pairs.size()) found.resize(pairs.size());
-    in_chunks(work.matrix.workers, pairs.size(), std::tuple_size_v<FewPairs>, least_shared,
+    in_chunks(work.matrix.workers, pairs.size(),
               [&](size_t begin, size_t end) { evaluate_part(pairs, begin, end, evaluation); });
     for (size_t i = 0; i < pairs.size(); ++i)
       take_impulse(pairs[i], found[i].changed, found[i].impulse);
