@@ -74,8 +74,6 @@ void reserve_impacts(size_t n_contacts, ImpactScratch& scratch) {
   ImpactWork& w = scratch.solver;
   scratch.touching.reserve(n_contacts);
   scratch.hit.reserve(n_contacts);
-  w.rows.reserve(n_contacts);
-  w.full_impulse.reserve(n_contacts);
   w.full.setZero(6);
   ImpactBody body;  // an impact makes the rest
   body.per_mass = 1;

@@ -44,7 +44,7 @@ struct SubstepAcceptance {
     const Vec3 path = path_of_impulse(members, free, system, hits, r);
     const double loss = -p_n * normal.dot(path);  // < 0: others drove its bodies apart
     if (!gives_way(system, r))
-      (contact.hit >= 0 && loss > 0 ? state.ledger.impact : state.ledger.contact) += loss;
+      (contact.is_hit() && loss > 0 ? state.ledger.impact : state.ledger.contact) += loss;
     state.ledger.friction -= p_t.dot(path);
     if (state.load.empty()) return;
     add_load(scene, contact.a, normal, p_n, impulse, state);
@@ -53,7 +53,7 @@ struct SubstepAcceptance {
 
   // Normal energy that the contact of a hit took; below zero where others drove its bodies apart.
   [[nodiscard]] double hit_loss_of(size_t r) const {
-    if (system.contacts[r].hit < 0 || system.contacts[r].waits || gives_way(system, r) ||
+    if (!system.contacts[r].is_hit() || system.contacts[r].waits || gives_way(system, r) ||
         row_of(system, r).state() == ContactState::open)
       return 0;
     const ConstIslandRow row = row_of(system, r);
@@ -64,14 +64,14 @@ struct SubstepAcceptance {
   // Calls take(block a, block b, loss) for every contact that was hit, and where hits were stopped.
   template <class Take>
   void for_each_hit_loss(const Take& take) const {
-    for (const HitImpulse& hit : hits.impulses) take(hit.a, hit.b, hit.loss);
+    for (const ImpactContact& hit : hits.impulses) take(hit.a, hit.b, hit.loss);
     for (size_t r = 0; r < system.contacts.size(); ++r)
       take(system.contacts[r].a, system.contacts[r].b, hit_loss_of(r));
   }
 
   // Hits load their blocks too.
   void add_hit_loads() {
-    for (const HitImpulse& hit : hits.impulses) {
+    for (const ImpactContact& hit : hits.impulses) {
       const double p_n = std::max(0.0, hit.normal.dot(hit.impulse));
       add_load(scene, hit.a, hit.normal, p_n, hit.impulse, state);
       add_load(scene, hit.b, hit.normal, p_n, -hit.impulse, state);
@@ -110,7 +110,7 @@ struct SubstepAcceptance {
     const KeptContact& contact = system.contacts[r];
     const ConstIslandRow row = row_of(system, r);
     const Vec3 normal = row.normal(), impulse = row.impulse();
-    const bool was_hit = contact.hit >= 0;
+    const bool was_hit = contact.is_hit();
     if (was_hit &&
         (gives_way(system, r) || overlap <= law::shallow * thickness_of(members, contact)))
       return;
@@ -160,7 +160,7 @@ struct SubstepAcceptance {
         note_overlap(thinner_of(members, contact), overlap, thickness_of(members, contact), deep,
                      report);
       if (is_open) {
-        if (contact.hit >= 0 || contact.bond_area > 0) remember_contact(r, path, overlap);
+        if (contact.is_hit() || contact.bond_area > 0) remember_contact(r, path, overlap);
         continue;
       }
       const BodyPair& pair = system.island.pairs[contact.pair];
@@ -231,8 +231,8 @@ struct SubstepAcceptance {
 
   void move_all() {
     for (size_t k = 0; k < members.size(); ++k) move(k);
-    for (const Hit& hit : hits.hits)
-      for (const int b : {system.contacts[hit.contact].a, system.contacts[hit.contact].b})
+    for (const size_t r : hits.contacts_hit)
+      for (const int b : {system.contacts[r].a, system.contacts[r].b})
         if (b >= 0) forget_rates(scene, b, state);
     for (const int k : hits.hit_members.items) forget_rates(scene, members.blocks[k], state);
     state.ledger.impact += hits.dissipated;
@@ -247,13 +247,12 @@ struct SubstepAcceptance {
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
       if (contact.fixed < 0 || panel_number(scene, contact.fixed) < 0) continue;
-      if (contact.hit < 0 && (contact.waits || row_of(system, r).state() == ContactState::open))
+      if (!contact.is_hit() && (contact.waits || row_of(system, r).state() == ContactState::open))
         continue;
       const size_t k = members.at(contact.a);
       const Motion& before = free.substeps[k].start;
-      const Hit* hit = hit_of(system, hits, r);
       note_hit(scene, contact.a, contact.fixed, before.pose.position + contact.arm,
-               hit != nullptr ? free.t + hit->time : free.t, before, state.motion[members.block(k)],
+               free.t + std::max(0.0, contact.hit_time), before, state.motion[members.block(k)],
                state.fence);
     }
   }

@@ -66,10 +66,7 @@ void stop(const IslandMembers& members, const FreeMotions& free, size_t r, doubl
   KeptContact& contact = system.contacts[r];
   const IslandRow row = row_of(system, r);
   contact.waits = false;
-  if (contact.hit < 0) {
-    contact.hit = static_cast<int>(hits.hits.size());
-    hits.hits.push_back({r, free.h - rest, std::min(contact.approach, 0.0)});
-  }
+  note_hit(r, free.h - rest, system, hits);
   const Mobility W = relative_mobility(members, free, system, r);
   row.begin_open(stopping_stiffness / W.normal, stopping_stiffness / W.tangent);
   set_drift(drift_of(free, system, r), std::max(0.0, gap) / rest, Vec3::Zero(), row);
@@ -250,10 +247,6 @@ void take_hits(const HitLooks& looks, FreeMotions& free, IslandSystem& system, S
   const size_t n = looks.members.size();
   hits.pair_time.assign(system.island.pairs.size(), free.h / 2);
   hits.thrown.assign(n, Vec6::Zero());
-  for (size_t i = 0; i < hits.hits.size(); ++i) {
-    int& hit = system.contacts[hits.hits[i].contact].hit;
-    if (hit < 0) hit = static_cast<int>(i);
-  }
   for (const int k : hits.hit_members.items)
     take_member(looks, static_cast<size_t>(k), free, system, hits);
   if (!hits.hit_members.items.empty()) find_pressed(system, n, hits.is_pressed);

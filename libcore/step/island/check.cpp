@@ -39,14 +39,13 @@ struct SubstepCheck {
   // does.
   [[nodiscard]] double end_of_deepening_hit() const {
     double first = free.h;
-    for (const Hit& hit : hits.hits) {
-      const KeptContact& contact = system.contacts[hit.contact];
+    for (const size_t r : hits.contacts_hit) {
+      const KeptContact& contact = system.contacts[r];
       const double gap_end =
-          contact.gap_start +
-          row_of(system, hit.contact).normal().dot(path_of_contact(system, end, hit.contact));
+          contact.gap_start + row_of(system, r).normal().dot(path_of_contact(system, end, r));
       const double thickness = thickness_of(members, contact);
       if (gap_end < std::min(-deep_end * thickness, contact.gap_start - sunk * thickness))
-        first = std::min(first, hit.time + after_hit * free.h);
+        first = std::min(first, contact.hit_time + after_hit * free.h);
     }
     return first;
   }
@@ -84,10 +83,10 @@ struct SubstepCheck {
     for (size_t k = 0; k < members.size(); ++k) {
       if (!ends_in_ground(k)) continue;
       double first = h;
-      for (const Hit& hit : hits.hits) {
-        const KeptContact& contact = system.contacts[hit.contact];
+      for (const size_t r : hits.contacts_hit) {
+        const KeptContact& contact = system.contacts[r];
         if (contact.a == members.blocks[k] || contact.b == members.blocks[k])
-          first = std::min(first, hit.time);
+          first = std::min(first, contact.hit_time);
       }
       return first < h ? std::min(first + after_hit * h, h) : h / 2;
     }
@@ -125,7 +124,7 @@ struct SubstepCheck {
     if (!system.has_bonds) return false;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
-      if (contact.bond_area == 0 || contact.hit >= 0) continue;
+      if (contact.bond_area == 0 || contact.is_hit()) continue;
       const ConstIslandRow row = row_of(system, r);
       const Vec3 normal = row.normal();
       BondFace& face = face_of(contact.bond, contact.a, normal, end.bond_faces);

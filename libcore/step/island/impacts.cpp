@@ -53,7 +53,7 @@ bool stiffen_to_load(const IslandMembers& members, double h, IslandSystem& syste
   for (size_t r = 0; r < system.contacts.size(); ++r) {
     const KeptContact& contact = system.contacts[r];
     const IslandRow row = row_of(system, r);
-    if (contact.hit >= 0 || contact.waits || contact.bond_area != 0 || gives_way(system, r))
+    if (contact.is_hit() || contact.waits || contact.bond_area != 0 || gives_way(system, r))
       continue;
     const BlockNumbers& a = members.of(contact.a);
     double sag = a.sag, most = a.most_stiffness;
