@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "solver/law_numbers.hpp"
@@ -210,12 +211,18 @@ template <int Dof>
   }
 }
 
-// What steps of Newton do not find.
+// What steps of Newton do not find, to no less than the rounding of velocities and impulses.
 template <int Dof>
 NewtonResult solve_relaxing(BlockSystem<Dof>& system, std::span<ContactRow> rows, int most_steps) {
   double stiffness = 0;
-  for (const ContactRow& row : rows)
-    stiffness = std::max({stiffness, row.normal_damping, row.shear_damping});
+  const double free_speed = system.free_velocity.template head<3>().norm();
+  for (const ContactRow& row : rows) {
+    const double of_row = std::max(row.normal_damping, row.shear_damping) / system.mass(0, 0);
+    stiffness = std::max(stiffness, of_row);
+    system.tolerance =
+        std::max(system.tolerance, 8 * std::numeric_limits<double>::epsilon() *
+                                       (of_row * (std::abs(row.bias) + free_speed) + free_speed));
+  }
   NewtonResult result;
   Vec<Dof> r;
   const auto go_to = [&](const Vec<Dof>& velocity) {
@@ -223,7 +230,8 @@ NewtonResult solve_relaxing(BlockSystem<Dof>& system, std::span<ContactRow> rows
     r = residual(system, rows);
     ++result.passes;
   };
-  go_to(system.free_velocity);
+  go_to(system.velocity);
+  if (!is_small(system, r)) go_to(system.free_velocity);
   const auto advance = [&](double time) {
     const double before = size_of(system, r);
     const Vec<Dof> from = system.velocity;
@@ -234,7 +242,7 @@ NewtonResult solve_relaxing(BlockSystem<Dof>& system, std::span<ContactRow> rows
     return left;
   };
   const auto is_open = [&] { return !is_small(system, r); };
-  relax(stiffness / system.mass(0, 0), most_steps, is_open, advance);
+  relax(stiffness, most_steps, is_open, advance);
   result.converged = is_small(system, r);
   return result;
 }
