@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "motion/rotation.hpp"
-#include "scene/stems.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/accuracy.hpp"
 #include "step/island/stages.hpp"
 #include "step/island/stems.hpp"
 #include "step/substep.hpp"
+#include "step/substep_end.hpp"
 
 namespace talus {
 namespace {
@@ -145,35 +145,20 @@ struct SubstepCheck {
 
   // --- what gives way --------------------------------------------------------------------------
 
-  // How far a fixed body had been pushed when it was searched for a block.
-  [[nodiscard]] Vec3 pushed_before(int block, int fixed) const {
-    if (is_stem(scene, fixed))
-      return met_by_stem(scene, state, world_of(scene, block), stem_of(scene, fixed)).shift;
-    return search.poses[hull_of_fixed(scene, fixed)].position - scene.fixed.pose[fixed].position;
-  }
-
   // What the blocks do to the fixed bodies that give way.
   void find_pushes() const {
     end.pushes.clear();
     if (!anything_yields(scene)) return;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       if (!gives_way(system, r)) continue;
-      const KeptContact& contact = system.contacts[r];
       const ConstIslandRow row = row_of(system, r);
-      const Vec3 normal = row.normal();
-      const Yielding& yielding = *giving_way(scene, contact.fixed, normal);
-      YieldPush push;
-      push.along = yield_direction(yielding, normal);
-      const double p_n = row.normal_impulse(), cosine = normal.dot(push.along);
-      push.block = contact.a;
-      push.yielding = yielding_number(scene, contact.fixed);
-      push.work = -p_n * normal.dot(path_of_impulse(members, free, system, hits, r));
-      push.power = -p_n / free.h * contact.speed_start;
-      const double gap_end = contact.gap_start + normal.dot(path_of_contact(system, end, r));
-      if (p_n >= (1 - 1e-12) * row.normal_limit() || follows_block(scene, members, system, r))
-        push.shift = std::min(0.0, gap_end) * cosine;
-      push.to = push.shift + push.along.dot(pushed_before(contact.a, contact.fixed));
-      add_push(push, end.pushes);
+      const KeptContact& contact = system.contacts[r];
+      push(scene, state, end_of_contact(members, free, system, hits, r), free.h,
+           contact.speed_start,
+           row.normal_impulse() >= (1 - 1e-12) * row.normal_limit() ||
+               follows_block(scene, members, system, r),
+           contact.gap_start + row.normal().dot(path_of_contact(system, end, r)), search.poses,
+           end.pushes);
     }
   }
 
@@ -264,6 +249,21 @@ Vec3 path_of_impulse(const IslandMembers& members, const FreeMotions& free,
   path -= rest * free.substeps[members.at(contact.a)].free_acceleration;
   if (contact.b >= 0) path += rest * free.substeps[members.at(contact.b)].free_acceleration;
   return path;
+}
+
+ContactEnd end_of_contact(const IslandMembers& members, const FreeMotions& free,
+                          const IslandSystem& system, const SubstepHits& hits, size_t r) {
+  const KeptContact& contact = system.contacts[r];
+  const ConstIslandRow row = row_of(system, r);
+  return {contact.a,
+          contact.b,
+          contact.fixed,
+          row.normal(),
+          row.impulse(),
+          row.normal_impulse(),
+          path_of_impulse(members, free, system, hits, r),
+          contact.is_hit(),
+          gives_way(system, r)};
 }
 
 // The free motion, corrected (theory 1.8, 1.10).

@@ -1,5 +1,4 @@
 // Stage 4 of an island's step: each member without contact.
-#include "step/island/island_soil.hpp"
 #include "step/island/stages.hpp"
 #include "step/substep.hpp"
 

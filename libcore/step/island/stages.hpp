@@ -13,6 +13,7 @@
 #include "scene/state.hpp"
 #include "step/island/data.hpp"
 #include "step/report.hpp"
+#include "step/substep_end.hpp"
 #include "step/work.hpp"
 
 namespace talus {
@@ -125,6 +126,10 @@ void set_displacements(double h, const IslandSystem& system, const SubstepHits& 
 [[nodiscard]] Vec3 path_of_impulse(const IslandMembers& members, const FreeMotions& free,
                                    const IslandSystem& system, const SubstepHits& hits,
                                    std::size_t r);
+/// Contact `r` at the end of the substep, where it presses.
+[[nodiscard]] ContactEnd end_of_contact(const IslandMembers& members, const FreeMotions& free,
+                                        const IslandSystem& system, const SubstepHits& hits,
+                                        std::size_t r);
 /// Motion of member k at the end of the substep.
 [[nodiscard]] Motion end_of(const IslandMembers& members, const FreeMotions& free,
                             const IslandSystem& system, const SubstepEnd& end, std::size_t k);

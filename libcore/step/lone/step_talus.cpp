@@ -14,6 +14,7 @@
 #include "step/loads.hpp"
 #include "step/lone/lone_soil.hpp"
 #include "step/lone/lone_substep.hpp"
+#include "step/substep_end.hpp"
 
 namespace talus {
 namespace {
@@ -69,32 +70,7 @@ struct Advance {
   void finish(const Substep& s, const Motion& end, double t, double t_next) {
     add_segment(b, state.memory[i()].empty(), t, s.h, s.start, end, work.segments);
     set_support(scene, b, (end.velocity - s.free.velocity) / s.h, state);
-    const Vec3 external = s.free_acceleration - scene.gravity;
-    if (!external.isZero(0))
-      state.ledger.base += c.mass * external.dot(end.pose.position - s.start.pose.position);
-    if (any_drags(scene)) {
-      drag(s, end);
-    } else {
-      motion() = end;
-    }
-    state.local_time[i()] = t_next;
-    report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, s.h) : s.h;
-    ++report.substeps;
-  }
-
-  // Drag acts for half of the substep at its start, and for half at its end; that of the ground
-  // where something presses the block then.
-  Motion dragged(const Motion& from, const HalfWay& half, double h) {
-    return after_drag(scene, b, from, half, !state.memory[i()].empty(), h / 2);
-  }
-  Motion dragged_at_start(double h) {
-    return any_drags(scene) ? dragged(motion(), first_half(motion(), h), h) : motion();
-  }
-  void drag(const Substep& s, const Motion& end) {
-    const auto energy = [this](const Motion& m) { return kinetic_energy(scene, i(), m); };
-    state.ledger.drag += energy(motion()) - energy(s.start);
-    motion() = dragged(end, second_half(motion(), s.h, end), s.h);
-    state.ledger.drag += energy(end) - energy(motion());
+    end_block(scene, b, c, s, end, !state.memory[i()].empty(), t_next, state, report);
   }
 
   // True when the block is hit where it is. The gap of edges over a substep is not quite linear:
@@ -205,7 +181,7 @@ struct Advance {
   // Substep of h from t; h is shortened to the first impact or when the forces do not converge.
   template <int Dof>
   Attempt attempt(double t, double& h, bool last) {
-    Substep s = predict(scene, b, c, dragged_at_start(h), t, h);
+    Substep s = predict(scene, b, c, begin_drag(scene, state, i(), h), t, h);
     if constexpr (Dof == 12) {
       s.is_straining = true;
       s.straining = strain_tensor(state.strain_rate[i()]);
