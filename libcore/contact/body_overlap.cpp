@@ -11,7 +11,6 @@ namespace talus {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double across = 1e-12;  // cosine: an axis across a displacement; [m]: one place
 
 // No more than this are two parts in each other: what their faces say, a fraction of all axes.
 double depth_by_faces(const PartPair& parts) {
@@ -56,9 +55,9 @@ void range_along(const BodyOverlapScratch& scratch, std::size_t pair, const Vec3
   for (int k = scratch.begin[pair]; k < scratch.begin[pair + 1]; ++k) {
     const WayOut& way = scratch.ways[k];
     const double rate = way.axis.dot(direction);
-    if (rate > across)
+    if (rate > last_figures)
       end = std::min(end, way.depth / rate);
-    else if (rate < -across)
+    else if (rate < -last_figures)
       begin = std::max(begin, way.depth / rate);
     else if (way.depth <= 0)
       begin = infinity;
@@ -78,7 +77,7 @@ double path_along(const BodyOverlapScratch& scratch, std::size_t first, const Ve
     for (std::size_t pair = 0; pair + 1 < scratch.begin.size(); ++pair) {
       double begin = 0, end = 0;
       range_along(scratch, pair, direction, begin, end);
-      if (begin > at + across || !(end > at + across) || begin >= end) continue;
+      if (begin > at + last_figures || !(end > at + last_figures) || begin >= end) continue;
       at = end;
       moved = true;
     }
@@ -139,13 +138,13 @@ bool shorten(const BodyOverlapScratch& scratch, double least, Displacement& d) {
   for (int i = 0; i < last; ++i) {
     const WayOut& b = way(i);
     const double c = a.axis.dot(b.axis), sin_sq = 1 - c * c;
-    if (!(sin_sq > across)) continue;
+    if (!(sin_sq > last_figures)) continue;
     const double of_a = (a.depth - c * b.depth) / sin_sq, of_b = (b.depth - c * a.depth) / sin_sq;
     take_shorter(scratch, of_a * a.axis + of_b * b.axis, d);
     for (int k = 0; k < i; ++k) {
       Mat3 planes;
       planes << a.axis.transpose(), b.axis.transpose(), way(k).axis.transpose();
-      if (!(std::abs(planes.determinant()) > across)) continue;
+      if (!(std::abs(planes.determinant()) > last_figures)) continue;
       take_shorter(scratch, planes.inverse() * Vec3(a.depth, b.depth, way(k).depth), d);
     }
   }
@@ -199,9 +198,9 @@ double body_overlap(const Hulls& hulls, const PlacedHulls& placed, int body_a, i
   double bound = 0;  // no path is shorter: it leaves each pair
   for (std::size_t pair = 0; pair + 1 < scratch.begin.size(); ++pair)
     bound = std::max(bound, least_depth(scratch, pair));
-  if (bound <= across) return 0;
+  if (bound <= last_figures) return 0;
   const double least = shorter_path(scratch, false, infinity);
-  if (least <= bound + across) return least;
+  if (least <= bound + last_figures) return least;
   return least_displacement(shorter_path(scratch, true, least), scratch);
 }
 

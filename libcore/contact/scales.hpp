@@ -9,6 +9,8 @@ namespace talus {
 inline constexpr double negligible = 1e-6;
 /// [size of the body; cosine; of a time, speed or capacity] Less than this is rounding.
 inline constexpr double rounding = 1e-9;
+/// [cosine; m; of what was summed] Less than this is in the last figures of doubles.
+inline constexpr double last_figures = 1e-12;
 /// [separation, overlap] Features that differ by less than this part of it are as good as each
 /// other.
 inline constexpr double hardly_better = 0.1;

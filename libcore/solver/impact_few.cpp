@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/scales.hpp"
+
 namespace talus {
 namespace {
 
 using std::size_t;
 
-constexpr int most_steps = 24;       // of Newton
-constexpr double tolerance = 1e-12;  // of the fastest approach: what contacts miss
+constexpr int most_steps = 24;  // of Newton
 // Of what a contact feels, added to Newton's matrix alone: contacts that share a load then share it
 // about evenly, and steps get nearer by this factor. Tried: 1e-7, 1e-3; fewer are found.
 constexpr double regularization = 1e-5;
@@ -96,7 +97,7 @@ struct Few {
       ++passes;
       const double worst = set_equations();
       if (!std::isfinite(worst)) return false;
-      if (worst <= tolerance * scale) return true;
+      if (worst <= last_figures * scale) return true;
       few.factor.compute(few.matrix);
       few.impulse += few.factor.solve(few.residual);
     }

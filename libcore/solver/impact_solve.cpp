@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "contact/scales.hpp"
+#include "solver/law_numbers.hpp"
 #include "solver/one_contact.hpp"
 
 namespace talus {
@@ -13,20 +15,15 @@ namespace {
 using std::size_t;
 
 // A contact gives way by 1/D of the error of its expected impulse: four figures a round.
-constexpr double stiffness_ratio = 9e3;    // D over the mass that the contact feels
-constexpr double first_stiffness = 1e3;    // in the first round
-constexpr double round_tolerance = 1e-12;  // of the fastest approach: what contacts give way
-constexpr double settled = 1e-5;     // ... where a round hardly helps, for rounding or slow slips
-constexpr double tolerance = 1e-13;  // of the same: residual of the balance of momentum
+constexpr double stiffness_ratio = 9e3;  // D over the mass that the contact feels
+constexpr double first_stiffness = 1e3;  // in the first round
+constexpr double settled = 1e-5;         // of the fastest approach: what contacts give way, at most
+constexpr double tolerance = 1e-13;      // of the same: residual of the balance of momentum
 constexpr double loose_tolerance = 1e-7;  // ... where a step hardly helps
-constexpr double gain_rounding = 1e-12;   // of the kinetic energy: not a gain
 constexpr int most_rounds = 12;           // of expected impulses ...
 constexpr int most_convex_rounds = 500;   // ... and in the convex form, where these do not settle
-constexpr double least_renewed = 0.05, most_renewed = 20;  // of what a slip misses
-constexpr int most_steps = 30, most_convex_steps = 100;    // of Newton in a round
-constexpr int whole_steps = 6;                             // before its line search
-
-constexpr int most_turns = 12;  // of Newton, for one contact alone
+constexpr double most_renewed = 20;       // of what a slip misses, and at least its inverse
+constexpr int most_steps = 30, most_convex_steps = 100;  // of Newton in a round
 
 using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
@@ -301,7 +298,7 @@ struct Solver {
     for (int cut = 0; cut < 8; ++cut, share /= 2) {
       w.tried = w.velocity + share * w.step;
       next = balance(w.tried);
-      if (k < whole_steps || next < error) break;
+      if (k < law::lone_free_steps || next < error) break;
     }
     return next;
   }
@@ -359,7 +356,7 @@ struct Solver {
         break;
       }
       gives = renew();
-      if (solved && (gives <= round_tolerance * scale + rounding ||
+      if (solved && (gives <= last_figures * scale + rounding ||
                      (gives <= settled * scale && gives > last / 2)))
         break;
       last = gives;
@@ -395,7 +392,7 @@ struct Solver {
     if (!is_convex) return gives;
     // Aitken: less where slips swing, more where they creep
     if (has_missing && change > 0)
-      renewed = std::clamp(-renewed * along_change / change, least_renewed, most_renewed);
+      renewed = std::clamp(-renewed * along_change / change, 1 / most_renewed, most_renewed);
     has_missing = true;
     for (ImpactContact& c : contacts) c.slip = std::max(0.0, c.slip + renewed * c.missing_slip);
     return gives;
@@ -421,7 +418,7 @@ struct Solver {
     A << t.dot(W * t), t.dot(W * s), s.dot(W * t), s.dot(W * s);
     // a contact that does not slip before slides where the push across its lever throws it
     Vec2 direction = across.isZero(0) ? coupling : across;
-    for (int k = 0; k < most_turns; ++k) {
+    for (int k = 0; k < most_rounds; ++k) {
       ++passes;
       direction.normalize();
       if (!direction.allFinite()) return false;
@@ -551,7 +548,7 @@ Impact solve_impact(std::span<ImpactBody> bodies, std::span<ImpactContact> conta
   const double before = solver.energy(work.before);
   out.converged = solver.solve_any();
   solver.take_impulses();
-  if (solver.energy(work.velocity) > (1 + gain_rounding) * before)
+  if (solver.energy(work.velocity) > (1 + last_figures) * before)
     out.converged = solver.lower_restitution(out) && out.converged;
   out.passes = solver.passes;
   if (!work.velocity.allFinite()) {

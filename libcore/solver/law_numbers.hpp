@@ -41,7 +41,7 @@ inline constexpr std::size_t few_blocks = 8;
 /// where a block would end deep in something.
 inline constexpr int most_rounds_in_substep = 8;
 /// [-] Rounds of hits at one time, and two for each block that they hit; hits in a step of a lone
-/// block, or of an island whose hits end substeps.
+/// block, or of an island whose hits end substeps; half of the looks at a pair in a substep.
 inline constexpr int most_hits = 40;
 /// [-] Repetitions of a substep: of a lone block, to find an event or to converge; where what gives
 /// way is used up.
@@ -99,9 +99,8 @@ inline constexpr double relief = 8;
 inline constexpr int most_rests = 40;
 /// [-] Solutions of the first step until contacts are as stiff as they bear.
 inline constexpr int most_settlings = 12;
-/// [-] Stiffness of a contact whose load asks for more: times what it needs ...
-inline constexpr double ample = 2;
-/// [-] ... times that in the first step, in which all sag at once. Tried: 2; towers sway ...
+/// [-] Stiffness of a contact whose load asks for more: `stiffens` times what it needs; times that
+/// in the first step, in which all sag at once. Tried: 2; towers sway ...
 inline constexpr double ample_at_start = 8;
 /// [-] ... and kept until it is this many times what it needs. Tried: 8; layers of small blocks
 /// that slide under a large one grow soft and are squeezed out. 100; a tower of 16 creeps at 20 ms.
@@ -115,10 +114,9 @@ inline constexpr double recovery_steps = 3;
 
 // --- touching, and overlap that presses nothing ------------------------------------------------
 
-/// [radius] A contact with the ground touches below this gap.
+/// [radius] A contact with the ground touches below this gap, one of a pair below what is
+/// negligible.
 inline constexpr double touch_ratio = 1e-8;
-/// [radius] A pair touches below this gap.
-inline constexpr double pair_touch_ratio = 1e-6;
 /// [g h] Speed at which overlap that presses nothing relaxes: slower than gravity, nothing hops ...
 inline constexpr double relaxes_by_gravity = 0.25;
 /// [m/s] ... and at most this, as deep overlap does in a mass. Tried for masses: all overlap;
@@ -135,9 +133,10 @@ inline constexpr double most_of_thickness = 5e-2;
 
 /// [rad] A block of an island turns by no more in a substep.
 inline constexpr double most_turn = 0.5;
-/// [thickness] A point goes by no more relative to a neighbour.
-inline constexpr double most_travel = 0.1;
-/// [substeps in dt] For these two reasons no more than this.
+/// [substeps in dt] For this reason, or since a point goes by no more than deep_share relative to a
+/// neighbour, no more than this. In a mass it may go by twice that: a hit that returns nothing
+/// leaves half of it as overlap. Tried for masses: five times; rocks that are poured end a fifth of
+/// their thickness in each other.
 inline constexpr double most_substeps = 64;
 /// [h] Pairs are searched so far ahead. Tried: at predicted poses; an approach becomes an overlap
 /// with the wrong face.
@@ -158,8 +157,6 @@ inline constexpr double rebound_matters = 0.1;
 inline constexpr double hit_window = 1e-5;
 /// [-] Looks at true gaps to find the time of a hit.
 inline constexpr int most_looks_for_time = 5;
-/// [in a substep] Looks at a pair.
-inline constexpr int most_pair_looks = 80;
 /// [h] A look that found no hit looks on after this time. Tried: none; the next corner of a pair
 /// that parts is missed, and stopped without rebound.
 inline constexpr double walk_on = 1.0 / 16;
@@ -203,11 +200,10 @@ inline constexpr double least_yield_cosine = 0.5;
 
 /// [g h] Residual at which an island's forces count as found ...
 inline constexpr double island_tolerance = 1e-2;
-/// [fastest speed] ... but not above this, which is also the least of conjugate gradients ...
+/// [fastest speed] ... but not above this, which is also the least of conjugate gradients, and not
+/// below what is negligible of g h.
 /// Tried for these: 1e-2; two to four times the steps.
 inline constexpr double relative_tolerance = 1e-3;
-/// [g h] ... nor below this.
-inline constexpr double rest_tolerance = 1e-6;
 /// [g h] The same in an island that is factored.
 inline constexpr double small_tolerance = 1e-8;
 /// [-] Newton steps before the line search looks at them.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "contact/entrance.hpp"
+#include "contact/scales.hpp"
 #include "motion/displacement.hpp"
 #include "motion/rotation.hpp"
 #include "solver/law_numbers.hpp"
@@ -20,7 +21,7 @@ using std::size_t;
 using law::least_speed, law::shallow, law::most_of_thickness, law::rebound_matters,
     law::recovery_steps, law::same_law, law::stiffest_lone, law::touch_ratio;
 
-constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 // Below this approach there is no impact [m/s].
 double resting_speed(const Settings& settings, double g) {
@@ -38,7 +39,7 @@ int row_of(const ContactMemory& memory, std::span<const Contact> contacts) {
     if (contact.key.feature_a != memory.key.feature_a || !(contact.key == memory.key)) continue;
     const double cosine = contact.normal.dot(memory.normal);
     if (cosine > nearest) nearest = cosine, best = static_cast<int>(i);
-    if (cosine > parallel) break;
+    if (cosine > 1 - last_figures) break;
   }
   return best;
 }
@@ -60,7 +61,7 @@ void keep_force(double k_n, ContactRow& row) {
 // by leaps, so that keep_force() sees them, and seldom.
 double stiffness_to_bear(const ContactRow& row, double sag) {
   const double needed = row.last_force / sag, last = row.last_stiffness;
-  return last >= needed && last <= law::too_much * needed ? last : law::ample * needed;
+  return last >= needed && last <= law::too_much * needed ? last : law::stiffens * needed;
 }
 
 // As soft as a contact may be that bears its last force: with `sag` of overlap, from `least` for
@@ -106,7 +107,8 @@ FeatureStart face_start(const Vec3& node, const Contact& contact, const Vec3& no
   return {node + gap * normal, normal, gap};
 }
 
-// None where the edges were nearly parallel, or did not cross between the ends of the block's.
+// None where the edges were nearly 1 - last_figures, or did not cross between the ends of the
+// block's.
 std::optional<FeatureStart> edge_start(const Scene& scene, const Substep& s, const Contact& contact,
                                        const Vec3& normal_end) {
   const Trn& trn = scene.ground.trn;
@@ -276,7 +278,8 @@ void inherit(const ContactMemory& memory, int index, bool same_features, const M
   row.offset = std::min(memory.offset, std::max(0.0, -row.gap_start));
   const double jump = memory.gap_end - (row.gap_start + row.offset);
   if (jump > c.touch) {
-    const bool by_turning = same_features || (to_row * memory.normal).dot(row.normal) > parallel;
+    const bool by_turning =
+        same_features || (to_row * memory.normal).dot(row.normal) > 1 - last_figures;
     const double limit =
         by_turning ? std::min(shallow * c.radius, most_of_thickness * c.thickness) : no_limit;
     row.offset += std::min(

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/make_room.hpp"
+#include "contact/scales.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/breakage.hpp"
 #include "step/crushing.hpp"
@@ -160,7 +161,6 @@ struct SubstepAcceptance {
 
   // The path of a member: in one piece, or from hit to hit and on from the last.
   void add_path(size_t k, const Motion& motion) {
-    constexpr double rounding = 1e-12;
     const int b = members.blocks[k];
     const double t = free.t, h = free.h;
     const FlyingMember& flying = hits.members[k];
@@ -169,11 +169,11 @@ struct SubstepAcceptance {
       return;
     }
     for (const PathToHit& path : hits.paths)
-      if (path.member == k && path.end > path.begin + rounding * h)
+      if (path.member == k && path.end > path.begin + last_figures * h)
         add_segment(b, false, t + path.begin, path.end - path.begin, path.start, path.stop,
                     segments);
     const double last = flying.clock, rest = h - last;
-    if (!(rest > rounding * h)) return;
+    if (!(rest > last_figures * h)) return;
     Motion after = flying.motion;
     after.velocity = motion.velocity - rest * free.substeps[k].free_acceleration;
     after.angular_momentum = motion.angular_momentum;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/scales.hpp"
 #include "motion/rotation.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
@@ -18,7 +19,7 @@ namespace {
 using std::size_t;
 
 using law::after_hit, law::deep_end, law::sunk, law::most_rounds_in_substep, law::most_halvings,
-    law::most_repetitions, law::pair_touch_ratio;
+    law::most_repetitions;
 
 /// Checks a substep; a struct so that its parts share what they all read.
 struct SubstepCheck {
@@ -155,7 +156,7 @@ struct SubstepCheck {
       const KeptContact& contact = system.contacts[r];
       push(scene, state, end_of_contact(members, free, system, hits, r), free.h,
            contact.speed_start,
-           row.normal_impulse() >= (1 - 1e-12) * row.normal_limit() ||
+           row.normal_impulse() >= (1 - last_figures) * row.normal_limit() ||
                follows_block(scene, members, system, r),
            contact.gap_start + row.normal().dot(path_of_contact(system, end, r)), search.poses,
            end.pushes);

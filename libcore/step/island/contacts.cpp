@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/make_room.hpp"
+#include "contact/scales.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/island/island_soil.hpp"
@@ -13,8 +14,6 @@ namespace talus {
 namespace {
 
 using std::size_t;
-
-using law::pair_touch_ratio;
 
 // Sets what the motion of the points says of a contact: they move by `moved` relative to each other
 // within the substep without contact forces, and with `slip` at its start.
@@ -204,7 +203,7 @@ struct ContactMaker {
                     ca};
     meeting.numbers.radius = std::min(ca.radius, cb.radius);
     meeting.numbers.thickness = std::min(ca.thickness, cb.thickness);
-    meeting.numbers.touch = pair_touch_ratio * meeting.numbers.radius;
+    meeting.numbers.touch = negligible * meeting.numbers.radius;
     const double to_lighter = ca.mass / std::min(ca.mass, cb.mass);
     const bool rest = ca.rests && cb.rests;
     const auto stiffness = [&](const BlockNumbers& c) {
@@ -283,7 +282,7 @@ struct ContactMaker {
     const PointPath path = path_of(k, point.point_b + point.gap * n);
     const Vec3 arm = (path.start + path.end) / 2;
     BlockNumbers c = members.numbers[k];
-    c.touch = pair_touch_ratio * c.radius;
+    c.touch = negligible * c.radius;
     const int fixed = fixed_of(scene, m.block_b);
     const GroundClass& faces = fixed_class(scene, fixed);
     ContactRow row;

@@ -17,8 +17,7 @@ namespace {
 
 using std::size_t;
 
-using law::hit_window, law::most_looks_for_time, law::most_pair_looks, law::support_drives,
-    law::walk_on;
+using law::hit_window, law::most_looks_for_time, law::support_drives, law::walk_on;
 
 // When a gap of `g` > 0 that closes at `v` and is `gap_end` after `h` is zero, its speed taken as
 // linear.
@@ -182,7 +181,7 @@ bool HitLooks::is_pressed(size_t k) const {
 
 void HitLooks::look_ahead(size_t p, double from, double not_before) const {
   if (hits.is_closed[p] != 0) return;
-  if (++hits.n_looks[p] > most_pair_looks) {
+  if (++hits.n_looks[p] > 2 * law::most_hits) {
     hits.is_closed[p] = 1;
     return;
   }

@@ -1,6 +1,7 @@
 // Stage 7 of an island's step, the contact impulses, and how stages 6 and 7 follow on each other.
 #include <algorithm>
 
+#include "contact/scales.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/island/island_soil.hpp"
 #include "step/island/stages.hpp"
@@ -11,7 +12,7 @@ namespace {
 using std::size_t;
 
 using law::island_tolerance, law::relative_tolerance, law::most_rounds_in_substep,
-    law::rest_tolerance, law::small_tolerance;
+    law::small_tolerance;
 
 double fastest(const FreeMotions& free) {
   double speed = 0;
@@ -31,7 +32,7 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
   settings.tolerance = small_tolerance * by_gravity;
   settings.direct_bodies = members.is_small ? static_cast<int>(members.size()) : 0;
   if (!members.is_small) {
-    settings.tolerance = std::clamp(relative_tolerance * fastest(free), rest_tolerance * by_gravity,
+    settings.tolerance = std::clamp(relative_tolerance * fastest(free), negligible * by_gravity,
                                     island_tolerance * by_gravity);
     // a pile at rest is solved to far below what gravity does: good directions spare it steps
     settings.linear_tolerance =

@@ -20,7 +20,7 @@ namespace {
 
 using std::size_t;
 
-using law::most_substeps, law::most_travel, law::most_turn;
+using law::most_substeps, law::most_turn;
 
 Vec3 spin_of(const Motion& m, const Vec3& inertia) {
   return angular_velocity(m.pose.attitude, m.angular_momentum, inertia);
@@ -286,7 +286,7 @@ double longest_substep(const Scene& scene, const State& state, const PairSearch&
     }
     if (!is_fixed(scene, m.block_b))
       thickness = std::min(thickness, members.of(m.block_b).thickness);
-    const double enough = most_travel * thickness;
+    const double enough = law::deep_share * thickness;
     part =
         std::max(part, travel_ahead(scene.blocks.hulls, state.placed, search, m, enough) / enough);
   }

@@ -446,7 +446,7 @@ double longest_mass_substep(const Scene& scene, const PairSearch& search,
     } else {
       travel += search.step[a].norm();
     }
-    part = std::max(part, travel / (mass::most_travel * thickness));
+    part = std::max(part, travel / (2 * law::deep_share * thickness));
   }
   const double shortest = std::min(h, scene.settings.dt / law::most_substeps);
   return part > 1 ? std::max(h / std::ceil(part), shortest) : h;

@@ -15,7 +15,7 @@ namespace {
 MassSettings settings_of(const Scene& scene, const MassShare& share, double h, Workers* workers) {
   MassSettings settings;
   settings.sweeps = mass_sweeps(scene.settings.accuracy);
-  settings.most_sweeps = std::max(settings.sweeps, mass::most_sweeps);
+  settings.most_sweeps = std::max(settings.sweeps, 8 * mass::sweeps);
   settings.settled = law::least_speed * scene.gravity.norm() * h;
   settings.compliance = mass_compliance(scene, share);
   settings.shear_ratio = scene.settings.shear_ratio;
@@ -83,7 +83,7 @@ bool begins_as_mass(const Scene& scene, double h, State& state, Work& work) {
     return false;
   const int layers = layers_on_ground(w.system);
   MassSettings settings = settings_of(scene, {}, h, work.workers);
-  settings.sweeps = std::max(mass::most_sweeps, mass::sweeps_per_square_layer * layers * layers);
+  settings.sweeps = mass::sweeps * std::max(8, 2 * layers * layers);
   settings.most_sweeps = mass::most_first_sweeps;
   settings.from_rest = true;
   if (settings.sweeps > settings.most_sweeps) return false;
