@@ -12,7 +12,7 @@
 #include "post/runout/mobility.hpp"
 #include "post/runout/runout_sensitivity.hpp"
 #include "post/runout/runout_text.hpp"
-#include "scene/site_scene.hpp"
+#include "setup/site_scene.hpp"
 #include "site/uncertainty.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"

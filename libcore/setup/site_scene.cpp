@@ -1,4 +1,4 @@
-#include "scene/site_scene.hpp"
+#include "setup/site_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include "base/random.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
-#include "scene/crushing.hpp"
 #include "scene/make_scene.hpp"
 #include "scene/stems.hpp"
+#include "setup/crushing.hpp"
 
 namespace talus {
 namespace {

@@ -1,4 +1,4 @@
-// libcore/scene/site_scene.hpp: public
+// libcore/setup/site_scene.hpp: public
 // From a site file, its terrain and its blocks to the scene that is computed.
 #pragma once
 
