@@ -41,10 +41,12 @@ struct CouplePart {
 
 /// The angular row of a pair, axes as the rows of its points.
 struct AngularRow {
-  int row_begin = 0, row_end = 0;  ///< a lone block: rows whose normal impulses bound it
-  int arm_begin = 0;               ///< of the arms of the pair's rows
-  double damping = 0;              ///< couple impulse per spin while it holds, > 0 [kg m2]
-  double inertia = 0;              ///< that it turns, about; 0: it never aims [kg m2]
+  int row_begin = 0, row_end = 0;   ///< a lone block: rows whose normal impulses bound it
+  int arm_begin = 0;                ///< of the arms of the pair's rows
+  double damping = 0;               ///< couple impulse per spin while it holds, > 0 [kg m2]
+  double inertia = 0;               ///< that it turns, about; 0: it never aims [kg m2]
+  bool is_off = false;              ///< it bears nothing, whatever the rows bear
+  Vec3 held_normal = Vec3::Zero();  ///< stands for the mean normal, where not zero
   // at the last evaluation
   Vec3 couple = Vec3::Zero();  ///< on A; B gets the opposite [N m s]
   Vec3 normal = Vec3::Zero();  ///< mean normal, unit; zero: nothing presses

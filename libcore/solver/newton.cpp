@@ -51,12 +51,14 @@ template <int Dof>
 CoupleBounds bounds_of(const BlockSystem<Dof>& system, const AngularRow& turn,
                        std::span<const ContactRow> rows) {
   CoupleBounds bounds;
+  if (turn.is_off) return bounds;
   for (int i = turn.row_begin; i < turn.row_end; ++i) {
     const ContactRow& row = rows[i];
     if (row.waits || row.state == ContactState::open) continue;
     bounds.add(system.arms[turn.arm_begin + i - turn.row_begin], row.normal.dot(row.impulse),
                row.normal);
   }
+  if (!turn.held_normal.isZero(0)) bounds.normal = turn.held_normal;
   return bounds;
 }
 
@@ -76,6 +78,7 @@ template <int Dof>
                                            std::span<const ContactRow> rows, Mat<Dof>& H) {
   for (const AngularRow& turn : system.angular) {
     H.template block<3, 3>(3, 3) += tangent(turn);
+    if (turn.is_off) continue;
     for (int i = turn.row_begin; i < turn.row_end; ++i) {  // the bound follows the normal impulse
       const ContactRow& row = rows[i];
       if (row.waits || row.state == ContactState::open || row.normal.dot(row.impulse) <= 0)
@@ -211,6 +214,24 @@ template <int Dof>
   }
 }
 
+// With couples about the mean normal of the contacts as they press without couples. Where a block
+// spins about an axis all but across its mean normal, what it pivots changes sign with that normal,
+// which follows the impulses: then no velocity may be found that agrees with itself.
+template <int Dof>
+NewtonResult solve_holding_normals(BlockSystem<Dof>& system, std::span<ContactRow> rows,
+                                   int max_passes) {
+  system.velocity = system.free_velocity;
+  for (AngularRow& turn : system.angular) turn.is_off = true;
+  const NewtonResult without = solve_coupled(system, rows, max_passes);
+  for (AngularRow& turn : system.angular) {
+    turn.is_off = false;
+    turn.held_normal = bounds_of(system, turn, rows).normal;
+  }
+  const NewtonResult with = solve_coupled(system, rows, max_passes);
+  for (AngularRow& turn : system.angular) turn.held_normal.setZero();
+  return {with.converged, without.passes + with.passes};
+}
+
 // What steps of Newton do not find, to no less than the rounding of velocities and impulses.
 template <int Dof>
 NewtonResult solve_relaxing(BlockSystem<Dof>& system, std::span<ContactRow> rows, int most_steps) {
@@ -251,10 +272,14 @@ NewtonResult solve_relaxing(BlockSystem<Dof>& system, std::span<ContactRow> rows
 
 template <int Dof>
 NewtonResult solve_contacts(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes) {
-  const NewtonResult found = solve_coupled(system, rows, max_passes);
-  if (found.converged) return found;
-  const NewtonResult relaxed = solve_relaxing(system, rows, 12 * max_passes);
-  return {relaxed.converged, found.passes + relaxed.passes};
+  NewtonResult result = solve_coupled(system, rows, max_passes);
+  const auto go_on = [&](const NewtonResult& next) {
+    result = {next.converged, result.passes + next.passes};
+  };
+  if (!result.converged && !system.angular.empty())
+    go_on(solve_holding_normals(system, rows, max_passes));
+  if (!result.converged) go_on(solve_relaxing(system, rows, 12 * max_passes));
+  return result;
 }
 
 template NewtonResult solve_contacts<6>(BlockSystem<6>&, std::span<ContactRow>, int);

@@ -380,6 +380,7 @@ TEST(CouplesOfALoneBlock, AreFoundWhereItSlidesAndSpinsAcrossItsMeanNormal) {
   system.arms = arms;
   EXPECT_TRUE(solve_contacts(system, std::span(rows), 200).converged);
   EXPECT_GT(turns[0].couple.norm(), 0);
+  EXPECT_TRUE(turns[0].held_normal.isZero(0));
 }
 
 TEST_P(BallOnSoil, APendulumOnTwoPointsComesToRest) {
