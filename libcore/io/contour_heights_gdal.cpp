@@ -413,8 +413,8 @@ std::vector<Vec3> read_labels(const LayerChoice& choice, OpenLayer& source,
   reading.labels = reading_of(choice, source);
   reading.labels.elevation_from = "labels";
   reading.notes.push_back(
-      choice.path + ": " + counted(static_cast<std::int64_t>(labels.size()), "label") +
-      " of heights" +
+      without_layer(choice.path) + ": " +
+      counted(static_cast<std::int64_t>(labels.size()), "label") + " of heights" +
       (n_other > 0 ? "; " + counted(n_other, "other text") + " passed over" : std::string()));
   add_remarks(reading.labels, reading.notes);
   return labels;
@@ -490,7 +490,7 @@ Polylines with_labelled_heights(const ContourSources& sources, const OpenLayer& 
   check_labelled(choice.path, raw.lines, found);
   check_z_beside_labels(sources, raw, found.height);
   if (!found.unclear.empty())
-    reading.notes.push_back(choice.path + ": " +
+    reading.notes.push_back(without_layer(choice.path) + ": " +
                             counted(static_cast<std::int64_t>(found.unclear.size()), "label") +
                             " between two contours passed over");
   set_heights(found.height, raw.lines);
@@ -558,10 +558,10 @@ Polylines read_measured_lines(const LayerChoice& choice, OpenLayer& source,
     check_z_beside_field(choice, source, raw, *field, values.values());
     if (raw.n_no_number > 0) taken.remarks.push_back(remark_on_z(raw));
     set_heights(values.values(), raw.lines);
-    notes.push_back(choice.path + ": elevation from field " + field->name);
+    notes.push_back(without_layer(choice.path) + ": elevation from field " + field->name);
   }
   check_known(raw.lines, choice, source, take_field ? field->name : "Z");
-  notes.push_back(choice.path + ": layer " + source.name + ", " +
+  notes.push_back(without_layer(choice.path) + ": layer " + source.name + ", " +
                   counted(source.n_features, "feature"));
   taken.elevation_from = take_field ? "field " + field->name : "Z";
   add_remarks(taken, notes);

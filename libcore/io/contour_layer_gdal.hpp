@@ -27,7 +27,7 @@ namespace talus {
 struct LayerRole {
   LayerShape shape;
   const char* name;          ///< of its parts, for messages: "contours"
-  const char* options;       ///< how its options begin: "--breaklines-", "source.polygon_"
+  const char* options = "";  ///< how its options begin: "--breaklines-"; empty: it has none
   bool is_of_texts = false;  ///< of a drawing its texts are read, else what is no text
 };
 

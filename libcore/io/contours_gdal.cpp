@@ -245,7 +245,7 @@ std::vector<BoundaryRing> read_boundary(const ContourSources& sources, const std
     ++n_polygons;
   });
   reading.boundary = reading_of(choice, source);
-  reading.notes.push_back(choice.path + ": layer " + source.name + ", " +
+  reading.notes.push_back(without_layer(choice.path) + ": layer " + source.name + ", " +
                           counted(n_polygons, "polygon"));
   add_remarks(reading.boundary, reading.notes);
   scale_plan(plan_unit_of(choice, source, map_crs, reading), points);

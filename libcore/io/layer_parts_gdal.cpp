@@ -266,7 +266,7 @@ InputError no_such_drawing_layer(const LayerChoice& choice, const OpenLayer& sou
   return InputError({choice.path},
                     "the drawing has nothing in a layer \"" + list_of(source.wanted) +
                         "\"; its layers are: " + list_of(names),
-                    "choose with " + layer_option(source.role.options));
+                    hint_to_choose(names));
 }
 
 // A drawing of which no layer is named has one that holds the shape.
@@ -281,10 +281,7 @@ void check_one_drawing_layer(const LayerChoice& choice, OpenLayer& source) {
   throw InputError({choice.path},
                    std::to_string(names.size()) + " layers of the drawing hold " +
                        plural(source.role.shape) + ", expected one; they are: " + list_of(numbers),
-                   hint_to_choose(source.role.options, names) +
-                       (is_on_command_line(source.role.options)
-                            ? "; all: " + layer_option(source.role.options) + " '*'"
-                            : "; all: \"*\""));
+                   hint_to_choose(names));
 }
 
 void name_drawing_layers(OpenLayer& source) {
@@ -333,7 +330,7 @@ void for_each_part(const LayerChoice& choice, OpenLayer& source, const Visit& vi
 
 LayerReading reading_of(const LayerChoice& choice, const OpenLayer& source) {
   LayerReading reading;
-  reading.file = choice.path;
+  reading.file = without_layer(choice.path);
   reading.layer = source.name;
   reading.where = source.filter;
   reading.noun = singular(source.role.shape);

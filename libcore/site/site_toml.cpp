@@ -11,6 +11,7 @@
 #include "base/printable.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
+#include "site/gone_keys.hpp"
 #include "site/site_keys.hpp"
 #include "site/site_layers.hpp"
 #include "site/soils.hpp"
@@ -237,6 +238,9 @@ const SiteKey<Section>& key_named(std::string_view name, const std::string& sect
                                   const Where& where) {
   for (const auto& key : keys_of<Section>())
     if (name == key.name) return key;
+  if (const std::string instead = written_instead(section, name); !instead.empty())
+    throw InputError(where, "the key " + std::string(name) + " of [" + section + "] is gone",
+                     "write " + instead);
   throw InputError(where, "unknown key " + std::string(name) + " in [" + section + "]",
                    did_you_mean(name, key_names<Section>()));
 }

@@ -12,7 +12,6 @@
 #include "setup/vector_inputs_gdal.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
-#include "tools/frame/layer_options.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/run_inputs.hpp"
 #include "tools/profile/output.hpp"
@@ -26,7 +25,6 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 struct Options {
   std::string line, line_file, out, csv, bins, stations, charts, json;
-  LayerChoice choice;
   double step_m = none, bin_m = none;
 };
 
@@ -34,7 +32,6 @@ void declare(Tool& tool, Options& o) {
   tool.option("--line", o.line,
               "the line: \"x,y x,y ...\" in map coordinates of the terrain, blanks between points");
   tool.input("--line-file", o.line_file, "the line: a vector file that holds one");
-  add_layer_options(tool, "--line-", "--line-file", o.choice);
   tool.output("-o,--out", o.out, "crossings, parts of the line, stations (GeoPackage)")->required();
   tool.output("--csv", o.csv, "across: a row a block that crosses the line (CSV)");
   tool.output("--bins", o.bins, "across: a row a part of the line (CSV)");
@@ -84,12 +81,11 @@ std::vector<Vec3> read_line(Tool& tool, const Options& o, const Trn& trn) {
     return points;
   }
   read_members(tool, "line-file", o.line_file);
-  const VectorShapes found = read_layer(
-      tool, "line-file",
-      {o.line_file, o.choice.layer, o.choice.where, VectorKind::lines, "--line-"}, trn.crs_wkt);
+  const VectorShapes found =
+      read_layer(tool, "line-file", {o.line_file, VectorKind::lines}, trn.crs_wkt);
   if (found.shapes.size() != 1)
     throw InputError({o.line_file}, "holds " + counted(found.n_parts, "line") + ", expected one",
-                     "choose one with --line-where, e.g. \"fid = 1\", or draw it as one");
+                     "choose one, e.g. --line-file \"FILE|subset=fid = 1\", or draw it as one");
   return found.shapes[0];
 }
 

@@ -18,13 +18,11 @@
 #include "terrain/point_tin.hpp"
 #include "terrain/tin_mesh.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/layer_options.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/tin/doubts.hpp"
 
 namespace {
 
-using talus::add_layer_options;
 using talus::ContourMap;
 using talus::InputError;
 using talus::Json;
@@ -65,12 +63,10 @@ void declare(Tool& tool, Options& o) {
   talus::ContourSources& s = o.sources;
   tool.input("contours", s.contours.path, "contour lines (any vector source that GDAL reads)");
   tool.output("-o,--out", o.out, "TIN to write (binary PLY)")->required();
-  add_layer_options(tool, "--", "the contours", s.contours);
   tool.option("--elevation-field", s.contours.elevation_field,
               "field with the elevation; Z: the geometries' own; empty: found by itself");
   tool.input("--labels", s.labels.path,
              "texts beside the contours that say their heights (e.g. the same DXF drawing)");
-  add_layer_options(tool, "--labels-", "the labels", s.labels);
   tool.option("--labels-field", s.labels.elevation_field, "field with their text; empty: Text");
   tool.option("--unit-m", s.contours.unit_m,
               "metres in one unit of the contours, in plan and height; 0: metres, or refused where "
@@ -80,19 +76,16 @@ void declare(Tool& tool, Options& o) {
               "metres in one unit of all elevations; 0: as their height system says, else metres")
       ->check(check_positive);
   tool.input("--breaklines", s.breaklines.path, "lines with heights where the slope breaks");
-  add_layer_options(tool, "--breaklines-", "the breaklines", s.breaklines);
   tool.option("--breaklines-elevation-field", s.breaklines.elevation_field,
               "field with their elevation, or Z; empty: found by itself");
   tool.option("--breaklines-unit-m", s.breaklines.unit_m, "as --unit-m, for them")
       ->check(check_positive);
   tool.input("--spots", s.spots.path, "spot heights (points)");
-  add_layer_options(tool, "--spots-", "the spot heights", s.spots);
   tool.option("--spots-elevation-field", s.spots.elevation_field,
               "field with their elevation, or Z; empty: found by itself");
   tool.option("--spots-unit-m", s.spots.unit_m, "as --unit-m, for them")->check(check_positive);
   tool.input("--boundary", s.boundary.path,
              "polygons or closed lines: triangles with their centre outside go");
-  add_layer_options(tool, "--boundary-", "the boundary", s.boundary);
   tool.option("--boundary-unit-m", s.boundary.unit_m, "as --unit-m, for them")
       ->check(check_positive);
   tool.option("--crs", o.crs,

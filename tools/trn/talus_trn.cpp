@@ -25,7 +25,6 @@
 #include "terrain/trn_quality.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/doubts_layer.hpp"
-#include "tools/frame/layer_options.hpp"
 #include "tools/frame/options.hpp"
 
 namespace {
@@ -81,7 +80,6 @@ std::string check_positive(const std::string& word) {
 void declare(Tool& tool, Options& o) {
   tool.input("source", o.source, "TIN (PLY, LandXML, 3DFACE in DXF), or an elevation raster");
   tool.output("-o,--out", o.out, "terrain to write (GeoTIFF)")->required();
-  talus::add_layer_options(tool, "--", "a drawing of faces", o.faces);
   tool.option("--unit-m", o.faces.unit_m,
               "metres in one unit of a drawing of faces, in plan and height; 0: metres, or refused "
               "where it says another unit")
@@ -104,7 +102,6 @@ void declare(Tool& tool, Options& o) {
   tool.input("--reference", o.reference, "better known DEM to hold the terrain against");
   tool.input("--reference-points", o.reference_points.path,
              "points with a height to hold the terrain against (any vector source)");
-  talus::add_layer_options(tool, "--reference-points-", "the points", o.reference_points);
   tool.option("--reference-points-elevation-field", o.reference_points.elevation_field,
               "field with their elevation, or Z; empty: found by itself");
   tool.output("--report", o.report, "errors, slopes, coverage (JSON)");
@@ -298,9 +295,8 @@ Ground ground_of_dem(Tool& tool, const Options& o) {
   });
   options.accept_ballpark = o.accept_ballpark;
   options.window = o.window;
-  if (!o.faces.layer.empty() || !o.faces.where.empty() || o.faces.unit_m != 0)
-    throw talus::UsageError({"", 0, o.source}, "--layer, --where and --unit-m are for drawings",
-                            "leave them away");
+  if (o.faces.unit_m != 0)
+    throw talus::UsageError({"", 0, o.source}, "--unit-m is for drawings", "leave it away");
   const DemFile dem(o.source, options);
   say(tool, dem.reading());
   Ground ground;

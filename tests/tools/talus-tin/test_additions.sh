@@ -68,9 +68,9 @@ cmp -s expected found || fail "a breakline with Z 0 and a field gives another te
 ogr2ogr -q -nln heights two_layers.gpkg named_spots.geojson
 ogr2ogr -q -nln others -update two_layers.gpkg spot.geojson
 expect 1 talus-trn spots.ply -o bad.tif --reference-points two_layers.gpkg
-says "hint: choose with --reference-points-layer"
+says "hint: put \"|layername="
 expect 0 talus-trn spots.ply -o spots.tif --window 499990,5199990,500010,5200010 --cell-size-m 1 --report spots_trn.json \
-  --reference-points two_layers.gpkg --reference-points-layer heights --reference-points-elevation-field hoehe_nn
+  --reference-points 'two_layers.gpkg|layername=heights' --reference-points-elevation-field hoehe_nn
 [ "$(value spots_trn.json largest_m)" = 0.0 ] || fail "the spot heights are off by $(value spots_trn.json largest_m) m"
 
 # the boundary cuts; a hole stays a hole; elsewhere leaves nothing
@@ -103,5 +103,5 @@ cmp -s expected found || fail "contours and spots from one file give other trian
 ogr2ogr -q -nln old_contours -update both.gpkg map.geojson
 expect 1 talus-tin both.gpkg -o bad.ply
 says "2 layers hold lines, expected one; the layers are: contours, spots, old_contours"
-says "hint: choose with --layer"
-expect 0 talus-tin both.gpkg -o chosen.ply --layer old_contours
+says "hint: put \"|layername="
+expect 0 talus-tin 'both.gpkg|layername=old_contours' -o chosen.ply

@@ -10,7 +10,7 @@ refused() { # refused WORDS COMMAND...
   nothing_left bad.ply bad.json
 }
 
-refused "there is no layer \"contors\"; there are: map" talus-tin map.gpkg --layer contors
+refused "there is no layer \"contors\"; there are: map" talus-tin 'map.gpkg|layername=contors'
 ogr2ogr -q -where "ELEV > 9999" empty.gpkg map.geojson
 refused "the layer is empty, expected lines" talus-tin empty.gpkg
 ogr2ogr -q -dim XY -select NAME nofield.gpkg map.geojson

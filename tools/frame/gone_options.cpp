@@ -1,0 +1,41 @@
+#include "tools/frame/gone_options.hpp"
+
+namespace talus {
+namespace {
+
+struct GoneOption {
+  const char *tool, *option, *instead;
+};
+
+constexpr GoneOption gone_options[] = {
+    {"talus-tin", "--layer", "'FILE|layername=LAYER'"},
+    {"talus-tin", "--where", "'FILE|subset=FILTER'"},
+    {"talus-tin", "--labels-layer", "--labels 'FILE|layername=LAYER'"},
+    {"talus-tin", "--labels-where", "--labels 'FILE|subset=FILTER'"},
+    {"talus-tin", "--breaklines-layer", "--breaklines 'FILE|layername=LAYER'"},
+    {"talus-tin", "--breaklines-where", "--breaklines 'FILE|subset=FILTER'"},
+    {"talus-tin", "--spots-layer", "--spots 'FILE|layername=LAYER'"},
+    {"talus-tin", "--spots-where", "--spots 'FILE|subset=FILTER'"},
+    {"talus-tin", "--boundary-layer", "--boundary 'FILE|layername=LAYER'"},
+    {"talus-tin", "--boundary-where", "--boundary 'FILE|subset=FILTER'"},
+    {"talus-trn", "--layer", "'FILE|layername=LAYER'"},
+    {"talus-trn", "--where", "'FILE|subset=FILTER'"},
+    {"talus-trn", "--reference-points-layer", "--reference-points 'FILE|layername=LAYER'"},
+    {"talus-trn", "--reference-points-where", "--reference-points 'FILE|subset=FILTER'"},
+    {"talus-profile", "--line-layer", "--line-file 'FILE|layername=LAYER'"},
+    {"talus-profile", "--line-where", "--line-file 'FILE|subset=FILTER'"},
+};
+
+}  // namespace
+
+std::string written_instead(const std::string& tool, int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word(argv[i]), option = word.substr(0, word.find('='));
+    for (const GoneOption& gone : gone_options)
+      if (tool == gone.tool && option == gone.option)
+        return option + " is gone: write " + gone.instead;
+  }
+  return "";
+}
+
+}  // namespace talus
