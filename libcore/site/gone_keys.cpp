@@ -8,6 +8,8 @@ struct GoneKey {
 };
 
 constexpr GoneKey gone_keys[] = {
+    {"solver", "min_time_step_s", "time_step_s = SECONDS"},
+    {"solver", "max_time_step_s", "time_step_s = SECONDS"},
     {"terrain", "layer", R"(contours = "FILE|layername=LAYER")"},
     {"terrain", "where", R"(contours = "FILE|subset=FILTER")"},
     {"terrain", "breaklines_layer", R"(breaklines = "FILE|layername=LAYER")"},

@@ -135,7 +135,6 @@ struct SolverSettings {
   std::string law = "talus";
   double duration_s = 60;
   double time_step_s = not_given;  ///< not given: time_step() says
-  double min_time_step_s = not_given, max_time_step_s = not_given;
   double gravity_m_s2 = 9.80665;
   double normal_stiffness_n_m = not_given;
   double shear_stiffness_ratio = 0.4;  ///< k_s / k_n

@@ -153,8 +153,6 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"law", &S::law, "contact law", any, "talus|paper"},
       {"duration_s", &S::duration_s, "time simulated", positive},
       {"time_step_s", &S::time_step_s, "time step, which law talus cuts where it must; not given: 0.005, law paper 0.0001", {0, 1, true, false}},
-      {"min_time_step_s", &S::min_time_step_s, "smallest time step", {0, 1, true, false}},
-      {"max_time_step_s", &S::max_time_step_s, "largest time step", {0, 1, true, false}},
       {"accuracy", &S::accuracy, "law talus: estimated error of a moving block's displacement, as a share of it; a step whose estimate is larger is cut", {0, 1, true, false}},
       {"gravity_m_s2", &S::gravity_m_s2, "gravity, downwards", {0, 1000}},
       {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "penalty stiffness of a contact", positive},
