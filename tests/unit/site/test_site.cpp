@@ -134,20 +134,26 @@ TEST(Site, TheCommandLineOverridesTheFile) {
   EXPECT_THROW(talus::override_value(site, "solver.duration_s", "soon"), InputError);
   EXPECT_THROW(talus::override_value(site, "duration_s", "3"), InputError);
   EXPECT_THROW(talus::override_value(site, "source.depth_m", "1\nseed = 3"), InputError);
+  EXPECT_THROW(talus::override_value(site, "source.depth_m", "1]\nseed = [3"), InputError);
+  EXPECT_THROW(talus::override_value(site, "source.depth_m", "5 # m"), InputError);
+  for (const char* name : {"2024", "true", "a #1", "1 # 2", "[1]", "a = b"}) {
+    talus::override_value(site, "site.name", name);
+    EXPECT_EQ(site.info.name, name);
+  }
 }
 
 // What is printed reads back as the same configuration.
 TEST(Site, ANameMayHoldWhatAKeyAndItsValueArePartedBy) {
   const std::string fence = "line = [[0, 0], [1, 1]]\n";
   Site site = parse_site(
-      "[fence.\"a=b\"]\n" + fence + "[fence.a]\n" + fence + "[fence.\"v1.5 = 'x'\"]\n" + fence,
+      "[fence.\"a=b\"]\n" + fence + "[fence.a]\n" + fence + "[fence.\"v1.5 = 'x' #2\"]\n" + fence,
       "site.toml");
   const auto set = [&site](const std::string& words) {
     const std::size_t at = talus::end_of_key(site, words);
     talus::override_value(site, words.substr(0, at), words.substr(at + 1));
   };
   set("fence.a=b.active=false");
-  set("fence.v1.5 = 'x'.height_m=7");
+  set("fence.v1.5 = 'x' #2.height_m=7");
   set("fence.a.line_file=f.gpkg|subset=name = 'a=b'");
   EXPECT_FALSE(site.fences[0].active);
   EXPECT_EQ(site.fences[1].line_file, "f.gpkg|subset=name = 'a=b'");
