@@ -517,7 +517,7 @@ def stated_limits(bench):
     many = bench.work / "many"
     trn, run = ["--trn", str(made / "bed.tif")], str(many / "runs/run_1.h5")
     jobs = [Job("talus-dda", [toml, *trn, "--blocks", str(made / "blocks.h5"), "-o", "run.h5",
-                              "--independent", "--frame-interval-s", str(FRAME_INTERVAL_S), "--set",
+                              "--independent", "--set", f"output.frame_interval_s={FRAME_INTERVAL_S}", "--set",
                               f"solver.duration_s={(MANY_FRAMES - 1) * FRAME_INTERVAL_S}"]),
             Job("talus-runout", [run, *trn, "-o", "runout.gpkg", "--json", "runout.json",
                                  "--allow-unfinished"]),
@@ -779,7 +779,7 @@ def same_tables_at_other_frames(bench):
     intervals = ("0.02", "0.37")
     for interval in intervals:
         folder = bench.fresh(bench.work / f"frames_{interval}")
-        bench.must([dda.name, *dda.words, "--frame-interval-s", interval], folder)
+        bench.must([dda.name, *dda.words, "--set", f"output.frame_interval_s={interval}"], folder)
         grid = bench.work / "site/made/bed.tif"
         bench.must(["talus-maps", "run.h5", "--trn", grid, "-o", "maps", "--png",
                     "--allow-unfinished"], folder)

@@ -137,7 +137,7 @@ class Slope:
         kept = "__".join([name, *([] if trn == "trn" else [trn]), *said]) + ".csv"
         if not (self.reuse and (self.folder / kept).exists()):
             self.run("talus-dda", f"{name}.toml", "--trn", f"{trn}.tif", "--blocks", f"{name}.h5", "-o", "run.h5",
-                     "--independent", "--settle", "--frame-interval-s", 1, "--set", "output.passages=false", *words)
+                     "--independent", "--settle", "--set", "output.frame_interval_s=1", "--set", "output.passages=false", *words)
             self.run("talus-runout", "run.h5", "--trn", f"{trn}.tif", "-o", "run.gpkg", "--csv", "run.csv",
                      "--allow-unfinished")
             (self.folder / "run.csv").replace(self.folder / kept)

@@ -70,7 +70,7 @@ void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResul
   if (const int n = n_unsettled(runs.with, i); n > 0)
     tool.warn(name + ": " + std::to_string(n) +
               " of the blocks that it stopped were still moving when their run ended; give "
-              "talus-dda a longer --duration-s");
+              "talus-dda a longer [solver] duration_s");
   if (result.basis == DesignBasis::first_touches && result.at_basis.n > 0)
     tool.warn(name + ": " + basis_note(result, fence.settings.name, fell_one_by_one(runs.with)));
   if (result.design.verdict == DesignVerdict::too_few)

@@ -8,6 +8,12 @@ struct GoneOption {
 };
 
 constexpr GoneOption gone_options[] = {
+    {"talus-dda", "--law", "--set solver.law=VALUE"},
+    {"talus-dda", "--duration-s", "--set solver.duration_s=VALUE"},
+    {"talus-dda", "--time-step-s", "--set solver.time_step_s=VALUE"},
+    {"talus-dda", "--accuracy", "--set solver.accuracy=VALUE"},
+    {"talus-dda", "--frame-interval-s", "--set output.frame_interval_s=VALUE"},
+    {"talus-dda", "--checkpoint-interval-s", "--set output.checkpoint_interval_s=VALUE"},
     {"talus-tin", "--layer", "'FILE|layername=LAYER'"},
     {"talus-tin", "--where", "'FILE|subset=FILTER'"},
     {"talus-tin", "--labels-layer", "--labels 'FILE|layername=LAYER'"},

@@ -7,7 +7,7 @@ mv flat.toml site.toml
 make_blocks
 for friction in 80 10; do
   expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o "run_$friction.h5" --no-db \
-    --duration-s 2 --set "$(grep -o 'ground\.[a-z]*' site.toml | head -1).friction_deg=$friction"
+    --set solver.duration_s=2 --set "$(grep -o 'ground\.[a-z]*' site.toml | head -1).friction_deg=$friction"
 done
 expect 0 talus-runout run_80.h5 --trn slope.tif -o held.gpkg --no-db
 says '1 of 1 run did not move (no block by more than 1 m): no run-out'
@@ -15,7 +15,7 @@ prints 'no run-out: no H, L and angle of reach'
 expect 0 talus-runout run_10.h5 --trn slope.tif -o gone.gpkg --no-db
 grep -q 'did not move' err && fail 'boxes that slid are said to stand'
 expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o again.h5 --no-db \
-  --duration-s 2 --set "$(grep -o 'ground\.[a-z]*' site.toml | head -1).friction_deg=80"
+  --set solver.duration_s=2 --set "$(grep -o 'ground\.[a-z]*' site.toml | head -1).friction_deg=80"
 says 'no block moved more than 1 m: there is no run-out'
 prints '0 % of the mass moved more than 1 m, 0 % more than 20 m; displacement by mass: p50 0'
 

@@ -21,7 +21,7 @@ expect 0 talus-dda found.toml --trn slope.tif --blocks blocks.h5 --plan --no-db
 
 # the reference is what talus-dda gives with the short step, but for the start of 1 mm/s
 mean=$(sed -n 's/^Reference \([0-9.]*\) .*/\1/p' s/out)
-talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --time-step-s 1e-3 --json --no-db >run.json
+talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --set solver.time_step_s=1e-3 --json --no-db >run.json
 east=$(sed -n '/mean_displacement_m/{n;p;}' run.json | tr -d ' ,')
 awk -v m="$mean" -v e="$east" 'BEGIN { exit !(e > 0.1 && m > 0.97 * e && m < 1.03 * e) }' ||
   fail "the reference is $mean m, talus-dda moves the blocks $east m"
