@@ -8,6 +8,21 @@ struct GoneOption {
 };
 
 constexpr GoneOption gone_options[] = {
+    {"talus-maps", "--png", "--pages png"},
+    {"talus-maps", "--pdf", "--pages pdf"},
+    {"talus-maps", "--page", "--pages png,pdf,a3"},
+    {"talus-maps", "--co", "gdal_translate -co NAME=VALUE of the map"},
+    {"talus-maps", "--resamples", "nothing: a bound of 10 to 29 runs is always drawn 200 times"},
+    {"talus-maps", "--seed", "nothing: the bootstrap has one seed"},
+    {"talus-hazard", "--png", "--pages png"},
+    {"talus-hazard", "--pdf", "--pages pdf"},
+    {"talus-hazard", "--page", "--pages png,pdf,a3"},
+    {"talus-hazard", "--co", "gdal_translate -co NAME=VALUE of the map"},
+    {"talus-trace", "--png", "--pages png"},
+    {"talus-trace", "--pdf", "--pages pdf"},
+    {"talus-trace", "--page", "--pages png,pdf,a3"},
+    {"talus-trn", "--co", "gdal_translate -co NAME=VALUE of the terrain"},
+    {"talus-fence", "--seed", "nothing: the bootstrap has one seed"},
     {"talus-dda", "--law", "--set solver.law=VALUE"},
     {"talus-dda", "--duration-s", "--set solver.duration_s=VALUE"},
     {"talus-dda", "--time-step-s", "--set solver.time_step_s=VALUE"},

@@ -48,7 +48,6 @@ struct Options {
   bool accept_ballpark = false;
   talus::LayerChoice reference_points, faces;
   double cell_size_m = 0;
-  std::vector<std::string> creation_options;
   MapWindow window = everywhere;
   std::string doubts;
   bool accept_doubts = false;
@@ -109,10 +108,6 @@ void declare(Tool& tool, Options& o) {
               "places to look at, also of ground that is refused (GeoPackage)");
   tool.flag("--accept-doubts", o.accept_doubts, "take ground that cannot be, and say so");
   tool.output("--hillshade", o.hillshade, "picture of the terrain (PNG)");
-  tool.app()
-      .add_option("--co", o.creation_options, "creation option of the GeoTIFF, NAME=VALUE")
-      ->allow_extra_args(false)
-      ->check(talus::check_creation_option);
   tool.footer(
       "Example:\n  talus-trn slope.ply -o slope.tif --cell-size-m 5 --report slope.json\n"
       "  talus-trn dem.tif -o slope.tif --window 248400,351100,249200,351700");
@@ -592,8 +587,7 @@ int main(int argc, char** argv) {
     talus::check_trn(ground.trn, o.source);
     tool.content_read("terrain", talus::trn_digest(ground.trn));
     const Json report = report_on(tool, o, ground);
-    talus::write_trn(tool.stage(o.out), ground.trn,
-                     {{{"RUN_ID", tool.run_id()}}, o.creation_options, ground.accepted});
+    talus::write_trn(tool.stage(o.out), ground.trn, {{{"RUN_ID", tool.run_id()}}, ground.accepted});
     if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), ground.trn);
     if (!o.report.empty()) tool.write_text(o.report, talus::json_text(report, 2) + "\n");
     tool.result(report, summary_of(report));

@@ -19,11 +19,11 @@ for set in 'eleven.h5 one.h5' 'one.h5 eleven.h5' 'odd.h5 even.h5' 'third_6.h5 th
 done
 
 # the same maps of any mixture, byte for byte
-expect 0 talus-maps run_*.h5 --trn slope.tif -o maps --min-passages 2 --png
+expect 0 talus-maps run_*.h5 --trn slope.tif -o maps --min-passages 2 --pages png
 expect 0 talus-maps run_*.h5 --trn slope.tif -o coarse --cell-size-m 6 --memory-mb 0.005
 for set in whole.h5 'eleven.h5 one.h5' 'odd.h5 even.h5' 'third_6.h5 third_0.h5 third_9.h5 third_3.h5' \
   'run_5.h5 third_6.h5 run_3.h5 third_0.h5 run_4.h5 third_9.h5'; do
-  expect 0 talus-maps $set --trn slope.tif -o of_parts --min-passages 2 --png --overwrite
+  expect 0 talus-maps $set --trn slope.tif -o of_parts --min-passages 2 --pages png --overwrite
   for file in maps/*.tif maps/*.qml maps/*.png; do cmp "$file" "of_parts/${file#maps/}" || fail "$file of $set is another one"; done
   expect 0 talus-maps $set --trn slope.tif -o of_parts_coarse --cell-size-m 6 --memory-mb 0.005 --overwrite
   for file in coarse/*.tif coarse/*.qml; do cmp "$file" "of_parts_coarse/${file#coarse/}" || fail "coarse $file of $set"; done
