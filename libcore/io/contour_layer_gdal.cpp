@@ -162,6 +162,11 @@ void find_drawing_field(OpenLayer& source) {
 
 }  // namespace
 
+std::string option_words(const LayerRole& role, const std::string& option) {
+  const std::string input = role.input;
+  return option + " " + (input == "contours" || input == "reference" ? "" : input + "=");
+}
+
 OpenLayer open_layer(const LayerChoice& choice, const LayerRole& role) {
   const SourcePath path = parse_source_path(choice.path);
   OpenLayer source;

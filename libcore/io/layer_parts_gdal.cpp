@@ -203,7 +203,7 @@ std::string in_words(const std::map<std::string, std::int64_t>& counts) {
 std::string way_to_shape(const OpenLayer& source, const LayerChoice& choice) {
   const auto has = [&source](const char* kind) { return source.passed_over.count(kind) > 0; };
   const bool are_contours =
-      std::string(source.role.options) == "--" && source.role.shape == LayerShape::line;
+      std::string(source.role.input) == "contours" && source.role.shape == LayerShape::line;
   if (are_contours) {
     if (source.is_drawing && has("face"))
       return "a surface of faces needs no contours: talus-trn " + command_words(choice.path) +

@@ -105,7 +105,7 @@ void note_upright(const FaceCollector& faces, TinFile& file, const std::string& 
 
 // --- drawings ------------------------------------------------------------------------------------
 
-constexpr LayerRole faces_role{LayerShape::face, "faces", "--"};
+constexpr LayerRole faces_role{LayerShape::face, "faces"};
 
 struct DrawingCounts {
   std::int64_t n_faces = 0, n_quads = 0, n_others = 0;

@@ -8,6 +8,13 @@ struct GoneOption {
 };
 
 constexpr GoneOption gone_options[] = {
+    {"talus-tin", "--labels-field", "--elevation-field labels=FIELD"},
+    {"talus-tin", "--breaklines-elevation-field", "--elevation-field breaklines=FIELD"},
+    {"talus-tin", "--spots-elevation-field", "--elevation-field spots=FIELD"},
+    {"talus-tin", "--breaklines-unit-m", "--unit-m breaklines=METRES"},
+    {"talus-tin", "--spots-unit-m", "--unit-m spots=METRES"},
+    {"talus-tin", "--boundary-unit-m", "--unit-m boundary=METRES"},
+    {"talus-trn", "--reference-points-elevation-field", "--elevation-field FIELD"},
     {"talus-maps", "--png", "--pages png"},
     {"talus-maps", "--pdf", "--pages pdf"},
     {"talus-maps", "--page", "--pages png,pdf,a3"},

@@ -172,9 +172,11 @@ std::string tin_flags(const Site& site) {
   };
   add("--elevation-field", t.elevation_field);
   add("--breaklines", resolved(site, t.breaklines));
-  add("--breaklines-elevation-field", t.breaklines_elevation_field);
+  if (!t.breaklines_elevation_field.empty())
+    add("--elevation-field", "breaklines=" + t.breaklines_elevation_field);
   add("--spots", resolved(site, t.spots));
-  add("--spots-elevation-field", t.spots_elevation_field);
+  if (!t.spots_elevation_field.empty())
+    add("--elevation-field", "spots=" + t.spots_elevation_field);
   add("--boundary", resolved(site, t.boundary));
   add("--flat", t.flat);
   return out;

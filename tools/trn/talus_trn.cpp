@@ -101,8 +101,8 @@ void declare(Tool& tool, Options& o) {
   tool.input("--reference", o.reference, "better known DEM to hold the terrain against");
   tool.input("--reference-points", o.reference_points.path,
              "points with a height to hold the terrain against (any vector source)");
-  tool.option("--reference-points-elevation-field", o.reference_points.elevation_field,
-              "field with their elevation, or Z; empty: found by itself");
+  tool.option("--elevation-field", o.reference_points.elevation_field,
+              "field with the elevation of --reference-points, or Z; empty: found by itself");
   tool.output("--report", o.report, "errors, slopes, coverage (JSON)");
   tool.output("--doubts", o.doubts,
               "places to look at, also of ground that is refused (GeoPackage)");

@@ -30,17 +30,17 @@ says "contour at 8100 m"
 nothing_left bad.ply
 # texts of a layer of points, in a field of another name
 ogr2ogr -q -f GPKG texts.gpkg map.dxf -sql "SELECT Text AS words FROM entities WHERE Layer = 'LABELS'" -nln texts
-expect 0 talus-tin 'map.dxf|layername=CONTOURS' --labels texts.gpkg --labels-field words --crs EPSG:32632 -o again.ply
+expect 0 talus-tin 'map.dxf|layername=CONTOURS' --labels texts.gpkg --elevation-field labels=words --crs EPSG:32632 -o again.ply
 cmp map.ply again.ply || fail "the same texts give another TIN"
 # labels of another system, unit or height than the contours stand beside none of them
 ogr2ogr -q -a_srs EPSG:32632 placed.gpkg texts.gpkg
 ogr2ogr -q -t_srs EPSG:32633 elsewhere.gpkg placed.gpkg
 ogr2ogr -q -f GPKG lines.gpkg map.dxf -a_srs EPSG:32632 -sql "SELECT * FROM entities WHERE Layer = 'CONTOURS'" -nln lines
-expect 1 talus-tin lines.gpkg --labels elsewhere.gpkg --labels-field words -o bad.ply
+expect 1 talus-tin lines.gpkg --labels elsewhere.gpkg --elevation-field labels=words -o bad.ply
 says "the labels are in EPSG:32633"
 $(sed -n 's/^ *hint: \(ogr2ogr .*\) takes them there$/\1/p' err)
-expect 0 talus-tin lines.gpkg --labels labels.gpkg --labels-field words -o back.ply
-expect 0 talus-tin lines.gpkg --labels texts.gpkg --labels-field words -o there.ply
+expect 0 talus-tin lines.gpkg --labels labels.gpkg --elevation-field labels=words -o back.ply
+expect 0 talus-tin lines.gpkg --labels texts.gpkg --elevation-field labels=words -o there.ply
 prints "12 contours, 24 points, every 10 m from 800 to 850 m"
 for unit in 4 6; do sed "s/^\$ACADVER$/\$INSUNITS\n70\n$unit\n9\n&/" map.dxf >unit$unit.dxf; done
 expect 1 talus-tin 'unit6.dxf|layername=CONTOURS' --labels 'unit4.dxf|layername=LABELS' --crs EPSG:32632 -o bad.ply

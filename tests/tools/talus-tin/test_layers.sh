@@ -175,7 +175,7 @@ for file in nan.gpkg nan.shp; do
 done
 ogr2ogr -q -dialect OGRSQL -sql "SELECT ELEV AS OTHER, NAME FROM nan" unnamed.gpkg nan.gpkg
 refused "the Z of 4 of 4 is not a finite number, and no field with a usual name holds heights" unnamed.gpkg
-says "hint: name the field with --elevation-field; the fields are: OTHER, NAME"
+says "hint: name the field with --elevation-field FIELD; the fields are: OTHER, NAME"
 is_truth unnamed.gpkg --elevation-field OTHER
 
 # a field called Z beside another Z: refused with both names, each of which works
