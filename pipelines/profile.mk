@@ -10,8 +10,7 @@ $(OUT)/profile/profile.gpkg: $(run_files) $(OUT)/blocks.h5 $(STAGES)/runs.flags 
 	$(call say,profile: $(call counted_runs,$(run_files)) -> what crosses $(LINE))
 	@$(call outcomes,some,$(run_files))
 	$(Q)$(BIN)talus-profile $(call framed_there,$(run_files)) --trn $(ground_of_runs) --line-file '$(subst ','\'',$(LINE))' -o $@ --json $(OUT)/profile/profile.json \
-	  --csv $(OUT)/profile/crossings.csv --bins $(OUT)/profile/bins.csv --stations $(OUT)/profile/stations.csv --charts $(OUT)/profile \
-	  $(evaluate_flags) $(PROFILE_FLAGS) --overwrite $(DB)
+	  --tables $(OUT)/profile $(evaluate_flags) $(PROFILE_FLAGS) --overwrite $(DB)
 	$(call made,talus-profile)
 $(OUT)/profile:
 	@mkdir -p $@

@@ -8,6 +8,10 @@ struct GoneOption {
 };
 
 constexpr GoneOption gone_options[] = {
+    {"talus-profile", "--csv", "--tables FOLDER, it is crossings.csv there"},
+    {"talus-profile", "--bins", "--tables FOLDER, it is bins.csv there"},
+    {"talus-profile", "--stations", "--tables FOLDER, it is stations.csv there"},
+    {"talus-profile", "--charts", "--tables FOLDER"},
     {"talus-tin", "--labels-field", "--elevation-field labels=FIELD"},
     {"talus-tin", "--breaklines-elevation-field", "--elevation-field breaklines=FIELD"},
     {"talus-tin", "--spots-elevation-field", "--elevation-field spots=FIELD"},

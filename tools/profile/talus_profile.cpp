@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 struct Options {
-  std::string line, line_file, out, csv, bins, stations, charts, json;
+  std::string line, line_file, out, tables, json;
   double step_m = none, bin_m = none;
 };
 
@@ -33,11 +33,11 @@ void declare(Tool& tool, Options& o) {
               "the line: \"x,y x,y ...\" in map coordinates of the terrain, blanks between points");
   tool.input("--line-file", o.line_file, "the line: a vector file that holds one");
   tool.output("-o,--out", o.out, "crossings, parts of the line, stations (GeoPackage)")->required();
-  tool.output("--csv", o.csv, "across: a row a block that crosses the line (CSV)");
-  tool.output("--bins", o.bins, "across: a row a part of the line (CSV)");
-  tool.output("--stations", o.stations, "along: ground and passing blocks at stations (CSV)");
-  tool.output_folder("--charts", o.charts,
-                     "folder for charts (SVG): ground, count, energy, speed, height");
+  tool.output_folder(
+      "--tables", o.tables,
+      "folder for tables and charts: crossings.csv, a row a block; bins.csv, a row a "
+      "part of the line; stations.csv, ground and passing blocks along it; ground, "
+      "count, energy, speed and height (SVG)");
   tool.json_output(o.json, "the result (JSON)");
   tool.option("--step-m", o.step_m, "between stations [m]; nan: the cells of the terrain")
       ->check(number_between(1e-3, 1e6, true));
@@ -45,7 +45,7 @@ void declare(Tool& tool, Options& o) {
       ->check(number_between(1e-3, 1e6, true));
   tool.footer(
       "Example:\n  talus-profile run_*.h5 --trn bed.tif --line-file road.geojson -o profile.gpkg "
-      "--csv crossings.csv --stations profile.csv --charts charts");
+      "--tables profile");
 }
 
 Where where_of_line(const Options& o) {
@@ -193,12 +193,15 @@ void run_tool(Tool& tool, const Options& o, RunInputs& runs) {
   std::vector<VectorLayer> layers = profile_layers(profile);
   mark_layers(layers, remark);
   write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
-  if (!o.csv.empty()) tool.write_text(o.csv, crossing_csv(profile));
-  if (!o.bins.empty()) tool.write_text(o.bins, bin_csv(profile));
-  if (!o.stations.empty()) tool.write_text(o.stations, station_csv(profile));
-  if (!o.charts.empty())
-    for (const auto& [name, svg] : profile_charts(profile))
-      tool.write_text((fs::path(o.charts) / (name + ".svg")).string(), svg);
+  if (!o.tables.empty()) {
+    const auto write = [&](const std::string& name, const std::string& content) {
+      tool.write_text((fs::path(o.tables) / name).string(), content);
+    };
+    write("crossings.csv", crossing_csv(profile));
+    write("bins.csv", bin_csv(profile));
+    write("stations.csv", station_csv(profile));
+    for (const auto& [name, svg] : profile_charts(profile)) write(name + ".svg", svg);
+  }
   Json result = {
       {"run_id", tool.run_id()}, {"tags", Json::object()}, {"n_runs", n_runs(profile.sums)}};
   for (const auto& [key, value] : tags) result["tags"][key] = value;

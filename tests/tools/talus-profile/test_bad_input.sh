@@ -62,7 +62,7 @@ says 'no run has passages: the profile along the line holds the ground alone'
 prints '1 block crosses it in 1 of 1 run'
 grep -q '"method": "ground alone"' framed.json || fail 'passages from nowhere'
 # nothing comes
-expect 0 talus-profile run_0.h5 run_1.h5 --trn slope.tif -o none.gpkg --line '250070,350004 250070,350020' --charts none
+expect 0 talus-profile run_0.h5 run_1.h5 --trn slope.tif -o none.gpkg --line '250070,350004 250070,350020' --tables none
 prints 'line of 16 m: nothing crosses it in 2 runs (95 %: 0 - 0.658); by frames'
 expect 1 talus-profile --trn slope.tif -o p.gpkg --line "$line" --runs-from /dev/null
 says 'names no run'
