@@ -94,7 +94,7 @@ class Bench:
             Job("talus-dda", [toml, "--trn", grid, "--blocks", str(made / "blocks.h5"),
                               "-o", "run.h5", "--xdmf", "run.xmf"], ["--overwrite", "--resume"]),
             Job("talus-runout", [str(made / "run.h5"), "--trn", grid, "-o", "runout.gpkg", "--json",
-                                 "runout.json", "--csv", "runout.csv", "--svg", "runout.svg",
+                                 "runout.json", "--tables", ".",
                                  "--allow-unfinished"]),
             Job("talus-maps", [str(made / "run.h5"), "--trn", grid, "-o", ".", "--pages", "png",
                                "--allow-unfinished"]),

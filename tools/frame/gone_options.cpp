@@ -8,6 +8,12 @@ struct GoneOption {
 };
 
 constexpr GoneOption gone_options[] = {
+    {"talus-runout", "--csv", "--tables FOLDER, it is runout.csv there"},
+    {"talus-runout", "--run-table", "--tables FOLDER, it is runs.csv there"},
+    {"talus-runout", "--sensitivity", "--tables FOLDER, it is sensitivity.csv there"},
+    {"talus-runout", "--curves", "--tables FOLDER, it is curves.csv there"},
+    {"talus-runout", "--svg", "--tables FOLDER, it is runout.svg there"},
+    {"talus-verify", "--quick", "nothing: it is done by default"},
     {"talus-profile", "--csv", "--tables FOLDER, it is crossings.csv there"},
     {"talus-profile", "--bins", "--tables FOLDER, it is bins.csv there"},
     {"talus-profile", "--stations", "--tables FOLDER, it is stations.csv there"},

@@ -22,7 +22,7 @@ prints '0 % of the mass moved more than 1 m, 0 % more than 20 m; displacement by
 # Of three runs the first moves nothing: it is counted, and left out of reach and means.
 mkdir runs part
 run-probe runs 3 still_runs=1
-expect 0 talus-runout runs/run_*.h5 --trn runs/slope.tif -o three.gpkg --json three.json --run-table three.csv --no-db
+expect 0 talus-runout runs/run_*.h5 --trn runs/slope.tif -o three.gpkg --json three.json --tables . --no-db
 says '1 of 3 runs did not move'
 prints '1 of 3 runs did not move (no block by more than 1 m)'
 prints 'run-out of 2 runs that moved: H '
@@ -42,7 +42,7 @@ for key in 'H_m', 'L_path_m', 'L_chord_m', 'reach_angle_path_deg':
     mean = sum(r['event'][key] for r in moved) / 2
     assert s['n'] == 2 and abs(s['mean'] - mean) < 1e-9, (key, s, mean)
 assert len(j['mobility'][0]['runs']) == 2
-rows = list(csv.DictReader(open('three.csv')))
+rows = list(csv.DictReader(open('runs.csv')))
 assert [r['moved'] for r in rows] == ['0', '1', '1'] and rows[0]['L_path_m'] == ''
 assert abs(float(rows[1]['L_path_m']) - moved[0]['event']['L_path_m']) < 1e-6
 PY

@@ -51,7 +51,7 @@ grep -q '^site_centre,talus,36,0.001,0,' soft/site.csv || fail "the reference of
 grep -q '^site_centre,talus,18,0.01,0,' soft/site.csv || fail "soft blocks were not tried without strains"
 prints "| without strains |"
 
-expect 2 study -o bad --quick
+expect 2 study -o bad --full
 says "looks at the scene of a site file alone"
 expect 2 study -o bad --page page.md
 says "looks at the scene of a site file alone"
