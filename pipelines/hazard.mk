@@ -24,6 +24,6 @@ $(OUT)/hazard.json: $(run_files) $(OUT)/blocks.h5 $(STAGES)/hazard.txt $(STAGES)
 	@$(call outcomes,some,$(run_files))
 	@rm -f $(addprefix $(OUT)/,$(hazard_patterns))
 	@$(if $(several_classes),$(foreach class,$(SITE_HAZARD_CLASSES),$(call class_list,$(class));))
-	$(Q)$(BIN)talus-hazard site.toml $(hazard_runs) --trn $(ground_of_runs) -o $(OUT)/hazard --json $(OUT)/hazard.json --png --pdf \
+	$(Q)$(BIN)talus-hazard site.toml $(hazard_runs) --trn $(ground_of_runs) -o $(OUT)/hazard --json $(OUT)/hazard.json --pages png,pdf \
 	  $(class_flags) $(HAZARD_FLAGS) --overwrite $(DB)
 	$(call made,talus-hazard)

@@ -63,14 +63,17 @@ endif
 # lies in OUT.
 words_in = $(subst =, ,$(subst |, ,$(subst ",,$(subst ',,$1))))
 named_in = $(filter-out $(OUT)/%,$(foreach name,$(wildcard $(call words_in,$1)),$(if $(wildcard $(name)/.),,$(name))))
+# Of "map.gpkg|layername=index|subset=ELEV > 900" the file, and a word of the recipe that chooses layers and features.
+contours_file = $(if $(findstring |,$(CONTOURS)),$(firstword $(subst |, ,$(CONTOURS))),$(CONTOURS))
+contours_part = $(if $(findstring |,$(CONTOURS)),'$(subst ','\'',$(subst $(contours_file)|,|,$(CONTOURS)))',$(if $(call differ,$(CONTOURS),$(SITE_CONTOURS)),,$(SITE_CONTOURS_PART)))
 # given(NAME,FLAGS): options of talus-site for the files of a list, which may be empty
 given = --given $1= $(foreach name,$(call named_in,$2),--given '$1=$(subst ','\'',$(name))')
-given_files := $(if $(CONTOURS),--given tin=$(CONTOURS)) $(call given,tin,$(TIN_FLAGS)) \
+given_files := $(if $(CONTOURS),--given tin=$(contours_file)) $(call given,tin,$(TIN_FLAGS)) \
   $(if $(DEM),--given trn=$(DEM)) $(call given,trn,$(TRN_FLAGS)) $(call given,blocks,$(BLOCKS_FLAGS)) $(call given,check,$(CHECK_FLAGS)) \
   $(call given,dda,$(filter-out %.xmf,$(DDA_FLAGS))) $(foreach case,$(CASES),$(call given,case_$(case),$(CASE_$(case)))) \
   $(call given,runout,$(RUNOUT_FLAGS)) $(call given,maps,$(MAPS_FLAGS)) $(call given,fence,$(FENCE_FLAGS)) $(call given,places,$(PLACES_FLAGS)) \
   $(call given,hazard,$(HAZARD_FLAGS)) $(call given,trace,$(TRACE_FLAGS)) $(call given,search,$(SEARCH_FLAGS)) \
-  $(if $(LINE),--given 'profile=$(LINE)') $(call given,profile,$(PROFILE_FLAGS)) \
+  $(if $(LINE),--given 'profile=$(line_file)') $(call given,profile,$(PROFILE_FLAGS)) \
   --given report=site.toml $(call given,report,$(REPORT_FLAGS))
 
 # With -n and -q the stage files go to a folder of their own and are compared.

@@ -7,7 +7,7 @@ $(eval $(call together,$(map_files)))
 $(OUT)/maps/reach.tif: $(run_files) $(OUT)/blocks.h5 $(STAGES)/runs.flags $(STAGES)/maps.flags $(STAGES)/maps.files
 	$(call say,maps: $(call counted_runs,$(run_files)) -> maps)
 	@$(call outcomes,some,$(run_files))
-	$(Q)$(BIN)talus-maps $(call run_there,$(run_files)) --trn $(ground_of_runs) -o $(OUT)/maps --png --pdf $(evaluate_flags) $(MAPS_FLAGS) --overwrite $(DB)
+	$(Q)$(BIN)talus-maps $(call run_there,$(run_files)) --trn $(ground_of_runs) -o $(OUT)/maps --pages png,pdf $(evaluate_flags) $(MAPS_FLAGS) --overwrite $(DB)
 	$(call made,talus-maps)
 
 # --- the maps of each case by themselves, with one window: what cases have in common may be none of them ---
@@ -20,7 +20,7 @@ $(call together,$(call maps_of_case,$1))
 $(firstword $(call maps_of_case,$1)): $(OUT)/maps/reach.tif
 	$$(call say,maps: case $1 -> maps)
 	$$(Q)ls $(OUT)/runs/run_$1_*.h5 >/dev/null 2>&1 || exit 0; $$(BIN)talus-maps $$(call run_there,$$(run_files)) --only-case $1 --trn $$(ground_of_runs) \
-	  -o $(OUT)/maps/$1 --window-of $(OUT)/maps/reach.tif --png --pdf $$(class_flags) $$(MAPS_FLAGS) --overwrite $$(DB)
+	  -o $(OUT)/maps/$1 --window-of $(OUT)/maps/reach.tif --pages png,pdf $$(class_flags) $$(MAPS_FLAGS) --overwrite $$(DB)
 	@ls $(OUT)/runs/run_$1_*.h5 >/dev/null 2>&1 || exit 0; $$(patsubst @%,%,$$(call made,talus-maps))
 endef
 $(foreach case,$(several_cases),$(eval $(call map_case,$(case))))

@@ -1,5 +1,5 @@
 # Runs -> what crosses a line that was drawn after them, and a profile along it.
-# in: LINE (a file with one line: GeoJSON, GeoPackage, Shapefile), PROFILE_FLAGS (e.g. --bin-m 5 --line-layer roads)
+# in: LINE (a file with one line: road.geojson, "map.gpkg|layername=roads"), PROFILE_FLAGS (e.g. --bin-m 5)
 # out: $(OUT)/profile/profile.gpkg, .json, crossings.csv, bins.csv, stations.csv, *.svg
 # Another LINE replaces them: make profile LINE=road.geojson. Nothing else needs them.
 ifneq ($(LINE),)
@@ -9,9 +9,8 @@ $(eval $(call together,$(profile_files)))
 $(OUT)/profile/profile.gpkg: $(run_files) $(OUT)/blocks.h5 $(STAGES)/runs.flags $(STAGES)/profile.flags $(STAGES)/profile.files | $(OUT)/profile
 	$(call say,profile: $(call counted_runs,$(run_files)) -> what crosses $(LINE))
 	@$(call outcomes,some,$(run_files))
-	$(Q)$(BIN)talus-profile $(call framed_there,$(run_files)) --trn $(ground_of_runs) --line-file '$(LINE)' -o $@ --json $(OUT)/profile/profile.json \
-	  --csv $(OUT)/profile/crossings.csv --bins $(OUT)/profile/bins.csv --stations $(OUT)/profile/stations.csv --charts $(OUT)/profile \
-	  $(evaluate_flags) $(PROFILE_FLAGS) --overwrite $(DB)
+	$(Q)$(BIN)talus-profile $(call framed_there,$(run_files)) --trn $(ground_of_runs) --line-file '$(subst ','\'',$(LINE))' -o $@ --json $(OUT)/profile/profile.json \
+	  --tables $(OUT)/profile $(evaluate_flags) $(PROFILE_FLAGS) --overwrite $(DB)
 	$(call made,talus-profile)
 $(OUT)/profile:
 	@mkdir -p $@

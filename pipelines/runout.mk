@@ -8,6 +8,6 @@ $(eval $(call together,$(runout_files)))
 $(OUT)/runout.gpkg: $(run_files) $(OUT)/blocks.h5 $(STAGES)/runs.flags $(STAGES)/runout.flags $(STAGES)/runout.files
 	$(call say,runout: $(call counted_runs,$(run_files)) -> run-out)
 	@$(call outcomes,some,$(run_files))
-	$(Q)$(BIN)talus-runout $(call framed_there,$(run_files)) --trn $(ground_of_runs) -o $(OUT)/runout.gpkg --json $(OUT)/runout.json --csv $(OUT)/runout.csv \
-	  --svg $(OUT)/runout.svg --run-table $(OUT)/runs.csv --sensitivity $(OUT)/sensitivity.csv --curves $(OUT)/curves.csv --thickness $(OUT)/thickness.tif $(evaluate_flags) $(RUNOUT_FLAGS) --overwrite $(DB)
+	$(Q)$(BIN)talus-runout $(call framed_there,$(run_files)) --trn $(ground_of_runs) -o $(OUT)/runout.gpkg --json $(OUT)/runout.json --tables $(OUT) \
+	  --thickness $(OUT)/thickness.tif $(evaluate_flags) $(RUNOUT_FLAGS) --overwrite $(DB)
 	$(call made,talus-runout)

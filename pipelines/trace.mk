@@ -11,5 +11,5 @@ $(OUT)/trace.gpkg: $(run_files) $(OUT)/blocks.h5 $(STAGES)/trace.txt $(STAGES)/r
 	@rm -f $(addprefix $(OUT)/,$(trace_patterns))
 	@$(if $(several_classes),$(foreach class,$(SITE_HAZARD_CLASSES),$(call class_list,$(class));))
 	$(Q)$(BIN)talus-trace site.toml $(hazard_runs) --trn $(ground_of_runs) -o $(OUT)/trace.gpkg --json $(OUT)/trace.json \
-	  --csv $(OUT)/links.csv --rasters $(OUT)/sources --png --pdf $(class_flags) $(TRACE_FLAGS) --overwrite $(DB)
+	  --csv $(OUT)/links.csv --rasters $(OUT)/sources --pages png,pdf $(class_flags) $(TRACE_FLAGS) --overwrite $(DB)
 	$(call made,talus-trace)

@@ -12,9 +12,10 @@ $(error OUT is $(OUT), the site's own folder, whose files results would replace:
 endif
 $(if $(filter profile,$(MAKECMDGOALS)),$(if $(LINE),,$(error profile needs LINE, a file with one line: make profile LINE=road.geojson)))
 ifneq ($(LINE),)
-$(if $(word 2,$(LINE)),$(error LINE is '$(LINE)', expected the name of one file without blanks))
-$(foreach sign,' " ` $$ ; & | < > * ? : %,$(if $(findstring $(sign),$(LINE)),$(error LINE is $(LINE), expected a file name without $(sign))))
-$(if $(wildcard $(LINE)),,$(error LINE is $(LINE): there is no such file))
+line_file := $(firstword $(subst |, ,$(LINE)))
+$(if $(findstring |,$(LINE)),,$(if $(word 2,$(LINE)),$(error LINE is '$(LINE)', expected the name of one file without blanks)))
+$(foreach sign,' " ` $$ ; & < > * ? : %,$(if $(findstring $(sign),$(line_file)),$(error LINE is $(LINE), expected a file name without $(sign))))
+$(if $(wildcard $(line_file)),,$(error LINE is $(LINE): there is no such file))
 endif
 
 no_digits = $(subst 0,,$(subst 1,,$(subst 2,,$(subst 3,,$(subst 4,,$(subst 5,,$(subst 6,,$(subst 7,,$(subst 8,,$(subst 9,,$1))))))))))

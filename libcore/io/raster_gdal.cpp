@@ -518,18 +518,12 @@ std::vector<double> rows_to_write(const Trn& trn, int row, int n_rows, Elevation
   return rows;
 }
 
-Dataset create_geotiff(const std::string& path, const Trn& trn, const TrnFileOptions& options) {
+Dataset create_geotiff(const std::string& path, const Trn& trn) {
   register_gdal_drivers();
   CPLStringList words;
   for (const char* word :
        {"TILED=YES", "COMPRESS=DEFLATE", "PREDICTOR=3", "ZLEVEL=1", "BIGTIFF=IF_SAFER"})
     words.AddString(word);
-  for (const std::string& option : options.creation_options) {
-    const std::size_t equals = option.find('=');
-    if (equals == std::string::npos)
-      throw InputError({"", 0, "-co " + option}, "no value, expected NAME=VALUE");
-    words.SetNameValue(option.substr(0, equals).c_str(), option.substr(equals + 1).c_str());
-  }
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   return Dataset(
       driver->Create(path.c_str(), trn.n_cols, trn.n_rows, 1, GDT_Float64, words.List()));
@@ -559,7 +553,7 @@ void describe(GDALDataset& dataset, const Trn& trn, const TrnFileOptions& option
 
 void write_trn(const std::string& path, const Trn& trn, const TrnFileOptions& options) {
   const GdalErrors errors;
-  Dataset dataset = create_geotiff(path, trn, options);
+  Dataset dataset = create_geotiff(path, trn);
   CPLErr status = dataset ? CE_None : CE_Failure;
   if (dataset) describe(*dataset, trn, options);
   ElevationSums sums;
@@ -579,10 +573,7 @@ void write_trn(const std::string& path, const Trn& trn, const TrnFileOptions& op
   }
   dataset.reset();  // the last bytes are written here
   if (status != CE_None || errors.failed())
-    throw InputError({path}, "cannot be written: " + errors.failure(),
-                     options.creation_options.empty()
-                         ? errors.why_not_written()
-                         : "do the creation options fit 64-bit floats? Or is the disk full?");
+    throw InputError({path}, "cannot be written: " + errors.failure(), errors.why_not_written());
 }
 
 }  // namespace talus

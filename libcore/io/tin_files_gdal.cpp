@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/file_paths.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "io/contour_heights_gdal.hpp"
@@ -104,7 +105,7 @@ void note_upright(const FaceCollector& faces, TinFile& file, const std::string& 
 
 // --- drawings ------------------------------------------------------------------------------------
 
-constexpr LayerRole faces_role{LayerShape::face, "faces", "--"};
+constexpr LayerRole faces_role{LayerShape::face, "faces"};
 
 struct DrawingCounts {
   std::int64_t n_faces = 0, n_quads = 0, n_others = 0;
@@ -140,10 +141,11 @@ void add_face(const OGRGeometry& geometry, double unit_m, FaceCollector& faces,
 }
 
 double unit_of_faces(const LayerChoice& choice, TinFile& file) {
-  if (const std::string doubt = doubt_on_unit(choice.path, choice.unit_m); !doubt.empty())
-    file.warnings.push_back(choice.path + ": " + doubt);
-  const DrawingUnit unit = drawing_unit(choice.path);
-  return scale_of_drawing(choice.path, choice.unit_m, 1, {choice.path},
+  const std::string drawing = file_of(choice.path);
+  if (const std::string doubt = doubt_on_unit(drawing, choice.unit_m); !doubt.empty())
+    file.warnings.push_back(drawing + ": " + doubt);
+  const DrawingUnit unit = drawing_unit(drawing);
+  return scale_of_drawing(drawing, choice.unit_m, 1, {drawing},
                           "--unit-m " + (unit.metres > 0 ? text(unit.metres) : "METRES") +
                               " scales plan and heights; --unit-m 1 if it is in metres whatever "
                               "its header says");
@@ -321,16 +323,17 @@ TinFile read_ply(const std::string& path) {
 
 }  // namespace
 
-bool is_tin_file(const std::string& path) {
+bool is_tin_file(const std::string& source) {
+  const std::string path = file_of(source);
   return is_ply(path) || is_landxml(path) || extension_of(path) == ".dxf";
 }
 
 TinFile read_tin_file(const LayerChoice& choice) {
-  const bool has_layers = !is_ply(choice.path) && !is_landxml(choice.path);
-  if (has_layers) return read_drawing(choice);
-  if (!choice.layer.empty() || !choice.where.empty() || choice.unit_m != 0)
-    throw InputError({choice.path}, "has no layers, filter and unit to choose, only a drawing has",
-                     "leave --layer, --where and --unit-m away");
+  const std::string path = file_of(choice.path);
+  if (!is_ply(path) && !is_landxml(path)) return read_drawing(choice);
+  if (path != choice.path || choice.unit_m != 0)
+    throw InputError({path}, "has no layers, filter and unit to choose, only a drawing has",
+                     "leave --unit-m and what follows the file away");
   return is_ply(choice.path) ? read_ply(choice.path) : read_landxml(choice.path);
 }
 

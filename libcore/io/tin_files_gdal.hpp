@@ -14,7 +14,7 @@
 namespace talus {
 
 /// By name or first bytes: a PLY, a LandXML, or a drawing (DXF). A raster is none.
-[[nodiscard]] bool is_tin_file(const std::string& path);
+[[nodiscard]] bool is_tin_file(const std::string& source);
 
 struct TinFile {
   Tin tin;

@@ -78,9 +78,9 @@ struct Reader {
     LayerSection section{layer.section, name, place, {}};
     const std::string filter = name.empty() ? "" : "name = '" + name + "'";
     section.digest = digest_of_features(resolved(site, site.info.layers), layer.name, filter);
-    section.values.push_back({layer.prefix + "file", site.info.layers});
-    section.values.push_back({layer.prefix + "layer", layer.name});
-    if (!filter.empty()) section.values.push_back({layer.prefix + "where", filter});
+    section.values.push_back({layer.prefix + "file", site.info.layers + "|layername=" + layer.name +
+                                                         (filter.empty() ? "" : "|subset=") +
+                                                         filter});
     sections.push_back(std::move(section));
     return sections.back();
   }

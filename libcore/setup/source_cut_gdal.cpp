@@ -48,10 +48,8 @@ Area read_area(InputLog& log, const BlocksWork& work) {
   }
   const std::string path = resolved(work.site, source.polygon_file);
   read_data(log, "source.polygon_file", path);
-  const VectorShapes found = read_layer(
-      log, "source",
-      {path, source.polygon_layer, source.polygon_where, VectorKind::areas, "source.polygon_"},
-      work.ground.crs_wkt);
+  const VectorShapes found =
+      read_layer(log, "source", {path, VectorKind::areas}, work.ground.crs_wkt);
   for (std::vector<Vec3> ring : found.shapes) {
     for (Vec3& p : ring) p -= work.ground.origin;
     add_ring(ring);

@@ -94,9 +94,9 @@ class Bench:
             Job("talus-dda", [toml, "--trn", grid, "--blocks", str(made / "blocks.h5"),
                               "-o", "run.h5", "--xdmf", "run.xmf"], ["--overwrite", "--resume"]),
             Job("talus-runout", [str(made / "run.h5"), "--trn", grid, "-o", "runout.gpkg", "--json",
-                                 "runout.json", "--csv", "runout.csv", "--svg", "runout.svg",
+                                 "runout.json", "--tables", ".",
                                  "--allow-unfinished"]),
-            Job("talus-maps", [str(made / "run.h5"), "--trn", grid, "-o", ".", "--png",
+            Job("talus-maps", [str(made / "run.h5"), "--trn", grid, "-o", ".", "--pages", "png",
                                "--allow-unfinished"]),
             Job("talus-fence", [toml, str(made / "run.h5"), "--trn", grid, "-o", "fence.gpkg",
                                 "--json", "fence.json", "--csv", "fence.csv", "--allow-unfinished"]),
@@ -499,7 +499,7 @@ def stated_memory(bench):
 def stated_limits(bench):
     """Jobs, each with the memory [MB] that its page states beyond what loading takes."""
     for job in bench.jobs:
-        draws = any(word in ("--png", "--pdf", "--change") for word in job.words)
+        draws = any(word in ("--pages", "--change") for word in job.words)
         yield job, SMALL_SCENE_MB + (PAGES_MB if draws else 0)
     made, toml = bench.work / "site/made", str(bench.work / "site/site.toml")
     large = ["--cell-size-m", "0.16", "--window", "500000,5200000,500224,5200320"]
@@ -517,7 +517,7 @@ def stated_limits(bench):
     many = bench.work / "many"
     trn, run = ["--trn", str(made / "bed.tif")], str(many / "runs/run_1.h5")
     jobs = [Job("talus-dda", [toml, *trn, "--blocks", str(made / "blocks.h5"), "-o", "run.h5",
-                              "--independent", "--frame-interval-s", str(FRAME_INTERVAL_S), "--set",
+                              "--independent", "--set", f"output.frame_interval_s={FRAME_INTERVAL_S}", "--set",
                               f"solver.duration_s={(MANY_FRAMES - 1) * FRAME_INTERVAL_S}"]),
             Job("talus-runout", [run, *trn, "-o", "runout.gpkg", "--json", "runout.json",
                                  "--allow-unfinished"]),
@@ -779,9 +779,9 @@ def same_tables_at_other_frames(bench):
     intervals = ("0.02", "0.37")
     for interval in intervals:
         folder = bench.fresh(bench.work / f"frames_{interval}")
-        bench.must([dda.name, *dda.words, "--frame-interval-s", interval], folder)
+        bench.must([dda.name, *dda.words, "--set", f"output.frame_interval_s={interval}"], folder)
         grid = bench.work / "site/made/bed.tif"
-        bench.must(["talus-maps", "run.h5", "--trn", grid, "-o", "maps", "--png",
+        bench.must(["talus-maps", "run.h5", "--trn", grid, "-o", "maps", "--pages", "png",
                     "--allow-unfinished"], folder)
         bench.must(["talus-fence", bench.work / "site/site.toml", "run.h5", "--trn", grid, "-o",
                     "fence.gpkg", "--csv", "fence.csv", "--allow-unfinished"], folder)

@@ -363,7 +363,6 @@ bool can_be_probed(const Look& look) { return look.work.site.solver.law == "talu
 void probe_look(Tool& tool, double duration, Look& look) {
   Site site = look.work.site;
   site.solver.time_step_s = probe_step_s;
-  site.solver.min_time_step_s = site.solver.max_time_step_s = not_given;
   const ScenePlan plan = plan_of(site, look.inputs.parts, look.files.independent, false);
   check_start(tool, site, look.inputs, {look.files.bed, look.files.blocks, look.files.settle},
               plan.block_contacts);

@@ -20,6 +20,7 @@
 #include "store/runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/exit_code.hpp"
+#include "tools/frame/gone_options.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/output_checks.hpp"
 #include "tools/frame/progress_line.hpp"
@@ -572,7 +573,8 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     impl.options.messages = word_after("--messages", argc, argv);
     impl.options.label.clear();
     impl.say(error_level, error.what());
-    impl.say(hint_level, impl.name + " --help");
+    const std::string instead = written_instead(impl.name, argc, argv);
+    impl.say(hint_level, instead.empty() ? impl.name + " --help" : instead);
     impl.failures.push_back(printable(error.what()));
     impl.write_failures(usage_wrong);
     return usage_wrong;

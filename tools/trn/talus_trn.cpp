@@ -25,7 +25,6 @@
 #include "terrain/trn_quality.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/doubts_layer.hpp"
-#include "tools/frame/layer_options.hpp"
 #include "tools/frame/options.hpp"
 
 namespace {
@@ -49,7 +48,6 @@ struct Options {
   bool accept_ballpark = false;
   talus::LayerChoice reference_points, faces;
   double cell_size_m = 0;
-  std::vector<std::string> creation_options;
   MapWindow window = everywhere;
   std::string doubts;
   bool accept_doubts = false;
@@ -81,7 +79,6 @@ std::string check_positive(const std::string& word) {
 void declare(Tool& tool, Options& o) {
   tool.input("source", o.source, "TIN (PLY, LandXML, 3DFACE in DXF), or an elevation raster");
   tool.output("-o,--out", o.out, "terrain to write (GeoTIFF)")->required();
-  talus::add_layer_options(tool, "--", "a drawing of faces", o.faces);
   tool.option("--unit-m", o.faces.unit_m,
               "metres in one unit of a drawing of faces, in plan and height; 0: metres, or refused "
               "where it says another unit")
@@ -104,18 +101,13 @@ void declare(Tool& tool, Options& o) {
   tool.input("--reference", o.reference, "better known DEM to hold the terrain against");
   tool.input("--reference-points", o.reference_points.path,
              "points with a height to hold the terrain against (any vector source)");
-  talus::add_layer_options(tool, "--reference-points-", "the points", o.reference_points);
-  tool.option("--reference-points-elevation-field", o.reference_points.elevation_field,
-              "field with their elevation, or Z; empty: found by itself");
+  tool.option("--elevation-field", o.reference_points.elevation_field,
+              "field with the elevation of --reference-points, or Z; empty: found by itself");
   tool.output("--report", o.report, "errors, slopes, coverage (JSON)");
   tool.output("--doubts", o.doubts,
               "places to look at, also of ground that is refused (GeoPackage)");
   tool.flag("--accept-doubts", o.accept_doubts, "take ground that cannot be, and say so");
   tool.output("--hillshade", o.hillshade, "picture of the terrain (PNG)");
-  tool.app()
-      .add_option("--co", o.creation_options, "creation option of the GeoTIFF, NAME=VALUE")
-      ->allow_extra_args(false)
-      ->check(talus::check_creation_option);
   tool.footer(
       "Example:\n  talus-trn slope.ply -o slope.tif --cell-size-m 5 --report slope.json\n"
       "  talus-trn dem.tif -o slope.tif --window 248400,351100,249200,351700");
@@ -298,9 +290,8 @@ Ground ground_of_dem(Tool& tool, const Options& o) {
   });
   options.accept_ballpark = o.accept_ballpark;
   options.window = o.window;
-  if (!o.faces.layer.empty() || !o.faces.where.empty() || o.faces.unit_m != 0)
-    throw talus::UsageError({"", 0, o.source}, "--layer, --where and --unit-m are for drawings",
-                            "leave them away");
+  if (o.faces.unit_m != 0)
+    throw talus::UsageError({"", 0, o.source}, "--unit-m is for drawings", "leave it away");
   const DemFile dem(o.source, options);
   say(tool, dem.reading());
   Ground ground;
@@ -596,8 +587,7 @@ int main(int argc, char** argv) {
     talus::check_trn(ground.trn, o.source);
     tool.content_read("terrain", talus::trn_digest(ground.trn));
     const Json report = report_on(tool, o, ground);
-    talus::write_trn(tool.stage(o.out), ground.trn,
-                     {{{"RUN_ID", tool.run_id()}}, o.creation_options, ground.accepted});
+    talus::write_trn(tool.stage(o.out), ground.trn, {{{"RUN_ID", tool.run_id()}}, ground.accepted});
     if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), ground.trn);
     if (!o.report.empty()) tool.write_text(o.report, talus::json_text(report, 2) + "\n");
     tool.result(report, summary_of(report));

@@ -6,7 +6,7 @@ made slope RUNS=2 prepare
 mkdir beside
 cp slope/site.toml slope/contours.gpkg slope/Makefile beside
 ln -s ../slope/out beside/out
-long='--time-step-s 0.00001'
+long='--set solver.time_step_s=0.00001'
 
 # begin ARGUMENTS: a make that goes on for long, as $process, whose run has begun, as $run_of_make
 begin() {
@@ -53,7 +53,7 @@ expect 2 make -C slope BIN= RUNS=2 runs
 says "another make works in out"
 made slope WITHOUT=no RUNS=2 DDA_FLAGS="$long" SHARD=2 SHARDS=2 REDUCE=no -n runs-shard
 grep -q 'talus-dda' out || fail "the second shard has nothing to do"
-expect 0 make -C slope BIN= WITHOUT=no RUNS=2 SHARD=2 SHARDS=2 DDA_FLAGS='--duration-s 0.1' SHARD_LAST='$(MAKE) BIN= SHARD= SHARDS= terrain' runs-shard
+expect 0 make -C slope BIN= WITHOUT=no RUNS=2 SHARD=2 SHARDS=2 DDA_FLAGS='--set solver.duration_s=0.1' SHARD_LAST='$(MAKE) BIN= SHARD= SHARDS= terrain' runs-shard
 finished
 
 # A lock that is a link would lead elsewhere.

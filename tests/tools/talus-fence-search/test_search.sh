@@ -58,7 +58,7 @@ expect 0 talus-fence site.toml --add proposals/house-1.toml other_*.h5 --trn slo
 prints 'fence house-1'
 
 # runs of two classes count by how often these happen: 0.01 and 0.04 a year, only the rare one hits
-runs short 1 6 --duration-s 1
+runs short 1 6 --set solver.duration_s=1
 sed 's/^\[fence_search/[hazard]\n[hazard.class.rare]\nfrequency_per_a = 0.01\n[hazard.class.often]\nfrequency_per_a = 0.04\n&/' \
   site.toml >classes.toml
 ls run_*.h5 >rare.list
