@@ -62,12 +62,10 @@ Dataset open_raster(const std::string& path) {
   check_virtual(path);
   const GdalErrors errors;
   Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
-  if (!dataset) {
-    const std::string way_out = needs_permission(errors.failure());
-    throw InputError(
-        {path}, "cannot be opened as a raster: " + errors.failure(),
-        way_out.empty() ? "gdalinfo " + path + " shows what GDAL makes of it" : way_out);
-  }
+  if (!dataset)
+    throw InputError({path}, "cannot be opened as a raster: " + errors.failure(),
+                     way_to_open(path, "gdalinfo " + path + " shows what GDAL makes of it"));
+  check_tables(*dataset, path);
   refuse_several_rasters(*dataset, path);
   return dataset;
 }

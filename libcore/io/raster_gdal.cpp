@@ -15,6 +15,7 @@
 
 #include "base/memory.hpp"
 #include "base/printable.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "io/crs_gdal.hpp"
@@ -22,7 +23,6 @@
 #include "io/crs_place_gdal.hpp"
 #include "io/errors_gdal.hpp"
 #include "io/judged_heights_gdal.hpp"
-#include "io/network_gdal.hpp"
 #include "io/raster_bands_gdal.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/lone_levels.hpp"
@@ -393,12 +393,14 @@ void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) 
                                                   n_cols, n_rows, GDT_Byte, 0, 0, nullptr);
   }
   if (status != CE_None || errors.failed()) {
-    const std::string way_out = needs_permission(errors.failure());
+    const bool names_other_format = errors.failure().find("not recognized") != std::string::npos;
     throw InputError(
         {impl_->path},
         "reading rows " + std::to_string(row) + " to " + std::to_string(row + n_rows - 1) + " of " +
             size_text(impl_->frame.n_rows, impl_->frame.n_cols) + " failed: " + errors.failure(),
-        way_out.empty() ? "the file is damaged or cut short: fetch it again" : way_out);
+        names_other_format
+            ? "gdal_translate " + command_words(impl_->path) + " one.tif makes one file of it"
+            : "the file is damaged or cut short: fetch it again");
   }
   for (std::size_t i = 0; i < n; ++i) {
     double& z = elevation[i];

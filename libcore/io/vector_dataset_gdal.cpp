@@ -264,16 +264,14 @@ VectorDataset open_vectors(const SourcePath& path) {
   const GdalErrors errors;
   opened.dataset = GDALDatasetUniquePtr(
       GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR));
-  if (opened.dataset) {
-    check_rows(*opened.dataset);
-    return opened;
-  }
-  const std::string way_out = needs_permission(errors.failure());
-  throw InputError(
-      {path.file},
-      "cannot be opened as vectors" + (errors.failed() ? ": " + errors.failure() : std::string()),
-      way_out.empty() ? "ogrinfo " + command_words(source) + " shows what GDAL makes of it"
-                      : way_out);
+  if (!opened.dataset)
+    throw InputError(
+        {path.file},
+        "cannot be opened as vectors" + (errors.failed() ? ": " + errors.failure() : std::string()),
+        way_to_open(source, "ogrinfo " + command_words(source) + " shows what GDAL makes of it"));
+  check_tables(*opened.dataset, path.file);
+  check_rows(*opened.dataset);
+  return opened;
 }
 
 }  // namespace talus
