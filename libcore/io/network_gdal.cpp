@@ -19,6 +19,7 @@
 
 #include "base/error.hpp"
 #include "base/network.hpp"
+#include "base/text.hpp"
 #include "io/errors_gdal.hpp"
 
 namespace talus {
@@ -263,6 +264,9 @@ void check_tables(GDALDataset& database, const std::string& path) {
 }
 
 std::string way_to_open(const std::string& path, const std::string& otherwise) {
+  if (lower(path).ends_with(".parquet"))
+    return "GDAL reads GeoParquet with its driver Parquet, which Debian 12 has not: export a "
+           "GeoPackage";
   const GdalErrors quiet;
   GDALOpenInfo info(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY);
   for (GDALDriver* const driver : drivers_taken_out())
