@@ -12,6 +12,7 @@
 
 #include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "base/thousands.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/drawing_unit_gdal.hpp"
 #include "io/point_table.hpp"
@@ -170,11 +171,31 @@ class FieldValues {
   void add(const OGRFeature& feature) {
     const Where where = where_of_feature(choice_, source_, feature);
     values_.push_back(field_value(feature, field_, source_.current, where));
+    const int taken = field_.index[source_.current];
+    if (feature.GetFieldDefnRef(taken)->GetType() == OFTString)
+      thousands_.add(feature.GetFieldAsString(taken));
     if (field_.rivals.empty()) return;
     for (const int index : field_.rivals[source_.current]) add_rival(feature, index);
   }
 
   const std::vector<double>& values() const { return values_; }
+
+  // Heights as text: 1.010 may be 1.01 or 1010.
+  void check_thousands() const {
+    if (!thousands_.is_doubtful()) return;
+    std::string whole = thousands_.first();
+    whole.erase(1, 1);
+    throw InputError(where_of_layer(choice_, source_),
+                     "the field " + field_.name + " holds text like \"" + thousands_.first() +
+                         "\", which may be " + thousands_.first() +
+                         " m or, with a point between "
+                         "thousands, " +
+                         whole + " m",
+                     "make a field of numbers of it (field calculator of QGIS: "
+                     "to_real(replace(\"" +
+                         field_.name + "\", '.', '')) for thousands, to_real(\"" + field_.name +
+                         "\") for metres) and name it with " + field_.option);
+  }
 
   void check_rivals() const {
     for (const auto& [name, rival] : rivals_) {
@@ -210,6 +231,7 @@ class FieldValues {
   const OpenLayer& source_;
   const ElevationField field_;
   std::vector<double> values_;
+  ThousandsDoubt thousands_;
   std::map<std::string, Rival> rivals_;
 };
 
@@ -524,6 +546,7 @@ Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
   const HeightRange z = heights_of(raw.lines);
   const bool take_field = stand_in_field(choice, source, raw, z, field, true);
   if (take_field) {
+    values.check_thousands();
     if (choice.elevation_field.empty()) values.check_rivals();
     check_z_beside_field(choice, source, raw, *field, values.values());
     if (raw.n_no_number > 0) reading.contours.remarks.push_back(remark_on_z(raw));
@@ -557,6 +580,7 @@ Polylines read_measured_lines(const LayerChoice& choice, OpenLayer& source,
     FieldValues values(choice, source, *field);
     for_each_part(choice, source,
                   [&](const OGRGeometry&, const OGRFeature& feature) { values.add(feature); });
+    values.check_thousands();
     if (choice.elevation_field.empty()) values.check_rivals();
     check_z_beside_field(choice, source, raw, *field, values.values());
     if (raw.n_no_number > 0) taken.remarks.push_back(remark_on_z(raw));

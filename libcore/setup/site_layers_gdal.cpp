@@ -36,7 +36,8 @@ void check_layers(InputLog& log, const std::string& path, const std::vector<std:
   std::string others;
   for (const std::string& layer : layers_of(path)) {
     const std::string name = lower(layer);
-    if (std::count(known.begin(), known.end(), name) > 0) continue;
+    if (name == "layer_styles" || std::count(known.begin(), known.end(), name) > 0)
+      continue;  // QGIS keeps its styles in a table of that name
     if (const std::string nearest = nearest_name(name, known); !nearest.empty())
       throw InputError({path}, "has a layer " + layer + " that stands for no section",
                        "did you mean " + nearest + "? Rename the layer, or take it out");

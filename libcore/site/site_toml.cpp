@@ -550,6 +550,28 @@ struct SectionTaker {
 
 }  // namespace
 
+namespace {
+
+// What to do about a file that is not TOML.
+std::string way_to_toml(const std::string& finding, const std::string& text,
+                        const std::string& path) {
+  const auto says = [&finding](const char* words) {
+    return finding.find(words) != std::string::npos;
+  };
+  if (says("redefine")) return "a section or key is in the file twice: put its keys in one place";
+  if (says("escape"))
+    return "a backslash begins a special sign: write / in paths, or put the text in single quotes";
+  if (says("utf-8")) {
+    const bool is_utf16 = text.find('\0') != std::string::npos || text.starts_with("\xFF\xFE") ||
+                          text.starts_with("\xFE\xFF");
+    return std::string("save it as UTF-8: iconv -f ") + (is_utf16 ? "UTF-16" : "WINDOWS-1252") +
+           " -t UTF-8 " + path + " > utf8.toml";
+  }
+  return "the file must be TOML: key = value, text in quotes, decimals with a point";
+}
+
+}  // namespace
+
 Site parse_site(const std::string& text, const std::string& path) {
   Site site;
   site.file = path;
@@ -558,11 +580,8 @@ Site parse_site(const std::string& text, const std::string& path) {
     root = parsed(text, path);
   } catch (const toml::parse_error& error) {
     const std::string finding(error.description());
-    const bool is_twice = finding.find("redefine") != std::string::npos;
-    throw InputError(
-        {path, static_cast<int>(error.source().begin.line)}, finding,
-        is_twice ? "a section or key stands in the file twice: put its keys in one place"
-                 : "the file must be TOML: key = value, text in quotes, decimals with a point");
+    throw InputError({path, static_cast<int>(error.source().begin.line)}, finding,
+                     way_to_toml(finding, text, path));
   }
   check_groups(root, path);
   for_each_group(site, GroupReader{site, root});

@@ -246,7 +246,19 @@ Json as_json(const talus::CleaningCounts& c) {
           {"touches_at_one_height", c.touches},
           {"crossings_at_one_height", c.crossings},
           {"lines_of_one_point", c.single_points},
-          {"breaklines_and_spots_on_contours", c.breakline_meetings}};
+          {"breaklines_and_spots_on_contours", c.breakline_meetings},
+          {"breaklines_and_spots_apart", c.measured_apart}};
+}
+
+// One of two measured heights of a place is taken: a bridge, or a mistake.
+void warn_of_measured(Tool& tool, const talus::CleaningCounts& c, const talus::Vec3& origin) {
+  if (c.measured_apart == 0) return;
+  tool.warn("breaklines and spot heights meet at different heights in " +
+            talus::counted(static_cast<std::int64_t>(c.measured_apart), "place") + ", by up to " +
+            text(c.measured_apart_m, 3) + " m at x " +
+            text(c.measured_apart_at.x() + origin.x(), 10) + ", y " +
+            text(c.measured_apart_at.y() + origin.y(), 10) +
+            ": one of them is taken; leave out what crosses on a bridge");
 }
 
 Json as_json(const ContourMap& map, const talus::ContourReading& reading) {
@@ -300,6 +312,7 @@ talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Jso
       map.contours.n_lines() + map.breaklines.n_lines() + static_cast<int>(map.spots.size());
   talus::forget_lines(map);
   report["cleaning"] = as_json(clean.counts);
+  warn_of_measured(tool, clean.counts, map.origin);
   const talus::MeasuredPoints measured{clean.n_contour_points,
                                        static_cast<int>(clean.points.size())};
   talus::Triangulation triangulation(std::move(clean.points), clean.segments, map.source);

@@ -62,12 +62,14 @@ std::string parse_window(const std::string& words, MapWindow& window) {
     const std::size_t end = i < 3 ? words.find(',', begin) : words.size();
     if (end == std::string::npos ||
         !talus::parse_double(words.substr(begin, end - begin), number[i]))
-      return words + " is no window, expected XMIN,YMIN,XMAX,YMAX";
+      return words + " is not a window, expected XMIN,YMIN,XMAX,YMAX";
     begin = end + 1;
   }
   window = {number[0], number[1], number[2], number[3]};
   if (window.x_min < window.x_max && window.y_min < window.y_max) return {};
-  return "the window " + words + " has no area, expected XMIN < XMAX and YMIN < YMAX";
+  return "the window " + words +
+         " has no area, expected XMIN < XMAX and YMIN < YMAX "
+         "(QGIS writes extents as xmin,xmax,ymin,ymax)";
 }
 
 std::string check_positive(const std::string& word) {
@@ -147,6 +149,16 @@ GridFrame frame_like(const Options& o, const std::string& crs_wkt) {
 }
 
 void check_frame(const GridFrame& frame, const MapWindow& data, const Options& o) {
+  if (const auto other = talus::other_order_within(o.window, data)) {
+    const std::string words = text(other->x_min, 12) + "," + text(other->y_min, 12) + "," +
+                              text(other->x_max, 12) + "," + text(other->y_max, 12);
+    throw InputError({o.source},
+                     "--window " + o.window_text + " reaches beyond the data, " +
+                         window_as_text(data) +
+                         ", as XMIN,YMIN,XMAX,YMAX; in another order of "
+                         "its numbers it lies in them",
+                     "--window " + words + " (QGIS writes extents as xmin,xmax,ymin,ymax)");
+  }
   const MapWindow common =
       talus::intersection(frame.empty() ? o.window : talus::extent(frame), data);
   if (common.x_min > common.x_max || common.y_min > common.y_max)
@@ -291,7 +303,7 @@ Ground ground_of_dem(Tool& tool, const Options& o) {
   options.accept_ballpark = o.accept_ballpark;
   options.window = o.window;
   if (o.faces.unit_m != 0)
-    throw talus::UsageError({"", 0, o.source}, "--unit-m is for drawings", "leave it away");
+    throw talus::UsageError({"", 0, o.source}, "--unit-m is for faces (DXF, LandXML)", "omit it");
   const DemFile dem(o.source, options);
   say(tool, dem.reading());
   Ground ground;
@@ -463,6 +475,8 @@ const char* name_of(talus::GroundDoubtKind kind) {
       return "level area";
     case talus::GroundDoubtKind::rim:
       return "rim";
+    case talus::GroundDoubtKind::seam:
+      return "seam";
     default:
       return "step";
   }
@@ -496,6 +510,11 @@ std::string sentence_on(talus::GroundDoubtKind kind, std::int64_t n, const talus
     case talus::GroundDoubtKind::rim:
       return talus::counted(n, "node") + " at the rim of what is known more than " + apart +
              " m off the next, the first " + place_of(first) + ": is it blended with nodata?";
+    case talus::GroundDoubtKind::seam:
+      return talus::counted(n, "seam") + ", a step of one height along a straight line of nodes, " +
+             "the first " + text(std::abs(first.expected_low - first.place.z()), 3) +
+             " m through " + place_of(first) +
+             ": do two tiles, sources or height systems meet there?";
     default:
       return talus::counted(n, "step") + " of more than " +
              text(talus::impossible_step(trn.cell_size), 4) +
@@ -529,8 +548,9 @@ Json doubts_of(Tool& tool, const Options& o, Ground& ground) {
   if (const std::string places = places_to_tell(rows); !places.empty())
     ground.accepted += (ground.accepted.empty() ? "" : "; ") + places;
   Json json = Json::object();
-  for (const GroundDoubtKind kind : {GroundDoubtKind::below_land, GroundDoubtKind::level,
-                                     GroundDoubtKind::rim, GroundDoubtKind::step}) {
+  for (const GroundDoubtKind kind :
+       {GroundDoubtKind::below_land, GroundDoubtKind::level, GroundDoubtKind::rim,
+        GroundDoubtKind::step, GroundDoubtKind::seam}) {
     std::int64_t n = 0;
     const talus::DoubtRow* first = nullptr;
     for (std::size_t i = 0; i < doubts.size(); ++i)
