@@ -1,4 +1,4 @@
-// libcore/base/thousands.hpp
+// libcore/base/thousands.hpp: public
 // Whether a point in numbers written as text parts thousands: 1.010 for 1010.
 #pragma once
 

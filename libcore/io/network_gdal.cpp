@@ -20,7 +20,6 @@
 #include "base/error.hpp"
 #include "base/network.hpp"
 #include "base/text.hpp"
-#include "io/errors_gdal.hpp"
 
 namespace talus {
 namespace {
@@ -267,7 +266,8 @@ std::string way_to_open(const std::string& path, const std::string& otherwise) {
   if (lower(path).ends_with(".parquet"))
     return "GDAL reads GeoParquet with its driver Parquet, which Debian 12 has not: export a "
            "GeoPackage";
-  const GdalErrors quiet;
+  const CPLErrorStateBackuper kept;
+  const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
   GDALOpenInfo info(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY);
   for (GDALDriver* const driver : drivers_taken_out())
     if (driver->pfnIdentify != nullptr && driver->pfnIdentify(&info) == 1)

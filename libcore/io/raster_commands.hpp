@@ -1,4 +1,4 @@
-// libcore/io/raster_commands.hpp
+// libcore/io/raster_commands.hpp: public
 // Commands of GDAL that messages give for rasters. What they write says which cells are unknown.
 #pragma once
 

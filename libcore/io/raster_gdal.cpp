@@ -207,9 +207,10 @@ Dataset reprojected(GDALDataset& source, GDALDataset& ringed, const std::string&
 // The command that makes metres of the plan and the heights of a local system.
 std::string local_metres_command(double unit_m, const MapWindow& w, const std::string& path) {
   const auto metres = [unit_m](double value) { return text(value * unit_m, 12); };
-  return translate_command("-a_srs none -a_ullr " + metres(w.x_min) + " " + metres(w.y_max) + " " +
-                               metres(w.x_max) + " " + metres(w.y_min) +
-                               " -ot Float64 -scale 0 10000 0 " + metres(10000),
+  return translate_command("-a_srs 'LOCAL_CS[\"metres\",UNIT[\"metre\",1]]' -a_ullr " +
+                               metres(w.x_min) + " " + metres(w.y_max) + " " + metres(w.x_max) +
+                               " " + metres(w.y_min) + " -ot Float64 -scale 0 10000 0 " +
+                               metres(10000),
                            path, "metres.tif");
 }
 
