@@ -21,7 +21,7 @@ bool names_further_files(const std::string& path) {
       GDALIdentifyDriverEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr);
   if (driver == nullptr) return false;
   const std::string name = GDALGetDriverShortName(driver);
-  return name == "ESRI Shapefile" || name == "MapInfo File";
+  return name == "ESRI Shapefile" || name == "OGR_VRT" || name == "MapInfo File";
 }
 
 std::vector<std::string> files_of(const std::string& path, unsigned kind) {

@@ -174,13 +174,14 @@ std::string doubt_on_precision(const std::vector<MeshBody>& bodies) {
   double worst = 0;
   for (const MeshBody& body : bodies) {
     Vec3 low = Vec3::Constant(HUGE_VAL), high = -low, step = Vec3::Zero();
-    bool is_single = true;
+    bool is_single = true, is_round = true;  // round: whole centimetres, which nobody has rounded
     const auto look = [&](const Polyhedron& surface) {
       for (const Vec3& v : surface.vertices) {
         low = low.cwiseMin(v), high = high.cwiseMax(v);
         for (int k = 0; k < 3; ++k) {
           const auto single = static_cast<float>(v[k]);
           is_single = is_single && single == v[k];
+          is_round = is_round && std::abs(std::remainder(v[k], 0.01)) < 1e-6;
           step[k] = std::max<double>(
               step[k], std::nextafterf(std::abs(single), HUGE_VALF) - std::abs(single));
         }
@@ -188,7 +189,8 @@ std::string doubt_on_precision(const std::vector<MeshBody>& bodies) {
     };
     look(body.surface);
     for (const Polyhedron& part : body.parts) look(part);
-    if (!is_single || !(step.maxCoeff() > least_share * (high - low).minCoeff())) continue;
+    if (!is_single || is_round || !(step.maxCoeff() > least_share * (high - low).minCoeff()))
+      continue;
     ++n_rounded;
     worst = std::max(worst, step.maxCoeff());
   }

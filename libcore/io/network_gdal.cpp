@@ -39,10 +39,10 @@ constexpr const char* trusted_drivers[] = {
     "GSBG", "GS7BG", "PCRaster", "SAGA", "RRASTER", "ENVI", "EHdr", "BT", "GTX", "NTv2", "GXF",
     "NWT_GRD", "XYZ", "ZMap", "HF2", "ARG", "BYN", "SIGDEM", "LCP",
     // vectors
-    "Memory", "SQLite", "ESRI Shapefile", "MapInfo File", "OpenFileGDB", "FlatGeobuf", "GeoJSON",
-    "GeoJSONSeq", "ESRIJSON", "TopoJSON", "GML", "NAS", "KML", "LIBKML", "GPX", "CSV", "XLS",
-    "XLSX", "ODS", "DXF", "CAD", "DGN", "UK .NTF", "OGR_SDTS", "OGR_GMT", "S57", "EDIGEO", "VFK",
-    "SXF", "Interlis 1", "Interlis 2", "AVCBin", "AVCE00", "JML", "OSM"};
+    "Memory", "OGR_VRT", "SQLite", "ESRI Shapefile", "MapInfo File", "OpenFileGDB", "FlatGeobuf",
+    "GeoJSON", "GeoJSONSeq", "ESRIJSON", "TopoJSON", "GML", "NAS", "KML", "LIBKML", "GPX", "CSV",
+    "XLS", "XLSX", "ODS", "DXF", "CAD", "DGN", "UK .NTF", "OGR_SDTS", "OGR_GMT", "S57", "EDIGEO",
+    "VFK", "SXF", "Interlis 1", "Interlis 2", "AVCBin", "AVCE00", "JML", "OSM"};
 
 constexpr const char* network_folders[] = {"/vsicurl/",
                                            "/vsicurl?",
@@ -129,7 +129,7 @@ void take_out_other_drivers() {
 
 // The beginning of a virtual data set is that of an XML file of one of these.
 bool is_virtual_data(const std::string& begin) {
-  for (const char* mark : {"<VRTDataset", "<GDAL_WMS"})
+  for (const char* mark : {"<VRTDataset", "<OGRVRTDataSource", "<OGRVRTLayer", "<GDAL_WMS"})
     if (begin.find(mark) != std::string::npos) return true;
   return false;
 }
@@ -181,7 +181,7 @@ void add_sources(const CPLXMLNode* node, const char* folder, Sources& sources) {
     if (node->eType != CXT_Element) continue;
     if (EQUAL(CPLGetXMLValue(node, "subClass", ""), "VRTRawRasterBand"))
       sources.has_raw_bytes = true;
-    for (const char* tag : {"SourceFilename", "SourceDataset"}) {
+    for (const char* tag : {"SourceFilename", "SourceDataset", "SrcDataSource"}) {
       if (!EQUAL(node->pszValue, tag)) continue;
       const char* const name = CPLGetXMLValue(node, nullptr, "");
       const bool is_beside = CPLTestBool(CPLGetXMLValue(node, "relativeToVRT", "0"));
@@ -198,6 +198,16 @@ Sources sources_in(const std::string& name, const std::string& xml) {
   Sources sources;
   add_sources(tree.get(), std::string(CPLGetPath(name.c_str())).c_str(), sources);
   return sources;
+}
+
+// A data base that a virtual data set names is opened by GDAL itself.
+void check_database(const std::string& source) {
+  const char* const drivers[] = {"SQLite", "GPKG", nullptr};
+  const CPLErrorStateBackuper kept;
+  const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
+  const GDALDatasetUniquePtr database(
+      GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_RASTER, drivers));
+  if (database) check_tables(*database, source);
 }
 
 // `n_read`: virtual data sets read so far. Each may name the next one many times.
@@ -222,6 +232,7 @@ void check_virtual(const std::string& name, int depth, int& n_read) {
     if (is_elsewhere(source))
       throw InputError(where, "names " + source + ", which " + refusal, way_out);
     check_virtual(source, depth + 1, n_read);
+    check_database(source);
   }
 }
 

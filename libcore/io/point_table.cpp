@@ -160,7 +160,7 @@ std::string why_numbered(const std::vector<Line>& lines, char separator) {
     last = value;
     ++n_rows;
   }
-  if (counts_up && (n_rows > 1 || last == 1)) return "counts the rows";
+  if (counts_up && is_whole && (n_rows > 1 || last == 1)) return "counts the rows";
   if (is_whole && has_decimals[0] && has_decimals[1])
     return "holds whole numbers alone, as a point number does";
   return has_code ? "may number the points: the fifth holds words" : "";

@@ -56,7 +56,7 @@ printf '[fence.twice]\nline = [[500080, 5000010], [500080, 5000010], [500080, 50
 refuses "point 2 repeats the one before, (500080, 5000010)"
 cp kept.toml site.toml
 printf '[fence.low]\nheight_m = 3\n' >>site.toml
-refuses "a section or key stands in the file twice"
+refuses "a section or key is in the file twice"
 cp kept.toml site.toml
 
 # fence off the terrain

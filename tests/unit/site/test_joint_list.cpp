@@ -100,7 +100,7 @@ TEST(ReadOrientations, DipsWritesStrikesAndQuantities) {
 }
 
 TEST(ReadOrientations, GonIsReadWhereTheNamesSayIt) {
-  expect_planes("Dip direction [gon];Dip [gon]\n200;50\n400;10,5\n", {{180, 45}, {360, 9.45}});
+  expect_planes("Dip direction [gon];Dip [gon]\n200;50\n400;10,5\n", {{180, 45}, {0, 9.45}});
   expect_planes("Streichen;Fallen\n110;41\n", {{200, 41}});
 }
 
