@@ -28,8 +28,10 @@ std::vector<double> steps_at(const Trn& trn, bool between_rows, int line) {
   for (int k = 0; k < n; k += stride) {
     const double a = height(k, line - 1), b = height(k, line), c = height(k, line + 1),
                  d = height(k, line + 2);
-    const double step = (c - b) - 0.5 * ((b - a) + (d - c));
-    if (std::isfinite(step)) steps.push_back(step);
+    const double before = b - a, after = d - c;
+    const double step = (c - b) - 0.5 * (before + after);
+    // a rim or a ridge bends by more than it steps
+    if (std::isfinite(step)) steps.push_back(std::abs(after - before) < std::abs(step) ? step : 0);
   }
   return steps;
 }
@@ -68,10 +70,7 @@ void find_seams(const Trn& trn, bool between_rows, std::vector<Seam>& seams) {
     return line.is_one_step && std::abs(line.step_m) > beyond_usual * usual;
   };
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    // the slopes beside a seam hold half of its step, the other way
-    const bool is_beside_larger =
-        (i > 0 && sizes[i - 1] > sizes[i]) || (i + 1 < lines.size() && sizes[i + 1] > sizes[i]);
-    if (!stands_out(lines[i]) || is_beside_larger) continue;
+    if (!stands_out(lines[i])) continue;
     seams.push_back({between_rows, lines[i].number, (between_rows ? trn.n_cols : trn.n_rows) / 2,
                      lines[i].step_m});
   }

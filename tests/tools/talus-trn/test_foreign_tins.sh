@@ -50,7 +50,7 @@ prints "304.8 to 334.8 m"  # 1000 ft, and 1 : 2 over 60 m
 expect 2 talus-trn faces.dxf.tif -o bad.tif --unit-m 2
 sed 's/linearUnit="meter"/linearUnit="foot"/' ground.xml >feet.xml
 expect 1 talus-trn feet.xml -o bad.tif
-says "the linear unit is foot, expected meter"
+says "linearUnit is foot, expected meter"
 sed '$d' ground.ply >short.ply
 expect 1 talus-trn short.ply -o bad.tif --crs EPSG:25832
 says "it was truncated"
