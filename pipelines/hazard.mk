@@ -12,5 +12,5 @@ $(OUT)/hazard.json: $(OUT)/runs/ensemble.json $(STAGES)/hazard.txt $(STAGES)/haz
 	$(call say,hazard: runs -> return periods and classes)
 	@rm -f $(addprefix $(OUT)/,$(hazard_patterns))
 	$(Q)$(BIN)talus-hazard site.toml $(OUT)/runs --trn $(ground_of_runs) -o $(OUT)/hazard \
-	  --json $(OUT)/hazard.json --png --pdf $(HAZARD_FLAGS) --overwrite $(DB)
+	  --json $(OUT)/hazard.json --pages png,pdf $(HAZARD_FLAGS) --overwrite $(DB)
 	$(call made,talus-hazard)

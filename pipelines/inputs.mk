@@ -73,10 +73,17 @@ endif
 words_in = $(subst =, ,$(subst |, ,$(subst ",,$(subst ',,$1))))
 named_in = $(filter-out $(OUT)/%,$(foreach name,$(wildcard $(call words_in,$1)),$(if \
   $(wildcard $(name)/.),,$(name))))
+# Of "map.gpkg|layername=index|subset=ELEV > 900" the file, and a word of the recipe that chooses
+# layers and features.
+contours_file = $(if $(findstring |,$(CONTOURS)),$(firstword $(subst |, ,$(CONTOURS))),$(CONTOURS))
+contours_part = $(if $(findstring |,$(CONTOURS)),'$(subst ','\'',$(subst \
+  $(contours_file)|,|,$(CONTOURS)))',$(if $(call \
+  differ,$(CONTOURS),$(SITE_CONTOURS)),,$(SITE_CONTOURS_PART)))
 # given(NAME,FLAGS): options of talus-site for the files of a list, which may be empty
 given = --given $1= $(foreach name,$(call named_in,$2),--given '$1=$(subst ','\'',$(name))')
 flags_of = $(shell echo $1 | tr a-z A-Z)_FLAGS
-given_files := $(CONTOURS:%=--given tin=%) $(DEM:%=--given trn=%) $(LINE:%=--given 'profile=%') \
+given_files := $(if $(CONTOURS),--given tin=$(contours_file)) $(DEM:%=--given trn=%) \
+  $(if $(LINE),--given 'profile=$(line_file)') \
   --given report=site.toml $(foreach stage,tin trn blocks check runout maps fence places hazard \
   trace search profile report,$(call given,$(stage),$($(call flags_of,$(stage)))))
 # With -n and -q the stage files go to a folder of their own and are compared.

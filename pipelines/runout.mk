@@ -9,7 +9,6 @@ $(eval $(call together,$(runout_files)))
 $(OUT)/runout.gpkg: $(OUT)/runs/ensemble.json $(STAGES)/runout.flags $(STAGES)/runout.files
 	$(call say,runout: runs -> run-out)
 	$(Q)$(BIN)talus-runout $(OUT)/runs --trn $(ground_of_runs) -o $(OUT)/runout.gpkg \
-	  --json $(OUT)/runout.json --csv $(OUT)/runout.csv --svg $(OUT)/runout.svg \
-	  --run-table $(OUT)/runs.csv --sensitivity $(OUT)/sensitivity.csv --curves $(OUT)/curves.csv \
-	  --thickness $(OUT)/thickness.tif $(RUNOUT_FLAGS) --overwrite $(DB)
+	  --json $(OUT)/runout.json --tables $(OUT) --thickness $(OUT)/thickness.tif $(RUNOUT_FLAGS) \
+	  --overwrite $(DB)
 	$(call made,talus-runout)

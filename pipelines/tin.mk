@@ -4,10 +4,10 @@ $(eval $(call remember,tin,$(CONTOURS) $(TIN_FLAGS)))
 ifneq ($(CONTOURS),)
 tin_files := $(addprefix $(OUT)/,$(tin_products))
 $(eval $(call together,$(tin_files)))
-$(OUT)/tin.ply: $(STAGES)/tin.txt $(STAGES)/tin.flags $(STAGES)/tin.files | $(CONTOURS) $(OUT)
+$(OUT)/tin.ply: $(STAGES)/tin.txt $(STAGES)/tin.flags $(STAGES)/tin.files | $(contours_file) $(OUT)
 	$(call not_in_a_shard,$@)
 	$(call say,tin: contours -> triangles)
-	$(Q)$(BIN)talus-tin $(CONTOURS) -o $(OUT)/tin.ply --report $(OUT)/tin.json $(SITE_TIN_FLAGS) \
-	  $(TIN_FLAGS) --overwrite $(DB)
+	$(Q)$(BIN)talus-tin $(contours_file)$(contours_part) -o $(OUT)/tin.ply --report $(OUT)/tin.json \
+	  $(SITE_TIN_FLAGS) $(TIN_FLAGS) --overwrite $(DB)
 	$(call made,talus-tin)
 endif

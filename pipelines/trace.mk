@@ -10,6 +10,6 @@ $(OUT)/trace.gpkg: $(OUT)/runs/ensemble.json $(STAGES)/trace.txt $(STAGES)/trace
 	$(call say,trace: runs -> objects and their sources)
 	@rm -f $(addprefix $(OUT)/,$(trace_patterns))
 	$(Q)$(BIN)talus-trace site.toml $(OUT)/runs --trn $(ground_of_runs) -o $(OUT)/trace.gpkg \
-	  --json $(OUT)/trace.json --csv $(OUT)/links.csv --rasters $(OUT)/sources --png --pdf \
+	  --json $(OUT)/trace.json --csv $(OUT)/links.csv --rasters $(OUT)/sources --pages png,pdf \
 	  $(TRACE_FLAGS) --overwrite $(DB)
 	$(call made,talus-trace)

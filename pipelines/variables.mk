@@ -11,8 +11,10 @@ ifeq ($(realpath $(OUT)),$(realpath .))
 $(error OUT is $(OUT), the site's own folder, whose files results would replace: name another one)
 endif
 ifneq ($(LINE),)
-$(call one_word,$(LINE),LINE,one file)
-$(if $(wildcard $(LINE)),,$(error LINE is $(LINE): there is no such file))
+line_file := $(firstword $(subst |, ,$(LINE)))
+$(if $(findstring |,$(LINE)),,$(call one_word,$(LINE),LINE,one file))
+$(call one_word,$(line_file),LINE,one file)
+$(if $(wildcard $(line_file)),,$(error LINE is $(LINE): there is no such file))
 else ifneq ($(filter profile,$(MAKECMDGOALS)),)
 $(error profile needs LINE, a file with one line: make profile LINE=road.geojson)
 endif

@@ -179,7 +179,8 @@ std::string plain_name(const std::string& name) {
   std::string plain, inside;  // inside: of brackets
   bool is_inside = false;
   const auto end_brackets = [&] {
-    for (const std::string_view unit : {"m", "metres", "meters", "deg", "degrees", "degree"})
+    for (const std::string_view unit : {"m", "metres", "meters", "deg", "degrees", "degree", "gon",
+                                        "grad", "gradians", "neugrad"})
       if (inside == unit) inside.clear();
     plain += inside;
     inside.clear();

@@ -88,6 +88,10 @@ std::string shell_word(const std::string& word) {
 
 }  // namespace
 
+std::string without_layer(const std::string& name) {
+  return name.substr(0, exists(name) ? std::string::npos : next_part(name, 0));
+}
+
 std::string command_words(const std::string& name) {
   const SourcePath path = parse_source_path(name);
   return shell_word(path.source) + (path.layer.empty() ? "" : " " + shell_word(path.layer)) +

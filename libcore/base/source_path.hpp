@@ -18,6 +18,10 @@ struct SourcePath {
 /// "|key=" that is not known.
 [[nodiscard]] SourcePath parse_source_path(const std::string& name);
 
+/// "map.zip/sheet.shp" of "map.zip/sheet.shp|layername=a": what messages call a source whose layer
+/// they name.
+[[nodiscard]] std::string without_layer(const std::string& name);
+
 /// The source as words of a command like ogr2ogr, quoted for the shell where need be: what a hint
 /// that holds a command names.
 [[nodiscard]] std::string command_words(const std::string& name);

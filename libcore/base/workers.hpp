@@ -56,16 +56,40 @@ class Workers {
   std::vector<std::thread> threads_;
 };
 
-/// Calls work(begin, end) for consecutive parts of [0, n) of `chunk` elements; in one call where
-/// there are no workers, or n is below `least`.
+/// Elements of a chunk, and the most parts of a loop whose parts fill each a buffer of their own.
+inline constexpr std::size_t chunk_size = 16, most_parts = 64;
+
+/// Whether threads share a loop over n elements. Of fewer they wait more than they spare.
+[[nodiscard]] inline bool are_shared(const Workers* workers, std::size_t n) {
+  return workers != nullptr && n >= 64;
+}
+
+/// Calls work(begin, end) for consecutive chunks of [0, n); in one call where they are not shared.
 template <class Work>
-void in_chunks(Workers* workers, std::size_t n, std::size_t chunk, std::size_t least,
-               const Work& work) {
-  if (workers == nullptr || n < least || n <= chunk) return work(std::size_t{0}, n);
-  workers->run(static_cast<std::uint32_t>((n + chunk - 1) / chunk), [&](std::uint32_t i) {
-    const std::size_t begin = i * chunk;
-    work(begin, std::min(begin + chunk, n));
-  });
+void in_chunks(Workers* workers, std::size_t n, const Work& work) {
+  if (!are_shared(workers, n)) return work(std::size_t{0}, n);
+  workers->run(static_cast<std::uint32_t>((n + chunk_size - 1) / chunk_size),
+               [&](std::uint32_t i) { work(i * chunk_size, std::min((i + 1) * chunk_size, n)); });
+}
+
+/// Elements of each part of [0, n) but the last, and the number of parts: one where they are not
+/// shared.
+[[nodiscard]] inline std::size_t part_size(const Workers* workers, std::size_t n) {
+  return n / (are_shared(workers, n) ? most_parts : 1) + 1;
+}
+[[nodiscard]] inline std::size_t n_parts(const Workers* workers, std::size_t n) {
+  return n / part_size(workers, n) + 1;
+}
+
+/// Calls work(part, begin, end) for the parts of [0, n).
+template <class Work>
+void in_parts(Workers* workers, std::size_t n, const Work& work) {
+  const std::size_t size = part_size(workers, n);
+  const auto call = [&](std::size_t i) {
+    work(i, std::min(i * size, n), std::min((i + 1) * size, n));
+  };
+  if (!are_shared(workers, n)) return call(0);
+  workers->run(static_cast<std::uint32_t>(n_parts(workers, n)), call);
 }
 
 /// Tells the processor that this thread waits for another one.

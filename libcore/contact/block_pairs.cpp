@@ -5,19 +5,15 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "contact/scales.hpp"
 
 namespace talus {
 namespace {
 
 constexpr double look_now = -std::numeric_limits<double>::infinity();
-constexpr double features_hold_ratio = 1e-3;  // motion that features outlast, of the thickness
-constexpr double passing_hold_ratio = 2e-2;   // ... of pairs in a mass that pass each other ...
-constexpr double passing_ratio = 1e-4;        // ... by more than this in a step
-constexpr double skin_ratio = 0.1;            // motion budget of a body, of its radius ...
-constexpr double steps_ahead = 20;            // ... and along the motion of so many steps ahead ...
-constexpr double farthest_ahead = 0.5;        // ... up to this part of its radius
-constexpr std::size_t pairs_a_thread = 256;   // of the list, that a thread looks at in one go ...
-constexpr std::size_t most_looks = 64;        // ... in no more parts
+constexpr double passing_ratio = 1e-4;  // ... by more than this in a step
+constexpr double steps_ahead = 20;      // ... and along the motion of so many steps ahead ...
+constexpr double farthest_ahead = 0.5;  // ... up to this part of its radius
 
 int n_free(const Hulls& hulls, const PairMotion& motion) {
   return n_bodies(hulls) - motion.n_fixed;
@@ -163,7 +159,7 @@ void set_budgets(const Hulls& hulls, const PlacedHulls& placed, const PairMotion
   state.budget.resize(n_free(hulls, motion));
   const Vec3 frame_step = mean_step(hulls, motion, state.in_frame);
   for (int b = 0; b < n_free(hulls, motion); ++b) {
-    const double skin = skin_ratio * hulls.radius[b] + 2 * reach(motion, settings, b, frame_step);
+    const double skin = largest_skin * hulls.radius[b] + 2 * reach(motion, settings, b, frame_step);
     Vec3 ahead = steps_ahead * (step_of(motion, b) - frame_step);
     const double farthest = farthest_ahead * hulls.radius[b];
     if (ahead.norm() > farthest) ahead *= farthest / ahead.norm();
@@ -251,7 +247,7 @@ int relist(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& moti
   box_parts(hulls, placed, motion, state, work.boxes);
   work.close.clear();
   if (motion.free_meet)
-    find_overlaps(work.boxes, std::span(hulls.body).first(work.boxes.size()), {}, work.overlaps,
+    find_overlaps(work.boxes, std::span(hulls.body).first(work.boxes.size()), work.strips,
                   work.close);
   const int n_near =
       motion.n_fixed > 0 ? add_fixed_pairs(hulls, placed, motion, state, arrangement, work) : 0;
@@ -440,7 +436,7 @@ void refresh(const Search& s, const PairWatch& watch, Lookup& now, ListedPair& p
   // what passes by in a mass has other features soon anyway
   const bool passes_by =
       closes_only(s, watch) && now.margin - s.settings.margin > passing_ratio * thickness;
-  const double hold = (passes_by ? passing_hold_ratio : features_hold_ratio) * thickness;
+  const double hold = (passes_by ? axis_slack : feature_slack) * thickness;
   if (known && now.moved <= hold) return keep_features(s, pair);
   if (known && search_features(s, watch, pair)) {
     pair.hold -= now.moved;
@@ -529,11 +525,10 @@ void look_at_list(const Hulls& hulls, const PlacedHulls& placed, const PairMotio
   };
   const std::size_t n = state.watch.size();
   // an arrangement is one at a time
-  const bool is_shared = settings.workers != nullptr && motion.own == nullptr && n > pairs_a_thread;
-  const std::size_t chunk = std::max(pairs_a_thread, n / most_looks + 1);
-  const std::size_t n_looks = is_shared ? (n + chunk - 1) / chunk : 1;
+  Workers* const workers = motion.own == nullptr ? settings.workers : nullptr;
+  const std::size_t n_looks = talus::n_parts(workers, n);
   if (work.looks.size() < n_looks) work.looks.resize(n_looks);
-  if (!is_shared) {
+  if (n_looks == 1) {
     ListLook& look = work.looks[0];
     look_over(look, 0, n, false);
     work.manifolds.swap(look.manifolds);
@@ -544,8 +539,8 @@ void look_at_list(const Hulls& hulls, const PlacedHulls& placed, const PairMotio
     report.n_clipped = look.n_clipped;
     return;
   }
-  settings.workers->run(static_cast<std::uint32_t>(n_looks), [&](std::uint32_t i) {
-    look_over(work.looks[i], i * chunk, std::min((i + 1) * chunk, n), true);
+  in_parts(workers, n, [&](std::size_t i, std::size_t begin, std::size_t end) {
+    look_over(work.looks[i], begin, end, true);
   });
   join_looks(std::span(work.looks).first(n_looks), state, work, report);
 }

@@ -133,7 +133,7 @@ struct PairWork {
   // scratch
   std::vector<ListLook> looks;  ///< one where nobody shares the list
   AxisScratch axis;
-  OverlapScratch overlaps;
+  std::vector<BoxInStrip> strips;
   std::vector<Box> boxes;
   std::vector<std::array<int, 2>> close;
   std::vector<PairWatch> next_watch;

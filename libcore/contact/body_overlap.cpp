@@ -5,13 +5,12 @@
 #include <limits>
 
 #include "contact/pair_axes.hpp"
+#include "contact/scales.hpp"
 
 namespace talus {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double across = 1e-12;      // cosine: an axis across the direction of a displacement
-constexpr double same_place = 1e-12;  // [m]
 
 // No more than this are two parts in each other: what their faces say, a fraction of all axes.
 double depth_by_faces(const PartPair& parts) {
@@ -56,9 +55,9 @@ void range_along(const BodyOverlapScratch& scratch, std::size_t pair, const Vec3
   for (int k = scratch.begin[pair]; k < scratch.begin[pair + 1]; ++k) {
     const WayOut& way = scratch.ways[k];
     const double rate = way.axis.dot(direction);
-    if (rate > across)
+    if (rate > last_figures)
       end = std::min(end, way.depth / rate);
-    else if (rate < -across)
+    else if (rate < -last_figures)
       begin = std::max(begin, way.depth / rate);
     else if (way.depth <= 0)
       begin = infinity;
@@ -78,7 +77,7 @@ double path_along(const BodyOverlapScratch& scratch, std::size_t first, const Ve
     for (std::size_t pair = 0; pair + 1 < scratch.begin.size(); ++pair) {
       double begin = 0, end = 0;
       range_along(scratch, pair, direction, begin, end);
-      if (begin > at + same_place || !(end > at + same_place) || begin >= end) continue;
+      if (begin > at + last_figures || !(end > at + last_figures) || begin >= end) continue;
       at = end;
       moved = true;
     }
@@ -101,14 +100,13 @@ double shorter_path(const BodyOverlapScratch& scratch, bool all, double least) {
 // --- displacements in any direction ------------------------------------------------------------
 
 constexpr int most_tried = 2000;
-constexpr double is_out = 1e-9;  // [m] so little inside of a part is out of it
 
 double left_to_go(const WayOut& way, const Vec3& x) { return way.depth - way.axis.dot(x); }
 
 // The part that A is in deepest after a displacement; -1: it is out of all.
 int deepest_pair(const BodyOverlapScratch& scratch, const Vec3& x) {
   int deepest = -1;
-  double most = is_out;
+  double most = rounding;
   for (std::size_t pair = 0; pair + 1 < scratch.begin.size(); ++pair) {
     double least = infinity;
     for (int k = scratch.begin[pair]; k < scratch.begin[pair + 1] && least > most; ++k)
@@ -123,7 +121,7 @@ void take_shorter(const BodyOverlapScratch& scratch, const Vec3& x, Displacement
   const double length = x.norm();
   if (!(length < d.length)) return;
   for (int i = 0; i < d.n_ways; ++i)
-    if (left_to_go(scratch.ways[d.ways[i]], x) > is_out / 2) return;
+    if (left_to_go(scratch.ways[d.ways[i]], x) > rounding / 2) return;
   d.x = x;
   d.length = length;
 }
@@ -140,13 +138,13 @@ bool shorten(const BodyOverlapScratch& scratch, double least, Displacement& d) {
   for (int i = 0; i < last; ++i) {
     const WayOut& b = way(i);
     const double c = a.axis.dot(b.axis), sin_sq = 1 - c * c;
-    if (!(sin_sq > across)) continue;
+    if (!(sin_sq > last_figures)) continue;
     const double of_a = (a.depth - c * b.depth) / sin_sq, of_b = (b.depth - c * a.depth) / sin_sq;
     take_shorter(scratch, of_a * a.axis + of_b * b.axis, d);
     for (int k = 0; k < i; ++k) {
       Mat3 planes;
       planes << a.axis.transpose(), b.axis.transpose(), way(k).axis.transpose();
-      if (!(std::abs(planes.determinant()) > across)) continue;
+      if (!(std::abs(planes.determinant()) > last_figures)) continue;
       take_shorter(scratch, planes.inverse() * Vec3(a.depth, b.depth, way(k).depth), d);
     }
   }
@@ -200,9 +198,9 @@ double body_overlap(const Hulls& hulls, const PlacedHulls& placed, int body_a, i
   double bound = 0;  // no path is shorter: it leaves each pair
   for (std::size_t pair = 0; pair + 1 < scratch.begin.size(); ++pair)
     bound = std::max(bound, least_depth(scratch, pair));
-  if (bound <= same_place) return 0;
+  if (bound <= last_figures) return 0;
   const double least = shorter_path(scratch, false, infinity);
-  if (least <= bound + same_place) return least;
+  if (least <= bound + last_figures) return least;
   return least_displacement(shorter_path(scratch, true, least), scratch);
 }
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/scales.hpp"
 #include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double same = 1e-9;         // [radius of the body]
 constexpr double hardly_more = 0.05;  // farther than the nearest point, of the part's thickness
 
 // The point of a segment that is nearest to the origin.
@@ -57,7 +57,7 @@ struct PlanView {
     });
     if (!(distance > 0)) return false;
     direction = nearest / distance;
-    return lowest_along(direction) >= distance - same * hulls.radius[hulls.body[part]];
+    return lowest_along(direction) >= distance - rounding * hulls.radius[hulls.body[part]];
   }
 
   // The axis stands in the part: the direction to push it along the shortest way out.
@@ -96,7 +96,7 @@ int find_cylinder_contact(const Hulls& hulls, const PlacedHulls& placed, int par
   if (distance - cylinder.radius > margin) return 0;
   normal = Vec3(direction.x(), direction.y(), 0);
   const int body = hulls.body[part];
-  const double apart = same * hulls.radius[body];
+  const double apart = rounding * hulls.radius[body];
   const double farthest =
       std::min(cylinder.radius + margin, distance + hardly_more * hulls.thickness[part]);
   const std::size_t begin = points.size();

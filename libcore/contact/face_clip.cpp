@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/scales.hpp"
+
 namespace talus {
 namespace {
-
-constexpr double on_side_ratio = 1e-6;  // of the thickness: nearer than this lies on a side
 
 FaceFrame frame_of(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair) {
   const Vec3 origin =
@@ -112,8 +112,8 @@ FaceFrame clip_incident_face(const Hulls& hulls, const PlacedHulls& placed, cons
                              ClipScratch& scratch) {
   const FaceFrame frame = frame_of(hulls, placed, pair);
   start_polygon(hulls, placed, pair, frame, scratch.polygon);
-  const double on_side = on_side_ratio * std::min(hulls.thickness[pair.reference_part],
-                                                  hulls.thickness[pair.incident_part]);
+  const double on_side = negligible * std::min(hulls.thickness[pair.reference_part],
+                                               hulls.thickness[pair.incident_part]);
   clip_by_reference(hulls, placed, pair, frame, on_side, scratch);
   return frame;
 }

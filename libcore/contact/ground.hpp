@@ -10,6 +10,7 @@
 #include "terrain/trn.hpp"
 #include "terrain/trn_flags.hpp"
 #include "terrain/trn_pyramid.hpp"
+#include "terrain/trn_walk.hpp"
 
 namespace talus {
 
@@ -48,6 +49,23 @@ struct Ground {
 /// Class of a triangle's cell.
 [[nodiscard]] inline int class_of(const Ground& ground, int triangle) {
   return ground.cell_class.empty() ? 0 : ground.cell_class[triangle / 2];
+}
+
+/// Calls visit(class, share) for each part of a straight displacement that lies over one class, in
+/// order; what is off the grid is left out.
+template <class Visit>
+void for_each_class_below(const Ground& ground, const Vec3& from, const Vec3& to, Visit&& visit) {
+  int last = -1;
+  double begin = 0, end = 0;
+  walk_cells(ground.trn, from.head<2>(), to.head<2>(), [&](const CellPart& part) {
+    const int now = class_of(ground, first_triangle(ground.trn, part.cell));
+    if (now != last) {
+      if (last >= 0) visit(last, end - begin);
+      last = now, begin = part.t_in;
+    }
+    end = part.t_out;
+  });
+  if (last >= 0) visit(last, end - begin);
 }
 
 /// Whether all of the cells have the same class.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "contact/scales.hpp"
 #include "geometry/plan2d.hpp"
 #include "terrain/trn_pyramid.hpp"
 
@@ -12,8 +13,6 @@ namespace {
 
 using std::size_t;
 using Corners = std::array<Vec3, 3>;
-
-constexpr double rounding = 1e-6;  // of the thickness: so exact are depths inside parts
 
 template <class Visit>
 void for_each_triangle(const Trn& trn, const Vec3& low, const Vec3& high, double around,
@@ -91,7 +90,7 @@ double depth_inside(const Trn& trn, const Hulls& hulls, const PlacedHulls& place
   for_each_triangle(trn, box.low, box.high, 0, [&](const Corners& corners) {
     double high = thickness;
     if (depth >= high || !reaches(hulls, placed, part, corners, depth, scratch)) return;
-    while (high - depth > rounding * thickness) {
+    while (high - depth > negligible * thickness) {
       const double middle = (depth + high) / 2;
       (reaches(hulls, placed, part, corners, middle, scratch) ? depth : high) = middle;
     }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contact/entrance.hpp"
+#include "contact/scales.hpp"
 
 namespace talus {
 namespace {
@@ -20,15 +21,12 @@ using std::size_t;
 // at the other. The lower one is ten times what ground_flags calls flat.
 constexpr double least_parallel = 1e-3;
 constexpr double most_parallel = 0.03;
-constexpr double doubtful = 0.1;    // of the deepest overlap: deeper features are looked into
-constexpr double explained = 2;     // of its depth: so near to another overlap it is part of that
-constexpr double at_node = 0.01;    // of half the thickness: so far beyond its ends a ridge bears
-constexpr double same_wall = 1e-9;  // of the block's size: a node on a wall belongs to both parts
-constexpr double blunt_cos = 0.1;   // of the normals beside a ridge: a normal between is along both
+constexpr double explained = 2;    // of its depth: so near to another overlap it is part of that
+constexpr double at_node = 0.01;   // of half the thickness: so far beyond its ends a ridge bears
+constexpr double blunt_cos = 0.1;  // of the normals beside a ridge: a normal between is along both
 constexpr double searches_ahead = 10;  // a list of features is to last for so many ...
-constexpr double least_skin = 5e-3, most_skin = 0.1;  // ... of the radius
-constexpr double short_lived = 5;                     // searches: such a list would not pay
-constexpr double rounding = 1e-6;                     // of the skin
+constexpr double least_skin = 5e-3;    // ... of the radius
+constexpr double short_lived = 5;      // searches: such a list would not pay
 
 // Sine below which a face of the block and a ridge count as parallel.
 double parallel_within(double margin, double radius) {
@@ -77,14 +75,13 @@ bool is_across_wall(const Shapes& shapes, int p, const Vec3& X, double same) {
 // the part, also across a wall of it [m].
 double depth_in_part(const Shapes& shapes, int p, const Vec3& X, const ShapeEdge& edge,
                      double same) {
-  constexpr double same_cos = 1 - 1e-9;
   if (is_across_wall(shapes, p, X, same)) return -1;
   double depth = std::numeric_limits<double>::infinity();
   for (int f = shapes.face_begin[p]; f < shapes.face_begin[p + 1]; ++f) {
     const ShapeFace& face = shapes.faces[f];
     const double inside = face.offset - face.normal.dot(X);
-    const bool at_edge =
-        face.normal.dot(edge.arc.left) > same_cos || face.normal.dot(edge.arc.right) > same_cos;
+    const bool at_edge = face.normal.dot(edge.arc.left) > 1 - rounding ||
+                         face.normal.dot(edge.arc.right) > 1 - rounding;
     if (!at_edge || inside < -same) depth = std::min(depth, inside);
   }
   return depth;
@@ -100,7 +97,7 @@ bool edges_overlap(const FeatureSearch& s, const ShapeEdge& edge, const Vec3& A,
   const Vec3 a = s.pose.position + s.to_local * A;
   if (!contains(trn, a.x(), a.y())) return false;
   if (!(a.z() - elevation_at(trn, locate(trn, a.x(), a.y())) < 2 * depth)) return false;
-  const double same = same_wall * s.shapes.radius[s.b];
+  const double same = rounding * s.shapes.radius[s.b];
   for (int p = s.shapes.part_begin[s.b]; p < s.shapes.part_begin[s.b + 1]; ++p)
     if (depth_in_part(s.shapes, p, X, edge, same) >= depth) return true;
   return false;
@@ -156,10 +153,10 @@ void find_mode_2(FeatureSearch& s, int row, int col, std::vector<Contact>& conta
   if (X.squaredNorm() > radius * radius) return;
   const double deepest = s.shapes.thickness[s.b] / 2;
   for (int p = s.shapes.part_begin[s.b]; p < s.shapes.part_begin[s.b + 1]; ++p) {
-    if (is_across_wall(s.shapes, p, X, same_wall * radius)) continue;
+    if (is_across_wall(s.shapes, p, X, rounding * radius)) continue;
     const EnteredFace entered = entered_face(s, p, row, col, X);
     if (entered.face < 0) continue;
-    const bool in_doubt = !entered.is_nearest && entered.gap < -doubtful * deepest;
+    const bool in_doubt = !entered.is_nearest && entered.gap < -hardly_better * deepest;
     if (!s.takes(node, entered.gap, in_doubt, contacts)) continue;
     const ShapeFace& face = s.shapes.faces[entered.face];
     Contact contact;
@@ -234,7 +231,7 @@ void add_edge_contact(FeatureSearch& s, const Ridge& ridge, size_t i, double dee
   const double gap = normal.dot(a - X);
   if (gap > s.margin) return;
   const bool in_doubt =
-      gap < -doubtful * deepest && (gap < -deepest || !edges_overlap(s, edge, a, X, -gap));
+      gap < -hardly_better * deepest && (gap < -deepest || !edges_overlap(s, edge, a, X, -gap));
   if (in_doubt && !is_within(crossing, beyond)) return;
   const Vec3 x = ridge.end_a + at.t * (ridge.end_b - ridge.end_a);
   if (!s.takes(x, gap, in_doubt, contacts)) return;
@@ -487,10 +484,10 @@ bool keep_list(const FeatureSearch& s, NearFeatures& near) {
   // twice: by strains the points move, and so does the bound on that
   const double by_strain = 2 * radius * (s.stretch - near.stretch).norm();
   const double path = moved(near.listed, s.pose, radius) + by_strain;
-  if (s.margin <= near.margin && path <= (1 - rounding) * near.skin) return true;
+  if (s.margin <= near.margin && path <= (1 - negligible) * near.skin) return true;
   near.skin = std::max(searches_ahead * last, least_skin * radius);
-  if (near.skin > most_skin * radius) {
-    near.skin = most_skin * radius;
+  if (near.skin > largest_skin * radius) {
+    near.skin = largest_skin * radius;
     if (last * short_lived > near.skin) {
       near.skin = -1;
       return false;

@@ -11,15 +11,11 @@
 #include "base/error.hpp"
 #include "blocks/block_set.hpp"
 #include "contact/lanes.hpp"
+#include "contact/scales.hpp"
 #include "geometry/face_overlap.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double same_ratio = 1e-6;    // lengths below this times the body's size count as zero
-constexpr double flat_angle = 1e-6;    // edges that open by less count as flat [rad]
-constexpr double cover_ratio = 1e-6;   // a face is covered when less of it than this is bare
-constexpr double opposed = -1 + 1e-9;  // cosine of faces that lie against each other
 
 // A face of a part in body axes, while a body is being added.
 struct DraftFace {
@@ -64,7 +60,7 @@ void check_part(const Polyhedron& part) {
   if (fault != SurfaceFault::none)
     throw InputError({}, std::string("a convex part of a block is ") + text(fault),
                      "repair the mesh, or cut the block anew");
-  if (!is_convex(part, same_ratio * size))
+  if (!is_convex(part, negligible * size))
     throw InputError({}, "a part of a block is not convex",
                      "split the block into convex parts (talus-blocks does)");
 }
@@ -76,7 +72,7 @@ double covered_area(const std::vector<DraftPart>& parts, std::size_t own, const 
   for (std::size_t q = 0; q < parts.size(); ++q) {
     if (q == own) continue;
     for (const DraftFace& other : parts[q].faces)
-      if (face.normal.dot(other.normal) < opposed &&
+      if (face.normal.dot(other.normal) < -1 + rounding &&
           std::abs(face.normal.dot(other.centre - face.centre)) <= same)
         area += face_overlap(face.corners, face.normal, other.corners).area;
   }
@@ -87,7 +83,7 @@ void mark_internal_faces(std::vector<DraftPart>& parts, double same) {
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (DraftFace& face : parts[p].faces) {
       const double covered = covered_area(parts, p, face, same);
-      face.partly = covered > cover_ratio * face.area && covered < (1 - cover_ratio) * face.area;
+      face.partly = covered > negligible * face.area && covered < (1 - negligible) * face.area;
       face.internal = !face.partly && covered > 0.5 * face.area;
     }
 }
@@ -111,7 +107,7 @@ bool is_bare_beside(const std::vector<DraftPart>& parts, const DraftFace& face, 
     bool covered = false;
     for (const DraftPart& part : parts)
       for (const DraftFace& other : part.faces)
-        covered |= face.normal.dot(other.normal) < opposed && contains(other, beside, same);
+        covered |= face.normal.dot(other.normal) < -1 + rounding && contains(other, beside, same);
     if (!covered) return true;
   }
   return false;
@@ -119,7 +115,7 @@ bool is_bare_beside(const std::vector<DraftPart>& parts, const DraftFace& face, 
 
 bool has_normal(const std::vector<const DraftFace*>& faces, const Vec3& normal) {
   return std::any_of(faces.begin(), faces.end(), [&](const DraftFace* face) {
-    return (face->normal - normal).norm() < flat_angle;
+    return (face->normal - normal).norm() < negligible;
   });
 }
 
@@ -142,14 +138,14 @@ std::vector<Vec3> surface_arc(const std::vector<DraftPart>& parts, const DraftPa
   const Vec3 middle = (a + b) / 2, along = (b - a).normalized();
   if (!is_shared(parts, own, middle, same)) {
     const DraftFace &left = own.faces[edge.left], &right = own.faces[edge.right];
-    if (left.internal || right.internal || (left.normal - right.normal).norm() < flat_angle)
+    if (left.internal || right.internal || (left.normal - right.normal).norm() < negligible)
       return {};
     return {left.normal, right.normal};
   }
   std::vector<const DraftFace*> found;
   for (const DraftPart& part : parts)
     for (const DraftFace& face : part.faces)
-      if (!face.internal && std::abs(face.normal.dot(along)) <= flat_angle &&
+      if (!face.internal && std::abs(face.normal.dot(along)) <= negligible &&
           contains(face, middle, same) && !has_normal(found, face.normal) &&
           is_bare_beside(parts, face, middle, along, same))
         found.push_back(&face);
@@ -204,7 +200,7 @@ void add_faces(Hulls& hulls, const DraftPart& part,
 int normal_index(Hulls& hulls, const Vec3& normal) {
   const int first = hulls.face_begin.back(), end = static_cast<int>(hulls.nx.size());
   for (int f = first; f < end; ++f)
-    if ((Vec3(hulls.nx[f], hulls.ny[f], hulls.nz[f]) - normal).norm() < flat_angle)
+    if ((Vec3(hulls.nx[f], hulls.ny[f], hulls.nz[f]) - normal).norm() < negligible)
       return f - first;
   add_normal(hulls, normal, face_internal, FaceCover::all);
   return end - first;
@@ -307,7 +303,7 @@ void add_hulls(Hulls& hulls, std::span<const Polyhedron> parts, const Vec3& cent
     drafts.push_back(draft_part(part, centroid, to_body, stands_among_others));
     for (const Vec3& v : drafts.back().vertices) radius = std::max(radius, v.norm());
   }
-  const double same = same_ratio * radius;
+  const double same = negligible * radius;
   if (drafts.size() > 1) mark_internal_faces(drafts, same);
   const int body = n_bodies(hulls);
   for (const DraftPart& draft : drafts) add_part(hulls, drafts, draft, body, same);
@@ -350,18 +346,16 @@ void place_one(const Hulls& hulls, int b, const Pose& pose, const Mat3* stretch,
 
 void place_hulls(const Hulls& hulls, std::span<const Pose> poses, std::span<const Mat3> stretch,
                  std::span<const std::uint8_t> moving, PlacedHulls& placed, Workers* workers) {
-  constexpr std::size_t bodies_a_thread = 128;
   const bool first = placed.turned.size() != hulls.radius.size();
   if (first) resize(hulls, placed);
   TALUS_ASSERT(!first || poses.size() == hulls.radius.size());
-  in_chunks(workers, poses.size(), bodies_a_thread, 2 * bodies_a_thread,
-            [&](std::size_t begin, std::size_t end) {
-              for (std::size_t b = begin; b < end; ++b) {
-                if (!first && !moving.empty() && moving[b] == 0) continue;
-                place_one(hulls, static_cast<int>(b), poses[b],
-                          stretch.empty() ? nullptr : &stretch[b], first, placed);
-              }
-            });
+  in_chunks(workers, poses.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      if (!first && !moving.empty() && moving[b] == 0) continue;
+      place_one(hulls, static_cast<int>(b), poses[b], stretch.empty() ? nullptr : &stretch[b],
+                first, placed);
+    }
+  });
 }
 
 void place_body(const Hulls& hulls, int b, const Pose& pose, PlacedHulls& placed) {

@@ -7,12 +7,11 @@
 
 #include "base/make_room.hpp"
 #include "contact/pair_axes.hpp"
+#include "contact/scales.hpp"
 #include "geometry/corner_shares.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double depth_ratio = 0.1;  // a preferred face may miss this part of the depth
 
 FacePair face_pair(const Hulls& hulls, int part_a, int part_b, const PairAxis& axis, int incident) {
   if (axis.kind == AxisKind::face_a)
@@ -353,7 +352,7 @@ ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed, int 
                              clip_scratch, held);
   add_near_edges(hulls, placed, part_a, part_b, choice.near_edges, choice.normal, begin, held);
   if (choice.passed_over.kind == AxisKind::none) return found;
-  const double deep_enough = choice.largest + depth_ratio * std::abs(choice.largest);
+  const double deep_enough = choice.largest + hardly_better * std::abs(choice.largest);
   if (deepest_gap(hulls, placed, part_a, part_b, choice.axis, found.incident,
                   std::span(held).subspan(begin)) <= deep_enough)
     return found;

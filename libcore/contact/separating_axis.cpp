@@ -10,6 +10,7 @@
 #include "contact/entrance.hpp"
 #include "contact/lanes.hpp"
 #include "contact/pair_axes.hpp"
+#include "contact/scales.hpp"
 
 namespace talus {
 namespace {
@@ -18,17 +19,12 @@ using Parts = PartPair;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double none = -infinity;
-constexpr double keep_ratio = 0.1;   // another face must be better by this part of |separation|
-constexpr double face_ratio = 1e-3;  // ... and of the thickness; edges too
-constexpr double same_axis_ratio = 2e-2;  // ... in the same direction
 // Edges parallel within a degree bear where no face is nearer to their direction than 8 degrees.
 constexpr double no_face_cos = 0.990268068741570;
 // Of bodies of several parts: what is nearer than this part of the thickness may be the same place
 // on both sides of a seam; what is not this part of its depth is as good as free.
-constexpr double seam_ratio = 5e-3, touch_ratio = 1e-3;
-constexpr double as_good_as_free = 0.1;      // what is left of an overlap
-constexpr double longest_hold_ratio = 0.02;  // of the smaller radius, and at most longest_hold
-constexpr double longest_hold = 0.05;        // [m]
+constexpr double seam_ratio = 5e-3;
+constexpr double longest_hold = 0.05;  // [m], of an axis
 
 // direction . normal for all normals of `part` into its row, padded.
 void normal_dots(const Parts& parts, int part, const Vec3& direction, double* row) {
@@ -307,7 +303,7 @@ bool leads_out(const Parts& parts, const Axis& axis, double seam) {
   if (!overlap_beside(parts, moved, axis.normal, seam)) return false;
   is_free = true;
   for_each_other_pair(parts, [&](const Parts& other) {
-    is_free &= apart_after(other, moved, 0) >= -touch_ratio * seam;
+    is_free &= apart_after(other, moved, 0) >= -feature_slack * seam;
   });
   return is_free;
 }
@@ -322,7 +318,7 @@ bool others_free(const Parts& parts, const Axis& own) {
         apart_after(other, Vec3::Zero(), 0) < 0)
       move_out(axis, moved);
   });
-  return !moved.isZero(0) && apart_after(parts, moved, 0) >= as_good_as_free * own.separation;
+  return !moved.isZero(0) && apart_after(parts, moved, 0) >= hardly_better * own.separation;
 }
 
 // Axes of faces that other parts cover where they would meet.
@@ -395,14 +391,14 @@ double best_other_face(const Parts& parts, const AxisScratch& scratch, const Vec
 }
 
 double keep_bonus(const FaceAxis& last, double thickness) {
-  return std::max(keep_ratio * std::abs(last.separation), face_ratio * thickness);
+  return std::max(hardly_better * std::abs(last.separation), feature_slack * thickness);
 }
 
 // Edges with a separation below this change nothing: they are neither chosen nor noted beside the
 // best face, of separation `face`, nor do they shorten a hold of `longest`.
 double least_edges(double face, double thickness, double longest) {
   constexpr double ample = 2;  // what a face may be below the best one, and edges below that
-  const double bonus = std::max(keep_ratio * std::abs(face), same_axis_ratio * thickness);
+  const double bonus = std::max(hardly_better * std::abs(face), axis_slack * thickness);
   return std::min(0.0, face - 2 * longest - 2 * ample * bonus);
 }
 
@@ -420,12 +416,12 @@ FaceAxis settled_face(const Parts& parts, const AxisScratch& scratch, const Face
                       const FaceAxis& last, double thickness) {
   if (last.separation > none) {
     const bool same = to_a(parts, last).dot(to_a(parts, best)) >= same_axis_cos;
-    const double bonus = same ? same_axis_ratio * thickness : keep_bonus(last, thickness);
+    const double bonus = same ? axis_slack * thickness : keep_bonus(last, thickness);
     if (last.separation + bonus >= best.separation) return last;
   }
   if (best.part == parts.a) return best;
   FaceAxis chosen = best;
-  double least = best.separation - face_ratio * thickness;
+  double least = best.separation - feature_slack * thickness;
   const Vec3 normal = to_a(parts, best);
   for (int f = 0; f < parts.hulls.n_faces[parts.a]; ++f) {
     const FaceAxis axis{parts.a, f, scratch.face_a[f]};
@@ -543,11 +539,11 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const double thickness = std::min(hulls.thickness[part_a], hulls.thickness[part_b]);
   const double radius =
       std::min(hulls.radius[hulls.body[part_a]], hulls.radius[hulls.body[part_b]]);
-  const double longest = std::min(longest_hold, longest_hold_ratio * radius);
+  const double longest = std::min(longest_hold, axis_slack * radius);
   const bool pieces = has_pieces(hulls, part_a) || has_pieces(hulls, part_b);
   const double least = pieces ? none : least_edges(farthest.separation, thickness, longest);
   // what edges need above the best face: half as much when an edge pair was chosen last
-  const double edge_bar = face_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
+  const double edge_bar = feature_slack * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
   const BesideFace face{to_a(parts, farthest), farthest.separation,
                         edge_bar / std::sqrt(parallel_sin_sq)};
   BestEdges edges = find_edges(parts, face, false, least, scratch);
@@ -580,7 +576,7 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const double bar = edges.nearly_parallel ? 0 : edge_bar;  // what they need, they have
   AxisChoice choice;
   if (edges.separation > best.separation + bar) {
-    const double near = same_axis_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
+    const double near = axis_slack * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
     choice = edge_choice(parts, scratch, edges, best, bar, near);
   } else if (best.separation > none) {
     const FaceAxis face =

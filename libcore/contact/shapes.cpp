@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "contact/scales.hpp"
+
 namespace talus {
 namespace {
-
-constexpr double flattest_edge = 1e-6;  // opening angle below which an edge counts as flat [rad]
 
 void add_part(Shapes& shapes, const Polyhedron& part, std::span<const int> vertex_of,
               std::span<const Vec3> body_vertices, const Mat3& to_body, int internal_tag) {
@@ -42,7 +42,7 @@ void add_edges(Shapes& shapes, const Polyhedron& shell, std::span<const int> ver
     const Vec3 along = (body_vertices[b] - body_vertices[a]).normalized();
     const Vec3 left = to_body * face_normal(shell, edge.left);
     const Vec3 right = to_body * face_normal(shell, edge.right);
-    if (left.cross(right).dot(along) > flattest_edge)
+    if (left.cross(right).dot(along) > negligible)
       shapes.edges.push_back({a, b, gauss_arc(left, right)});
   }
   shapes.edge_begin.push_back(static_cast<int>(shapes.edges.size()));

@@ -29,9 +29,9 @@ std::vector<Box> boxes_of(const Hulls& hulls, const PlacedHulls& placed, double 
 std::vector<std::array<int, 2>> close_parts(const Hulls& hulls, const PlacedHulls& placed,
                                             double distance) {
   const std::vector<Box> boxes = boxes_of(hulls, placed, distance / 2);
-  OverlapScratch scratch;
+  std::vector<BoxInStrip> strips;
   std::vector<std::array<int, 2>> pairs;
-  find_overlaps(boxes, hulls.body, {}, scratch, pairs);
+  find_overlaps(boxes, hulls.body, strips, pairs);
   return pairs;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "ensemble/made_with.hpp"
 #include "record/part_file.hpp"
 
 namespace talus {
@@ -41,34 +42,37 @@ bool is_ensemble(const std::string& path) {
   return fs::is_directory(path) || fs::path(path).filename() == ensemble_name;
 }
 
-std::vector<std::string> ids_in_part(const std::string& path) {
-  std::vector<std::string> ids;
-  if (!fs::exists(path)) return ids;
+std::string key_of(const EnsembleMember& member) { return member.run_id + " " + member.settings; }
+
+std::vector<std::string> keys_in_part(const std::string& path) {
+  std::vector<std::string> keys;
+  if (!fs::exists(path)) return keys;
   try {
-    for (const RunFile& run : PartFile(path).part.runs) ids.push_back(run.info.run_id);
+    for (const RunFile& run : PartFile(path).part.runs)
+      keys.push_back(run.info.run_id + " " + settings_digest(run.info));
   } catch (const InputError&) {
-    ids.clear();
+    keys.clear();
   }
-  return ids;
+  return keys;
 }
 
 std::vector<std::string> files_of(const Ensemble& ensemble, bool with_parts) {
-  std::map<std::string, std::string> file_of;  // by run id
+  std::map<std::string, std::string> file_of;  // by key_of()
   for (const EnsembleMember& member : ensemble.members)
     if (has_result(member))
-      file_of[member.run_id] = (fs::path(ensemble.folder) / member.file).string();
+      file_of[key_of(member)] = (fs::path(ensemble.folder) / member.file).string();
   std::vector<std::string> files;
   for (const std::string& name : with_parts ? ensemble.parts : std::vector<std::string>{}) {
     const std::string path = (fs::path(ensemble.folder) / name).lexically_normal().string();
-    const std::vector<std::string> ids = ids_in_part(path);
-    if (ids.empty() || !std::all_of(ids.begin(), ids.end(),
-                                    [&](const std::string& id) { return file_of.contains(id); }))
+    const std::vector<std::string> keys = keys_in_part(path);
+    if (keys.empty() || !std::all_of(keys.begin(), keys.end(),
+                                     [&](const std::string& key) { return file_of.contains(key); }))
       continue;
-    for (const std::string& id : ids) file_of.erase(id);
+    for (const std::string& key : keys) file_of.erase(key);
     files.push_back(path);
   }
   for (const EnsembleMember& member : ensemble.members)
-    if (const auto at = file_of.find(member.run_id); has_result(member) && at != file_of.end())
+    if (const auto at = file_of.find(key_of(member)); has_result(member) && at != file_of.end())
       files.push_back(at->second);
   return files;
 }

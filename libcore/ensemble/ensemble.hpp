@@ -60,9 +60,11 @@ extern const char* const ensemble_name;
 /// Whether a file or folder of the command line stands for a set of runs.
 [[nodiscard]] bool is_ensemble(const std::string& path);
 
-/// Ids of the runs in a file of talus-reduce, sorted; none where it is missing or damaged: the runs
-/// themselves are there.
-[[nodiscard]] std::vector<std::string> ids_in_part(const std::string& path);
+/// A run with what it was made with: its id and the digest of its settings.
+[[nodiscard]] std::string key_of(const EnsembleMember& member);
+/// Those of the runs in a file of talus-reduce, sorted; none where it is missing or damaged: the
+/// runs themselves are there.
+[[nodiscard]] std::vector<std::string> keys_in_part(const std::string& path);
 
 /// The files that hold the runs with a result: with `with_parts` the parts all of whose runs are
 /// wanted, and the other runs.

@@ -25,20 +25,8 @@ Dataset open_classes(const std::string& path, const Trn& trn) {
     throw InputError(
         {path},
         "the classes are in " + crs_name(crs) + ", the terrain is in " + crs_name(trn.crs_wkt),
-        "gdalwarp -r near -novshift -ot Int32 -dstnodata -2147483648 -t_srs " +
-            crs_code(trn.crs_wkt) + " " + path + " classes.tif");
+        warp_command(CellKind::classes, "-t_srs " + crs_code(trn.crs_wkt), path, "classes.tif"));
   return dataset;
-}
-
-std::array<double, 6> place_of(GDALDataset& dataset, const std::string& path) {
-  std::array<double, 6> g{};
-  if (dataset.GetGeoTransform(g.data()) != CE_None)
-    throw InputError({path}, "the raster has no place on the map (no geotransform)",
-                     "gdal_translate -a_ullr XMIN YMAX XMAX YMIN " + path + " placed.tif");
-  if (g[2] != 0 || g[4] != 0 || !(g[1] > 0) || !(g[5] < 0))
-    throw InputError({path}, "the raster is rotated or upside down, expected north-up",
-                     "gdalwarp -r near " + path + " north_up.tif");
-  return g;
 }
 
 // Classes that lie beside the terrain would all read as unknown.
@@ -92,7 +80,7 @@ struct PixelRows {
 
 std::vector<std::int32_t> read_cell_classes(const std::string& path, const Trn& trn) {
   const Dataset dataset = open_classes(path, trn);
-  const std::array<double, 6> g = place_of(*dataset, path);
+  const std::array<double, 6> g = north_up_place(*dataset, path, CellKind::classes);
   check_ground_place(*dataset, g, path, trn);
   PixelRows rows{path, *dataset->GetRasterBand(1), -1, {}, {}};
   const int n_rows = trn.n_rows - 1, n_cols = trn.n_cols - 1;

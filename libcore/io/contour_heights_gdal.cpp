@@ -12,6 +12,7 @@
 
 #include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "base/thousands.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/drawing_unit_gdal.hpp"
 #include "io/point_table.hpp"
@@ -57,8 +58,11 @@ std::string name_of_field(OGRFeatureDefn& definition, int index) {
 }
 
 std::string field_option(const OpenLayer& source) {
-  return std::string(source.role.options) + "elevation-field";
+  return option_words(source.role, "--elevation-field");
 }
+
+// "--elevation-field FIELD", "--elevation-field spots=FIELD"
+std::string with_field(const std::string& option) { return option + "FIELD"; }
 
 // The field of exactly this name, else one that differs in case alone; -1: none.
 int find_index(OGRFeatureDefn& definition, const std::string& name) {
@@ -84,7 +88,7 @@ ElevationField field_by_user(const LayerChoice& choice, const OpenLayer& source)
       throw InputError(
           {choice.path, 0, std::string("layer ") + source.layers[l]->GetName()},
           "there is no field \"" + name + "\"; the fields are: " + list_of_fields(definition),
-          "choose one with " + option + ", or Z for the geometries' own Z");
+          "choose one with " + with_field(option) + ", or Z for the geometries' own Z");
     if (l == 0) field.name = name_of_field(definition, index);
     field.index.push_back(index);
   }
@@ -135,9 +139,9 @@ double field_value(const OGRFeature& feature, const ElevationField& field, std::
                    const Where& where) {
   const int index = field.index[layer];
   if (!feature.IsFieldSetAndNotNull(index))
-    throw InputError(
-        where, "the field " + field.name + " is empty, expected an elevation",
-        "choose another field with " + field.option + ", or Z for the geometries' own Z");
+    throw InputError(where, "the field " + field.name + " is empty, expected an elevation",
+                     "choose another field with " + with_field(field.option) +
+                         ", or Z for the geometries' own Z");
   const OGRFieldType type = feature.GetFieldDefnRef(index)->GetType();
   double value = 0;
   if (type == OFTInteger || type == OFTInteger64 || type == OFTReal) {
@@ -145,9 +149,9 @@ double field_value(const OGRFeature& feature, const ElevationField& field, std::
   } else {
     const std::string words = feature.GetFieldAsString(index);
     if (!parse_double(words, value))
-      throw InputError(where,
-                       "the field " + field.name + " says \"" + words + "\", expected an elevation",
-                       "choose another field with " + field.option + ", or mend the text");
+      throw InputError(
+          where, "the field " + field.name + " says \"" + words + "\", expected an elevation",
+          "choose another field with " + with_field(field.option) + ", or mend the text");
   }
   if (!std::isfinite(value))
     throw InputError(where,
@@ -167,18 +171,38 @@ class FieldValues {
   void add(const OGRFeature& feature) {
     const Where where = where_of_feature(choice_, source_, feature);
     values_.push_back(field_value(feature, field_, source_.current, where));
+    const int taken = field_.index[source_.current];
+    if (feature.GetFieldDefnRef(taken)->GetType() == OFTString)
+      thousands_.add(feature.GetFieldAsString(taken));
     if (field_.rivals.empty()) return;
     for (const int index : field_.rivals[source_.current]) add_rival(feature, index);
   }
 
   const std::vector<double>& values() const { return values_; }
 
+  // Heights as text: 1.010 may be 1.01 or 1010.
+  void check_thousands() const {
+    if (!thousands_.is_doubtful()) return;
+    std::string whole = thousands_.first();
+    whole.erase(1, 1);
+    throw InputError(where_of_layer(choice_, source_),
+                     "the field " + field_.name + " holds text like \"" + thousands_.first() +
+                         "\", which may be " + thousands_.first() +
+                         " m or, with a point between "
+                         "thousands, " +
+                         whole + " m",
+                     "make a field of numbers of it (field calculator of QGIS: "
+                     "to_real(replace(\"" +
+                         field_.name + "\", '.', '')) for thousands, to_real(\"" + field_.name +
+                         "\") for metres) and name it with " + field_.option);
+  }
+
   void check_rivals() const {
     for (const auto& [name, rival] : rivals_) {
       if (rival.contradiction.empty() || !rival.varies) continue;
       throw InputError(
           where_of_layer(choice_, source_), rival.contradiction,
-          "choose with " + field_.option + " " + field_.name + " or " + field_.option + " " + name);
+          "choose with " + field_.option + field_.name + " or " + field_.option + name);
     }
   }
 
@@ -207,6 +231,7 @@ class FieldValues {
   const OpenLayer& source_;
   const ElevationField field_;
   std::vector<double> values_;
+  ThousandsDoubt thousands_;
   std::map<std::string, Rival> rivals_;
 };
 
@@ -279,14 +304,14 @@ void check_same_elevation(const RawLines& raw, const std::vector<double>& by_fie
                      "feature " + std::to_string(raw.lines.feature[l]) + " has Z " + text(z, 8) +
                          " and " + (is_called_z ? "a field Z of " : name + " ") +
                          text(by_field[l], 8) + ", expected the same height: mixed units?",
-                     "choose with " + field.option + (is_called_z ? " geometry.Z or " : " Z or ") +
-                         field.option + (is_called_z ? " field." : " ") + name +
+                     "choose with " + field.option + (is_called_z ? "geometry.Z or " : "Z or ") +
+                         field.option + (is_called_z ? "field." : "") + name +
                          "; for feet add --elevation-unit-m 0.3048");
   }
 }
 
 std::string elevation_hint(const OpenLayer& source, bool has_z) {
-  return "name the field with " + field_option(source) +
+  return "name the field with " + with_field(field_option(source)) +
          "; the fields are: " + list_of_fields(source) +
          (has_z               ? "; or Z where 0 m is meant"
           : source.is_drawing ? "; a 2-D drawing has none: draw 3-D polylines"
@@ -304,7 +329,7 @@ InputError without_heights(const LayerChoice& choice, const OpenLayer& source, c
     return InputError(where,
                       "the Z of " + std::to_string(raw.n_no_number) + " of " + n_lines +
                           " is not a finite number, and no field with a usual name holds heights",
-                      "name the field with " + field_option(source) +
+                      "name the field with " + with_field(field_option(source)) +
                           "; the fields are: " + list_of_fields(source));
   if (source.n_splines > 0)
     return InputError(where,
@@ -380,7 +405,7 @@ namespace {
 
 // --- labels --------------------------------------------------------------------------------------
 
-constexpr LayerRole labels_role{LayerShape::point, "labels", "--labels-", true};
+constexpr LayerRole labels_role{LayerShape::point, "labels", "labels", true};
 
 // "1050", "1050 m", "1050,5"; other text is no label of a height.
 bool parse_label(std::string words, double& height) {
@@ -395,7 +420,7 @@ int text_field(const LayerChoice& choice, const OpenLayer& source) {
   if (index >= 0) return index;
   throw InputError(where_of_layer(choice, source),
                    "there is no field " + name + "; the fields are: " + list_of_fields(definition),
-                   "name the field with the labels' text: --labels-field");
+                   "name the field with the labels' text: --elevation-field labels=FIELD");
 }
 
 std::vector<Vec3> read_labels(const LayerChoice& choice, OpenLayer& source,
@@ -413,8 +438,8 @@ std::vector<Vec3> read_labels(const LayerChoice& choice, OpenLayer& source,
   reading.labels = reading_of(choice, source);
   reading.labels.elevation_from = "labels";
   reading.notes.push_back(
-      choice.path + ": " + counted(static_cast<std::int64_t>(labels.size()), "label") +
-      " of heights" +
+      without_layer(choice.path) + ": " +
+      counted(static_cast<std::int64_t>(labels.size()), "label") + " of heights" +
       (n_other > 0 ? "; " + counted(n_other, "other text") + " passed over" : std::string()));
   add_remarks(reading.labels, reading.notes);
   return labels;
@@ -490,7 +515,7 @@ Polylines with_labelled_heights(const ContourSources& sources, const OpenLayer& 
   check_labelled(choice.path, raw.lines, found);
   check_z_beside_labels(sources, raw, found.height);
   if (!found.unclear.empty())
-    reading.notes.push_back(choice.path + ": " +
+    reading.notes.push_back(without_layer(choice.path) + ": " +
                             counted(static_cast<std::int64_t>(found.unclear.size()), "label") +
                             " between two contours passed over");
   set_heights(found.height, raw.lines);
@@ -521,6 +546,7 @@ Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
   const HeightRange z = heights_of(raw.lines);
   const bool take_field = stand_in_field(choice, source, raw, z, field, true);
   if (take_field) {
+    values.check_thousands();
     if (choice.elevation_field.empty()) values.check_rivals();
     check_z_beside_field(choice, source, raw, *field, values.values());
     if (raw.n_no_number > 0) reading.contours.remarks.push_back(remark_on_z(raw));
@@ -554,14 +580,15 @@ Polylines read_measured_lines(const LayerChoice& choice, OpenLayer& source,
     FieldValues values(choice, source, *field);
     for_each_part(choice, source,
                   [&](const OGRGeometry&, const OGRFeature& feature) { values.add(feature); });
+    values.check_thousands();
     if (choice.elevation_field.empty()) values.check_rivals();
     check_z_beside_field(choice, source, raw, *field, values.values());
     if (raw.n_no_number > 0) taken.remarks.push_back(remark_on_z(raw));
     set_heights(values.values(), raw.lines);
-    notes.push_back(choice.path + ": elevation from field " + field->name);
+    notes.push_back(without_layer(choice.path) + ": elevation from field " + field->name);
   }
   check_known(raw.lines, choice, source, take_field ? field->name : "Z");
-  notes.push_back(choice.path + ": layer " + source.name + ", " +
+  notes.push_back(without_layer(choice.path) + ": layer " + source.name + ", " +
                   counted(source.n_features, "feature"));
   taken.elevation_from = take_field ? "field " + field->name : "Z";
   add_remarks(taken, notes);

@@ -86,25 +86,15 @@ std::vector<OGRLayer*> layers_named(const std::string& word, const OpenLayer& so
 }
 
 void choose_by_name(const LayerChoice& choice, const std::string& names, OpenLayer& source) {
-  std::vector<std::string> words = parted(names, '\n');
-  // A name may hold line breaks or blanks alone.
-  if (words.empty() || source.dataset->GetLayerByName(names.c_str()) != nullptr) words = {names};
-  for (const std::string& word : words) {
-    const std::vector<OGRLayer*> found = layers_named(word, source);
-    if (found.empty() && source.is_drawing) {
-      source.wanted.push_back(word);
-      continue;
-    }
-    if (found.empty())
-      throw InputError({choice.path}, "there is no layer \"" + word + "\"; there are: " +
-                                          list_of(layer_names(*source.dataset)));
-    for (OGRLayer* layer : found)
-      if (std::find(source.layers.begin(), source.layers.end(), layer) == source.layers.end())
-        source.layers.push_back(layer);
-  }
-  if (source.is_drawing) {
-    if (!source.layers.empty()) source.wanted = {"*"};  // the whole drawing, by its name in GDAL
+  for (OGRLayer* layer : layers_named(names, source))
+    if (std::find(source.layers.begin(), source.layers.end(), layer) == source.layers.end())
+      source.layers.push_back(layer);
+  if (source.is_drawing) {  // "*": the whole drawing, by its name in GDAL
+    source.wanted = {source.layers.empty() ? names : "*"};
     source.layers = {source.dataset->GetLayer(0)};
+  } else if (source.layers.empty()) {
+    throw InputError({choice.path}, "there is no layer \"" + names +
+                                        "\"; there are: " + list_of(layer_names(*source.dataset)));
   }
 }
 
@@ -135,26 +125,10 @@ void choose_by_shape(const LayerChoice& choice, OpenLayer& source) {
   throw InputError({choice.path},
                    std::to_string(fitting.size()) + " layers hold " + plural(shape) +
                        ", expected one; the layers are: " + list_of(layer_names(*source.dataset)),
-                   hint_to_choose(source.role.options, fitting));
+                   hint_to_choose(fitting));
 }
 
 // --- opening -------------------------------------------------------------------------------------
-
-// Names in the path, as QGIS writes them, and in the option or key are the same or one of them.
-std::string layers_asked_for(const LayerChoice& choice, const SourcePath& path,
-                             const OpenLayer& source) {
-  const std::string& by_path = path.layer.empty() ? path.layer_id : path.layer;
-  if (by_path.empty() || choice.layer.empty() || by_path == choice.layer)
-    return path.layer.empty() ? choice.layer : path.layer;
-  throw InputError({choice.path},
-                   "the name asks for the layer " + by_path + ", " +
-                       layer_option(source.role.options) + " for \"" + choice.layer + "\"",
-                   "name the layer once");
-}
-
-std::string both_filters(const std::string& a, const std::string& b) {
-  return a.empty() || b.empty() ? a + b : "(" + a + ") AND (" + b + ")";
-}
 
 void set_filter(const LayerChoice& choice, OpenLayer& source) {
   if (source.filter.empty()) return;
@@ -188,6 +162,11 @@ void find_drawing_field(OpenLayer& source) {
 
 }  // namespace
 
+std::string option_words(const LayerRole& role, const std::string& option) {
+  const std::string input = role.input;
+  return option + " " + (input == "contours" || input == "reference" ? "" : input + "=");
+}
+
 OpenLayer open_layer(const LayerChoice& choice, const LayerRole& role) {
   const SourcePath path = parse_source_path(choice.path);
   OpenLayer source;
@@ -195,11 +174,10 @@ OpenLayer open_layer(const LayerChoice& choice, const LayerRole& role) {
   VectorDataset opened = open_vectors(path);
   source.dataset = opened.dataset;
   source.remarks = std::move(opened.remarks);
-  source.filter = both_filters(path.subset, choice.where);
+  source.filter = path.subset;
   find_drawing_field(source);
-  const std::string names = layers_asked_for(choice, path, source);
-  if (!names.empty())
-    choose_by_name(choice, names, source);
+  if (!path.layer.empty())
+    choose_by_name(choice, path.layer, source);
   else if (!path.layer_id.empty())
     choose_by_number(choice, path.layer_id, source);
   else

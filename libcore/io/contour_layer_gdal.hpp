@@ -27,7 +27,7 @@ namespace talus {
 struct LayerRole {
   LayerShape shape;
   const char* name;          ///< of its parts, for messages: "contours"
-  const char* options;       ///< how its options begin: "--breaklines-", "source.polygon_"
+  const char* input = "";    ///< that options are for: "contours", "spots"; empty: none is
   bool is_of_texts = false;  ///< of a drawing its texts are read, else what is no text
 };
 
@@ -55,6 +55,9 @@ struct OpenLayer {
   std::int64_t n_splines = 0;                       ///< of a drawing: GDAL reads no Z of them
   std::map<std::string, std::int64_t> parts_of;     ///< layer -> parts of the shape
 };
+
+/// The beginning of an option that says something of the source: "--unit-m ", "--unit-m spots=".
+[[nodiscard]] std::string option_words(const LayerRole& role, const std::string& option);
 
 /// The layers that are named, else the only one that holds the shape. Throws InputError when the
 /// source cannot be opened, has no such layer, or has several that may be meant.

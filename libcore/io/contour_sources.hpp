@@ -10,16 +10,14 @@
 
 namespace talus {
 
-/// A vector source and one or several of its layers, parted by line breaks or commas, with * and ?
-/// for any letters; empty: the only one with fitting geometries. Of a DXF drawing they are the
-/// layers of the drawing.
+/// A vector source: "map.gpkg|layername=index,between|subset=ELEV > 900", or an archive. Layers are
+/// parted by commas, with * and ? for any letters; without them the only one with fitting
+/// geometries is taken. Of a DXF drawing they are the layers of the drawing.
 struct LayerChoice {
-  std::string path;  ///< also as QGIS writes it ("map.gpkg|layername=index"), or an archive
-  std::string layer;
+  std::string path;
   /// Empty: Z where it tells heights apart, else a field by name. "Z", or "geometry.Z" and
   /// "field.Z" where a field has that name.
   std::string elevation_field;
-  std::string where;  ///< OGR attribute filter; empty: all
   double unit_m = 0;  ///< metres in one unit of its coordinates; 0: metres, or as a drawing says
 };
 

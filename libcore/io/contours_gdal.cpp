@@ -24,12 +24,12 @@ namespace talus {
 namespace {
 
 // What the sources of a map are read for.
-constexpr LayerRole contours_role{LayerShape::line, "contours", "--"};
-constexpr LayerRole ground_points_role{LayerShape::point, "points", "--"};
-constexpr LayerRole breaklines_role{LayerShape::line, "breaklines", "--breaklines-"};
-constexpr LayerRole spots_role{LayerShape::point, "spot heights", "--spots-"};
-constexpr LayerRole boundary_role{LayerShape::polygon, "boundary", "--boundary-"};
-constexpr LayerRole reference_role{LayerShape::point, "points", "--reference-points-"};
+constexpr LayerRole contours_role{LayerShape::line, "contours", "contours"};
+constexpr LayerRole ground_points_role{LayerShape::point, "points", "contours"};
+constexpr LayerRole breaklines_role{LayerShape::line, "breaklines", "breaklines"};
+constexpr LayerRole spots_role{LayerShape::point, "spot heights", "spots"};
+constexpr LayerRole boundary_role{LayerShape::polygon, "boundary", "boundary"};
+constexpr LayerRole reference_role{LayerShape::point, "points", "reference"};
 
 // --- reference systems ---------------------------------------------------------------------------
 
@@ -79,7 +79,7 @@ void check_place_of(const LayerChoice& choice, const OpenLayer& source, const st
                     ContourReading& reading) {
   if (crs.empty() || points.empty()) return;
   CrsExtent place{crs, window_of(points, crs), work_crs};
-  place.has_crs_option = place.has_unit_option = std::string(source.role.options) == "--";
+  place.has_crs_option = place.has_unit_option = std::string(source.role.input) == "contours";
   place.layer = source.layer->GetName();
   place.geometry_column = source.layer->GetGeometryColumn();
   for (const std::string& warning : check_place(place, {parse_source_path(choice.path).source}))
@@ -97,10 +97,10 @@ double plan_unit_of(const LayerChoice& choice, const OpenLayer& source, const st
     reading.warnings.push_back(choice.path + ": " + doubt);
   const DrawingUnit unit = drawing_unit(opened);
   const std::string metres = unit.metres > 0 ? text(unit.metres) : "METRES";
-  const std::string option = std::string(source.role.options) + "unit-m";
+  const std::string option = option_words(source.role, "--unit-m");
   return scale_of_drawing(opened, choice.unit_m, length_unit_m(crs), {choice.path},
-                          option + " " + metres + " scales plan and heights; " + option +
-                              " 1 if it is in metres whatever its header says");
+                          option + metres + " scales plan and heights; " + option +
+                              "1 if it is in metres whatever its header says");
 }
 
 void scale_plan(double unit_m, std::vector<Vec3>& points) {
@@ -116,7 +116,7 @@ double unit_by_user(const LayerChoice& choice, double elevation_unit_m) {
 // Metres in one unit of the heights that were read: what the user says, or their system of heights.
 double height_unit_of(const LayerChoice& choice, const OpenLayer& source, const std::string& crs,
                       double by_user_m, ContourReading& reading, LayerReading& taken) {
-  const bool has_option = source.role.options != std::string(reference_role.options);
+  const bool has_option = source.role.input != std::string(reference_role.input);
   const double plan_unit_m = length_unit_m(crs);
   const std::string way_out =
       has_option ? "--elevation-unit-m METRES: " + text(plan_unit_m, 12) +
@@ -245,7 +245,7 @@ std::vector<BoundaryRing> read_boundary(const ContourSources& sources, const std
     ++n_polygons;
   });
   reading.boundary = reading_of(choice, source);
-  reading.notes.push_back(choice.path + ": layer " + source.name + ", " +
+  reading.notes.push_back(without_layer(choice.path) + ": layer " + source.name + ", " +
                           counted(n_polygons, "polygon"));
   add_remarks(reading.boundary, reading.notes);
   scale_plan(plan_unit_of(choice, source, map_crs, reading), points);

@@ -127,7 +127,12 @@ double length_unit_m(const std::string& crs_wkt) {
   const GdalErrors errors;
   const OGRSpatialReference srs = plan_of(crs_wkt);
   if (srs.IsVertical() != 0) return srs.GetTargetLinearUnits("VERT_CS");
-  return srs.IsProjected() ? srs.GetLinearUnits() : 1;
+  return srs.IsProjected() || srs.IsLocal() ? srs.GetLinearUnits() : 1;
+}
+
+bool is_local(const std::string& crs_wkt) {
+  const GdalErrors errors;
+  return !crs_wkt.empty() && plan_of(crs_wkt).IsLocal() != 0;
 }
 
 bool same_crs(const std::string& a, const std::string& b) {

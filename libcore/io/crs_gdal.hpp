@@ -30,6 +30,9 @@ namespace talus {
 /// Metres in one unit of the plan; 1 for degrees.
 [[nodiscard]] double length_unit_m(const std::string& crs_wkt);
 
+/// Whether it is a local system, which has no place on the Earth.
+[[nodiscard]] bool is_local(const std::string& crs_wkt);
+
 /// Whether both describe the same system in plan, whatever system their heights are in; two empty
 /// ones do.
 [[nodiscard]] bool same_crs(const std::string& a, const std::string& b);

@@ -15,6 +15,8 @@
 #include "base/words.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/point_table.hpp"
+#include "io/raster_commands.hpp"
 
 namespace talus {
 namespace {
@@ -289,6 +291,11 @@ std::string mended_command(const CrsExtent& place, const Where& where, const std
                      text(moved.y_max, 12) + " " + text(moved.x_max, 12) + " " +
                      text(moved.y_min, 12) + " " + where.file + " mended.tif";
   if (place.layer.empty()) return "write them as x, y in metres of that system";
+  if (is_table_name(where.file))
+    return function.starts_with("SwapCoords")
+               ? "exchange the names of the columns in the first line of the table: x is the "
+                 "easting, y the northing"
+               : "compute the eastings and northings of that system in the table";
   const std::string column = place.geometry_column.empty() ? "geometry" : place.geometry_column;
   const std::size_t hole = function.find('@');
   return "ogr2ogr" + named + " -f GPKG -nln mended mended.gpkg " + where.file +
@@ -313,9 +320,9 @@ std::string way_to_zone(const CrsExtent& place, const Where& where, const Vec2& 
   if (!place.way_to_other_crs.empty()) return place.way_to_other_crs + " " + to;
   if (!place.has_crs_option) return "reproject it to " + to + " first";
   return "--t-srs " + to +
-         (place.is_raster
-              ? ", or gdalwarp -r bilinear -t_srs " + to + " " + where.file + " projected.tif"
-              : " reprojects");
+         (place.is_raster ? ", or " + warp_command(CellKind::heights, "-t_srs " + to, where.file,
+                                                   "projected.tif")
+                          : " reprojects");
 }
 
 class Guesses {

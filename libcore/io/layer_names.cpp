@@ -45,17 +45,11 @@ bool names_field(const std::string& filter, const std::string& field) {
   return false;
 }
 
-std::string layer_option(const std::string& prefix) { return prefix + "layer"; }
-
-bool is_on_command_line(const std::string& prefix) { return prefix.rfind("--", 0) == 0; }
-
-std::string hint_to_choose(const std::string& prefix, const std::vector<std::string>& names) {
-  const std::string option = layer_option(prefix);
-  if (names.size() < 2) return "choose with " + option;
-  return "choose with " + option + "; several: " +
-         (is_on_command_line(prefix)
-              ? option + " '" + names[0] + "' " + option + " '" + names[1] + "'"
-              : option + " = \"" + names[0] + ", " + names[1] + "\"");
+std::string hint_to_choose(const std::vector<std::string>& names) {
+  if (names.empty()) return "";
+  const std::string part = "|layername=", one = "put \"" + part + names[0] + "\" behind the file";
+  if (names.size() < 2) return one;
+  return one + "; several: \"" + part + names[0] + "," + names[1] + "\"; all: \"" + part + "*\"";
 }
 
 }  // namespace talus

@@ -21,13 +21,7 @@ namespace talus {
 /// Whether a filter names a field, in any case.
 [[nodiscard]] bool names_field(const std::string& filter, const std::string& field);
 
-/// The option or key of a layer, where the options of a source begin with `prefix`: "--spots-",
-/// "source.polygon_".
-[[nodiscard]] std::string layer_option(const std::string& prefix);
-[[nodiscard]] bool is_on_command_line(const std::string& prefix);
-
-/// How one of these layers is asked for, or several.
-[[nodiscard]] std::string hint_to_choose(const std::string& prefix,
-                                         const std::vector<std::string>& names);
+/// How one of these layers is asked for, several, or all.
+[[nodiscard]] std::string hint_to_choose(const std::vector<std::string>& names);
 
 }  // namespace talus

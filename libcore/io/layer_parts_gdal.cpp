@@ -203,7 +203,7 @@ std::string in_words(const std::map<std::string, std::int64_t>& counts) {
 std::string way_to_shape(const OpenLayer& source, const LayerChoice& choice) {
   const auto has = [&source](const char* kind) { return source.passed_over.count(kind) > 0; };
   const bool are_contours =
-      std::string(source.role.options) == "--" && source.role.shape == LayerShape::line;
+      std::string(source.role.input) == "contours" && source.role.shape == LayerShape::line;
   if (are_contours) {
     if (source.is_drawing && has("face"))
       return "a surface of faces needs no contours: talus-trn " + command_words(choice.path) +
@@ -266,7 +266,7 @@ InputError no_such_drawing_layer(const LayerChoice& choice, const OpenLayer& sou
   return InputError({choice.path},
                     "the drawing has nothing in a layer \"" + list_of(source.wanted) +
                         "\"; its layers are: " + list_of(names),
-                    "choose with " + layer_option(source.role.options));
+                    hint_to_choose(names));
 }
 
 // A drawing of which no layer is named has one that holds the shape.
@@ -281,10 +281,7 @@ void check_one_drawing_layer(const LayerChoice& choice, OpenLayer& source) {
   throw InputError({choice.path},
                    std::to_string(names.size()) + " layers of the drawing hold " +
                        plural(source.role.shape) + ", expected one; they are: " + list_of(numbers),
-                   hint_to_choose(source.role.options, names) +
-                       (is_on_command_line(source.role.options)
-                            ? "; all: " + layer_option(source.role.options) + " '*'"
-                            : "; all: \"*\""));
+                   hint_to_choose(names));
 }
 
 void name_drawing_layers(OpenLayer& source) {
@@ -333,7 +330,7 @@ void for_each_part(const LayerChoice& choice, OpenLayer& source, const Visit& vi
 
 LayerReading reading_of(const LayerChoice& choice, const OpenLayer& source) {
   LayerReading reading;
-  reading.file = choice.path;
+  reading.file = without_layer(choice.path);
   reading.layer = source.name;
   reading.where = source.filter;
   reading.noun = singular(source.role.shape);

@@ -110,19 +110,13 @@ int tile_size_of(const MapRaster& raster) {
   return std::min(tile_size, (longest + step - 1) / step * step);
 }
 
-CPLStringList cog_options(const MapRaster& raster, const std::vector<std::string>& given) {
+CPLStringList cog_options(const MapRaster& raster) {
   CPLStringList options;
   options.SetNameValue("BLOCKSIZE", std::to_string(tile_size_of(raster)).c_str());
   options.SetNameValue("COMPRESS", "DEFLATE");
   options.SetNameValue("PREDICTOR", "YES");
   options.SetNameValue("OVERVIEWS", "FORCE_USE_EXISTING");
   options.SetNameValue("NUM_THREADS", "1");
-  for (const std::string& option : given) {
-    const auto equal = option.find('=');
-    if (equal == std::string::npos)
-      throw InputError({"", 0, "--co"}, option + " is not NAME=VALUE", "e.g. --co COMPRESS=ZSTD");
-    options.SetNameValue(option.substr(0, equal).c_str(), option.substr(equal + 1).c_str());
-  }
   return options;
 }
 
@@ -141,10 +135,9 @@ void check_written(const std::string& path, bool written, const GdalErrors& erro
 
 }  // namespace
 
-void write_map_raster(const std::string& path, const MapRaster& raster,
-                      const std::vector<std::string>& creation_options) {
+void write_map_raster(const std::string& path, const MapRaster& raster) {
   register_gdal_drivers();
-  const CPLStringList options = cog_options(raster, creation_options);
+  const CPLStringList options = cog_options(raster);
   const GdalErrors errors;
   const OwnedDataset source = to_dataset(raster);
   if (source) add_overviews(*source, raster);

@@ -41,9 +41,7 @@ struct MapRaster {
 
 /// Writes a COG, byte by byte the same for the same raster and options. Overviews take one
 /// of the values below, so that a fast block is not averaged away when zooming out.
-/// `creation_options`: the COG driver's NAME=VALUE; they win over COMPRESS=DEFLATE and the like.
 /// Throws InputError when it cannot be written whole.
-void write_map_raster(const std::string& path, const MapRaster& raster,
-                      const std::vector<std::string>& creation_options = {});
+void write_map_raster(const std::string& path, const MapRaster& raster);
 
 }  // namespace talus

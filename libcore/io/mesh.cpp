@@ -164,6 +164,45 @@ std::string object_of_part(const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+// Vertices that all are numbers of single precision, whose steps there matter for the body: map
+// coordinates that a program has rounded.
+std::string doubt_on_precision(const std::vector<MeshBody>& bodies) {
+  constexpr double least_share = 1e-3;  // of the smallest extent of the body
+  int n_rounded = 0;
+  double worst = 0;
+  for (const MeshBody& body : bodies) {
+    Vec3 low = Vec3::Constant(HUGE_VAL), high = -low, step = Vec3::Zero();
+    bool is_single = true, is_round = true;  // round: whole centimetres, which nobody has rounded
+    const auto look = [&](const Polyhedron& surface) {
+      for (const Vec3& v : surface.vertices) {
+        low = low.cwiseMin(v), high = high.cwiseMax(v);
+        for (int k = 0; k < 3; ++k) {
+          const auto single = static_cast<float>(v[k]);
+          is_single = is_single && single == v[k];
+          is_round = is_round && std::abs(std::remainder(v[k], 0.01)) < 1e-6;
+          step[k] = std::max<double>(
+              step[k], std::nextafterf(std::abs(single), HUGE_VALF) - std::abs(single));
+        }
+      }
+    };
+    look(body.surface);
+    for (const Polyhedron& part : body.parts) look(part);
+    if (!is_single || is_round || !(step.maxCoeff() > least_share * (high - low).minCoeff()))
+      continue;
+    ++n_rounded;
+    worst = std::max(worst, step.maxCoeff());
+  }
+  if (n_rounded == 0) return {};
+  return std::to_string(n_rounded) + (n_rounded == 1 ? " body" : " bodies") +
+         " with coordinates of single precision, in steps of " + text(worst, 2) +
+         " m: shapes and volumes are rounded; shift them to the origin before they "
+         "are written, and give position_m";
+}
+
+}  // namespace
+
 std::vector<std::string> doubts_about(const std::vector<MeshBody>& bodies) {
   std::map<int, std::vector<std::string>> names_in_object;
   std::vector<std::string> named_like_parts, doubts;
@@ -172,6 +211,8 @@ std::vector<std::string> doubts_about(const std::vector<MeshBody>& bodies) {
     if (body.parts.empty() && !object_of_part(body.name).empty())
       named_like_parts.push_back(body.name);
   }
+  if (std::string doubt = doubt_on_precision(bodies); !doubt.empty())
+    doubts.push_back(std::move(doubt));
   int n_objects = 0, largest = 0;
   for (const auto& [object, names] : names_in_object) {
     n_objects += names.size() > 1;

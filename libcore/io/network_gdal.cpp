@@ -11,7 +11,6 @@
 
 #include <cctype>
 #include <cerrno>
-#include <cstring>
 #include <memory>
 #include <set>
 #include <string>
@@ -20,23 +19,30 @@
 
 #include "base/error.hpp"
 #include "base/network.hpp"
-#include "io/foreign_hdf5.hpp"
+#include "base/text.hpp"
 
 namespace talus {
 namespace {
 
 constexpr const char* refusal = "is on a network, which this tool does not use";
-constexpr const char* permission = "--allow-network";
 constexpr const char* way_out =
     "fetch it first and name the copy, or give --allow-network for files that you trust";
+constexpr const char* copy_of_own =
+    "copy what it holds (gdal_translate to a GeoTIFF, ogr2ogr to a GeoPackage), or give "
+    "--allow-network for files that you trust";
 
-// Drivers whose data sets are always elsewhere.
-constexpr const char* network_drivers[] = {
-    "WMS",          "WCS",    "WFS",      "WMTS",          "OAPIF",      "OGCAPI",
-    "CSW",          "HTTP",   "PLMOSAIC", "PLSCENES",      "EEDA",       "EEDAI",
-    "DAAS",         "STACTA", "STACIT",   "PostGISRaster", "PostgreSQL", "MySQL",
-    "MSSQLSpatial", "ODBC",   "OGR_OGDI", "Elasticsearch", "Carto",      "AmigoCloud",
-    "NGW",          "GMLAS",  "GPSBabel", "RDA",           "HANA",       "MongoDBv3"};
+// Formats whose files hold their own values, or have them beside them under the same name.
+constexpr const char* trusted_drivers[] = {
+    // rasters
+    "GTiff", "COG", "VRT", "MEM", "GPKG", "HFA", "AIG", "AAIGrid", "GRASSASCIIGrid", "ISG", "SDTS",
+    "DTED", "PNG", "JPEG", "JP2OpenJPEG", "WEBP", "GIF", "BMP", "SRTMHGT", "USGSDEM", "RST", "GSAG",
+    "GSBG", "GS7BG", "PCRaster", "SAGA", "RRASTER", "ENVI", "EHdr", "BT", "GTX", "NTv2", "GXF",
+    "NWT_GRD", "XYZ", "ZMap", "HF2", "ARG", "BYN", "SIGDEM", "LCP",
+    // vectors
+    "Memory", "OGR_VRT", "SQLite", "ESRI Shapefile", "MapInfo File", "OpenFileGDB", "FlatGeobuf",
+    "GeoJSON", "GeoJSONSeq", "ESRIJSON", "TopoJSON", "GML", "NAS", "KML", "LIBKML", "GPX", "CSV",
+    "XLS", "XLSX", "ODS", "DXF", "CAD", "DGN", "UK .NTF", "OGR_SDTS", "OGR_GMT", "S57", "EDIGEO",
+    "VFK", "SXF", "Interlis 1", "Interlis 2", "AVCBin", "AVCE00", "JML", "OSM"};
 
 constexpr const char* network_folders[] = {"/vsicurl/",
                                            "/vsicurl?",
@@ -79,22 +85,6 @@ CPLHTTPResult* fetch_nothing(const char* url, CSLConstList /*options*/, GDALProg
   return result;
 }
 
-// Drivers whose headers name the file of raw bytes to read, or (MRF) the file to write.
-constexpr const char* raw_drivers[] = {"EIR",  "ERS",  "ILWIS", "ISIS2",  "ISIS3",
-                                       "MRF",  "NDF",  "PAux",  "PCIDSK", "PDS",
-                                       "PDS4", "FAST", "MFF",   "SNODAS"};
-
-using Open = GDALDataset* (*)(GDALOpenInfo*);
-
-// GDAL's own words for what it opened: the file may spell them in many ways.
-bool takes_raw_bytes(GDALDataset& dataset) {
-  char** const xml = dataset.GetMetadata("xml:VRT");
-  if (xml == nullptr || std::strstr(xml[0], "\"VRTRawRasterBand\"") == nullptr) return false;
-  CPLError(CE_Failure, CPLE_OpenFailed,
-           "a virtual raster takes the raw bytes of a file as heights, which needs %s", permission);
-  return true;
-}
-
 // The module of a virtual table in small letters; "" where the statement is spelled otherwise than
 // SQLite, GDAL and SpatiaLite spell it.
 std::string module_of(std::string sql) {
@@ -121,79 +111,20 @@ bool is_own_table(const std::string& sql) {
   return own.contains(module_of(sql));
 }
 
-bool has_foreign_tables(GDALDataset& database) {
-  OGRLayer* const tables = database.ExecuteSQL(
-      "SELECT '' AS name, '' AS sql UNION ALL "
-      "SELECT name, sql FROM sqlite_master WHERE type = 'table' AND rootpage = 0",
-      nullptr, nullptr);
-  std::string found = tables == nullptr ? "(its list cannot be read)" : "";
-  if (tables != nullptr) {
-    for (const auto& row : *tables)
-      if (const std::string sql = row->GetFieldAsString(1); !sql.empty() && !is_own_table(sql))
-        found = row->GetFieldAsString(0);
-    database.ReleaseResultSet(tables);
-  }
-  if (found.empty()) return false;
-  CPLError(CE_Failure, CPLE_OpenFailed,
-           "the virtual table %s of a data base reads other files, which needs %s", found.c_str(),
-           permission);
-  return true;
+// GDAL ends with a fault where a driver is destroyed (3.6), so they stay to the end.
+std::vector<GDALDriver*>& drivers_taken_out() {
+  static auto& taken = *new std::vector<GDALDriver*>;
+  return taken;
 }
 
-// HDF5 and netCDF 4. Looked at while GDAL has it closed: both open it in ways that exclude each
-// other.
-bool is_kept_elsewhere(const CPLStringList& files) {
-  std::string found;
-  try {
-    const std::string file = files.empty() ? "" : files[0];
-    found = file.starts_with("/vsi") ? "a packed file" : kept_in_another_file(file);
-  } catch (const InputError& error) {
-    found = error.what();
-  }
-  if (!found.empty())
-    CPLError(CE_Failure, CPLE_OpenFailed, "what %s holds may stand in another file, which needs %s",
-             found.c_str(), permission);
-  return !found.empty();
-}
-
-// What a driver opens is handed on, or closed again where it reads what nobody named.
-enum class Guarded { vrt, sqlite, geopackage, hdf5, hdf5_image, netcdf, bag };
-
-GDALDataset* open_checked(Guarded kind, Open original, GDALOpenInfo* info) {
-  GDALDatasetUniquePtr dataset(original(info));
-  if (!dataset) return nullptr;
-  bool is_refused = false;
-  if (kind == Guarded::vrt) {
-    is_refused = takes_raw_bytes(*dataset);
-  } else if (kind == Guarded::sqlite || kind == Guarded::geopackage) {
-    is_refused = has_foreign_tables(*dataset);
-  } else {
-    const CPLStringList files(dataset->GetFileList());
-    dataset.reset();
-    is_refused = is_kept_elsewhere(files);
-    if (!is_refused) dataset.reset(original(info));
-  }
-  return is_refused ? nullptr : dataset.release();
-}
-
-// GDAL ends with a fault where one is destroyed (3.6), so they stay to the end.
-void take_out(const char* driver_name) {
-  static auto& taken = *new std::vector<GDALDriverH>;
-  const GDALDriverH driver = GDALGetDriverByName(driver_name);
-  if (driver == nullptr) return;
-  GDALDeregisterDriver(driver);
-  taken.push_back(driver);
-}
-
-// A driver that opens by other ways cannot be guarded, and is taken out.
-template <Guarded kind>
-void guard(const char* driver_name) {
-  static Open original = nullptr;
-  auto* const driver = static_cast<GDALDriver*>(GDALGetDriverByName(driver_name));
-  if (driver == nullptr) return;
-  if (driver->pfnOpen == nullptr) return take_out(driver_name);
-  original = driver->pfnOpen;
-  driver->pfnOpen = [](GDALOpenInfo* info) { return open_checked(kind, original, info); };
+void take_out_other_drivers() {
+  const std::set<std::string> trusted(std::begin(trusted_drivers), std::end(trusted_drivers));
+  GDALDriverManager& drivers = *GetGDALDriverManager();
+  for (int i = 0; i < drivers.GetDriverCount(); ++i)
+    if (GDALDriver* const driver = drivers.GetDriver(i);
+        !trusted.contains(driver->GetDescription()))
+      drivers_taken_out().push_back(driver);
+  for (GDALDriver* const driver : drivers_taken_out()) drivers.DeregisterDriver(driver);
 }
 
 // The beginning of a virtual data set is that of an XML file of one of these.
@@ -238,27 +169,45 @@ bool is_elsewhere(const std::string& source) {
   return false;
 }
 
-// Adds what a virtual data set in `folder` takes its values from. GDAL distinguishes no case.
-void add_sources(const CPLXMLNode* node, const char* folder, std::vector<std::string>& sources) {
+// What a virtual raster takes its values from.
+struct Sources {
+  std::vector<std::string> names;
+  bool has_raw_bytes = false;  // of a file that need not be a raster
+};
+
+// Of a virtual raster in `folder`. GDAL distinguishes no case.
+void add_sources(const CPLXMLNode* node, const char* folder, Sources& sources) {
   for (; node != nullptr; node = node->psNext) {
     if (node->eType != CXT_Element) continue;
+    if (EQUAL(CPLGetXMLValue(node, "subClass", ""), "VRTRawRasterBand"))
+      sources.has_raw_bytes = true;
     for (const char* tag : {"SourceFilename", "SourceDataset", "SrcDataSource"}) {
       if (!EQUAL(node->pszValue, tag)) continue;
       const char* const name = CPLGetXMLValue(node, nullptr, "");
       const bool is_beside = CPLTestBool(CPLGetXMLValue(node, "relativeToVRT", "0"));
-      sources.emplace_back(is_beside ? CPLProjectRelativeFilename(folder, name) : name);
+      sources.names.emplace_back(is_beside ? CPLProjectRelativeFilename(folder, name) : name);
     }
     add_sources(node->psChild, folder, sources);
   }
 }
 
-std::vector<std::string> sources_in(const std::string& name, const std::string& xml) {
+Sources sources_in(const std::string& name, const std::string& xml) {
   const CPLErrorStateBackuper kept;
   const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
   const CPLXMLTreeCloser tree(CPLParseXMLString(xml.c_str()));
-  std::vector<std::string> sources;
+  Sources sources;
   add_sources(tree.get(), std::string(CPLGetPath(name.c_str())).c_str(), sources);
   return sources;
+}
+
+// A data base that a virtual data set names is opened by GDAL itself.
+void check_database(const std::string& source) {
+  const char* const drivers[] = {"SQLite", "GPKG", nullptr};
+  const CPLErrorStateBackuper kept;
+  const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
+  const GDALDatasetUniquePtr database(
+      GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_RASTER, drivers));
+  if (database) check_tables(*database, source);
 }
 
 // `n_read`: virtual data sets read so far. Each may name the next one many times.
@@ -275,10 +224,15 @@ void check_virtual(const std::string& name, int depth, int& n_read) {
   if (depth > deepest)
     throw InputError(where, "is a virtual data set of virtual data sets without end");
   if (text.find("<GDAL_WMS") != std::string::npos) throw InputError(where, refusal, way_out);
-  for (const std::string& source : sources_in(name, text)) {
+  const Sources sources = sources_in(name, text);
+  if (sources.has_raw_bytes)
+    throw InputError(where, "is a virtual raster that takes the raw bytes of a file as heights",
+                     copy_of_own);
+  for (const std::string& source : sources.names) {
     if (is_elsewhere(source))
       throw InputError(where, "names " + source + ", which " + refusal, way_out);
     check_virtual(source, depth + 1, n_read);
+    check_database(source);
   }
 }
 
@@ -286,15 +240,7 @@ void check_virtual(const std::string& name, int depth, int& n_read) {
 
 void forbid_network() {
   if (network_is_allowed()) return;
-  for (const char* name : network_drivers) take_out(name);
-  for (const char* name : raw_drivers) take_out(name);
-  guard<Guarded::vrt>("VRT");
-  guard<Guarded::sqlite>("SQLite");
-  guard<Guarded::geopackage>("GPKG");
-  guard<Guarded::hdf5>("HDF5");
-  guard<Guarded::hdf5_image>("HDF5Image");
-  guard<Guarded::netcdf>("netCDF");
-  guard<Guarded::bag>("BAG");
+  take_out_other_drivers();
   CPLSetConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
   CPLSetConfigOption("GML_DOWNLOAD_SCHEMA", "NO");
   static NoFiles no_files;
@@ -309,16 +255,36 @@ void check_virtual(const std::string& path) {
   check_virtual(path, 0, n_read);
 }
 
-std::string needs_permission(const std::string& failure) {
-  if (failure.find(permission) != std::string::npos)
-    return std::string("give ") + permission +
-           " for files that you trust, or copy what they hold: "
-           "gdal_translate to a GeoTIFF, ogr2ogr to a GeoPackage";
-  if (network_is_allowed() || failure.find("not recognized") == std::string::npos) return "";
-  std::string names;
-  for (const char* name : raw_drivers) names += (names.empty() ? "" : ", ") + std::string(name);
-  return "is it a raster? Formats whose header names another file need " + std::string(permission) +
-         ": " + names;
+void check_tables(GDALDataset& database, const std::string& path) {
+  const std::string driver = database.GetDriverName();
+  if (network_is_allowed() || (driver != "SQLite" && driver != "GPKG")) return;
+  OGRLayer* const tables = database.ExecuteSQL(
+      "SELECT '' AS name, '' AS sql UNION ALL "
+      "SELECT name, sql FROM sqlite_master WHERE type = 'table' AND rootpage = 0",
+      nullptr, nullptr);
+  std::string found = tables == nullptr ? "(its list cannot be read)" : "";
+  if (tables != nullptr) {
+    for (const auto& row : *tables)
+      if (const std::string sql = row->GetFieldAsString(1); !sql.empty() && !is_own_table(sql))
+        found = row->GetFieldAsString(0);
+    database.ReleaseResultSet(tables);
+  }
+  if (!found.empty())
+    throw InputError({path}, "its virtual table " + found + " reads other files", copy_of_own);
+}
+
+std::string way_to_open(const std::string& path, const std::string& otherwise) {
+  if (lower(path).ends_with(".parquet"))
+    return "GDAL reads GeoParquet with its driver Parquet, which Debian 12 has not: export a "
+           "GeoPackage";
+  const CPLErrorStateBackuper kept;
+  const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
+  GDALOpenInfo info(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY);
+  for (GDALDriver* const driver : drivers_taken_out())
+    if (driver->pfnIdentify != nullptr && driver->pfnIdentify(&info) == 1)
+      return "files of the format " + std::string(driver->GetDescription()) +
+             " may name other files: " + copy_of_own;
+  return otherwise;
 }
 
 }  // namespace talus

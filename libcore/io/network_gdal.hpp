@@ -5,18 +5,24 @@
 
 #include <string>
 
+class GDALDataset;
+
 namespace talus {
 
-/// Once drivers are registered: those that live on a network and those whose headers name a file of
-/// raw bytes are taken out, file systems and downloads over a network are refused, virtual rasters
-/// run no Python and take no raw bytes, data bases have no virtual tables that read other files.
+/// Once drivers are registered: only those stay whose files hold their own values or have them
+/// beside them. File systems and downloads over a network are refused, virtual rasters run no
+/// Python.
 void forbid_network();
 
-/// Throws InputError where a virtual data set, or one that it names, is of a network.
+/// Throws InputError where a virtual raster, or one that it names, is on a network or takes the raw
+/// bytes of a file.
 void check_virtual(const std::string& path);
 
-/// The way out where GDAL's failure to open or read a file comes from what forbid_network() takes
-/// out; empty where it does not.
-[[nodiscard]] std::string needs_permission(const std::string& failure);
+/// Throws InputError where a data base (SQLite, GeoPackage) has virtual tables that read files.
+void check_tables(GDALDataset& database, const std::string& path);
+
+/// The way out where no driver opens a file: what to do about a format that forbid_network() takes
+/// out, else `otherwise`.
+[[nodiscard]] std::string way_to_open(const std::string& path, const std::string& otherwise);
 
 }  // namespace talus

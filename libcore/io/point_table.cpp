@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "base/thousands.hpp"
 
 namespace talus {
 namespace {
@@ -138,20 +139,31 @@ bool find_columns(const Words& names, const std::string& file, Layout& layout) {
   return true;
 }
 
-// Whether the first column counts the rows: 1, 2, 3 ...
-bool counts_rows(const std::vector<Line>& lines, char separator) {
-  std::vector<double> first;
+// Why the first of at least four columns without names may number the points, as lists of surveys
+// do (number, northing, easting, height, code): it counts 1, 2, 3, is whole where those behind it
+// are not, or the fifth holds words. Empty: it may not.
+std::string why_numbered(const std::vector<Line>& lines, char separator) {
+  bool counts_up = true, is_whole = true, has_code = false;
+  std::array<bool, 2> has_decimals = {};  // columns 2 and 3
+  std::int64_t n_rows = 0;
+  double last = 0;
   for (const Line& line : lines) {
     if (begins_remark(line.text)) continue;
     const Words words = parted(line.text, separator);
     double value = 0;
-    if (words.size() < 4 || !parse_decimal(words[0], value)) return false;
-    first.push_back(value);
-    if (first.size() == 3) break;
+    if (words.size() < 4 || !parse_decimal(words[0], value)) return "";
+    counts_up = counts_up && (n_rows > 0 ? value == last + 1 : true);
+    is_whole = is_whole && words[0].find_first_not_of("0123456789") == std::string::npos;
+    for (std::size_t c = 0; c < 2; ++c)
+      has_decimals[c] = has_decimals[c] || words[c + 1].find_first_of(".,") != std::string::npos;
+    has_code = has_code || (words.size() > 4 && !words[4].empty() && !is_number(words[4]));
+    last = value;
+    ++n_rows;
   }
-  for (std::size_t i = 1; i < first.size(); ++i)
-    if (first[i] != first[i - 1] + 1) return false;
-  return first.size() > 1 || (first.size() == 1 && first[0] == 1);
+  if (counts_up && is_whole && (n_rows > 1 || last == 1)) return "counts the rows";
+  if (is_whole && has_decimals[0] && has_decimals[1])
+    return "holds whole numbers alone, as a point number does";
+  return has_code ? "may number the points: the fifth holds words" : "";
 }
 
 std::optional<Layout> layout_with(char separator, const std::vector<Line>& lines,
@@ -168,11 +180,11 @@ std::optional<Layout> layout_with(char separator, const std::vector<Line>& lines
     if (is_remark) continue;
     layout.first_row = i;
     if (words.size() < 2 || !is_number(words[0]) || !is_number(words[1])) return std::nullopt;
-    if (counts_rows(lines, separator))
+    if (const std::string why = why_numbered(lines, separator); !why.empty())
       throw InputError({file, lines[i].number},
-                       "the first of " + std::to_string(words.size()) +
-                           " columns without names counts the rows, expected x, y, z",
-                       "name the columns in a first line, for example number,x,y,z");
+                       "the first of " + std::to_string(words.size()) + " columns without names " +
+                           why + ", expected x, y, z",
+                       "name the columns in a first line, for example number,northing,easting,z");
     return layout;
   }
   return std::nullopt;
@@ -303,6 +315,7 @@ PointTable parse_point_table(std::string text, const std::string& file) {
   table.is_degrees = layout.is_degrees;
   Decimals decimals;
   std::size_t n_columns = layout.names.size();
+  std::vector<ThousandsDoubt> thousands;
   for (std::size_t i = layout.first_row; i < lines.size(); ++i) {
     if (begins_remark(lines[i].text)) continue;
     const Words words = parted(lines[i].text, layout.separator);
@@ -315,7 +328,12 @@ PointTable parse_point_table(std::string text, const std::string& file) {
                            ", expected " + std::to_string(n_columns) + " as above",
                        "mend the line, or take it out");
     add_row(layout, words, where, decimals, table);
+    thousands.resize(table.names.size());
+    for (std::size_t k = 0; k < thousands.size(); ++k) thousands[k].add(table.values.back()[k]);
   }
+  // stays as text, so that who takes it for heights asks what it means
+  for (std::size_t k = 0; k < thousands.size(); ++k)
+    if (thousands[k].is_doubtful()) table.is_number[k] = false;
   if (table.points.empty()) throw InputError({file}, "holds no row, expected points");
   write_with_points(decimals, file, table);
   return table;

@@ -3,11 +3,18 @@
 #include <gdal_priv.h>
 #include <gdal_utils.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
+#include "io/archives_gdal.hpp"
 #include "io/errors_gdal.hpp"
 #include "io/network_gdal.hpp"
 
@@ -16,6 +23,18 @@ namespace {
 
 bool is_alpha(GDALDataset& dataset, int band) {
   return dataset.GetRasterBand(band)->GetColorInterpretation() == GCI_AlphaBand;
+}
+
+// Three or four bands of bytes, or bands that are called colours.
+bool is_picture(GDALDataset& dataset) {
+  const int n_bands = dataset.GetRasterCount();
+  int n_bytes = 0;
+  for (int band = 1; band <= n_bands; ++band) {
+    const GDALColorInterp colour = dataset.GetRasterBand(band)->GetColorInterpretation();
+    if (colour == GCI_RedBand || colour == GCI_GreenBand || colour == GCI_BlueBand) return true;
+    if (dataset.GetRasterBand(band)->GetRasterDataType() == GDT_Byte) ++n_bytes;
+  }
+  return n_bytes == n_bands && (n_bands == 3 || n_bands == 4);
 }
 
 std::vector<std::string> subdatasets(GDALDataset& dataset) {
@@ -53,23 +72,74 @@ void refuse_several_rasters(GDALDataset& dataset, const std::string& path) {
                    "give the name of one of them in place of the file: '" + names.front() + "'");
 }
 
+// Deliveries that need another step first.
+void refuse_what_is_not_a_raster(const std::string& path) {
+  std::error_code error;
+  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  const bool is_folder = std::filesystem::is_directory(path, error);
+  if (is_folder && extension != ".adf" && GDALIdentifyDriver(path.c_str(), nullptr) == nullptr)
+    throw InputError(
+        {path}, "is a folder, expected a raster",
+        "gdalbuildvrt all.vrt " + command_words(path) + "/*.tif makes one raster of tiles");
+  if (extension == ".las" || extension == ".laz")
+    throw InputError({path}, "is a laser scan, expected a raster",
+                     "write its ground points as text x,y,z with a program for point clouds, and "
+                     "give them to talus-tin --points");
+}
+
 }  // namespace
 
 void CloseDataset::operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 
 Dataset open_raster(const std::string& path) {
   register_gdal_drivers();
-  check_virtual(path);
+  refuse_what_is_not_a_raster(path);
+  std::vector<std::string> remarks;
+  const std::string source = source_in(parse_source_path(path), Contents::rasters, remarks);
+  check_virtual(source);
   const GdalErrors errors;
-  Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
-  if (!dataset) {
-    const std::string way_out = needs_permission(errors.failure());
-    throw InputError(
-        {path}, "cannot be opened as a raster: " + errors.failure(),
-        way_out.empty() ? "gdalinfo " + path + " shows what GDAL makes of it" : way_out);
-  }
+  Dataset dataset(GDALDataset::Open(source.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+  if (!dataset)
+    throw InputError({path}, "cannot be opened as a raster: " + errors.failure(),
+                     way_to_open(source, "gdalinfo " + path + " shows what GDAL makes of it"));
+  check_tables(*dataset, path);
   refuse_several_rasters(*dataset, path);
   return dataset;
+}
+
+void check_placed(GDALDataset& dataset, const std::string& path, CellKind kind) {
+  std::array<double, 6> g{};
+  if (dataset.GetGeoTransform(g.data()) == CE_None) return;
+  if (const int n_points = dataset.GetGCPCount(); n_points > 0)
+    throw InputError({path},
+                     "the raster is placed by " + std::to_string(n_points) +
+                         " ground control points, expected a geotransform",
+                     warp_command(kind, "", path, "placed.tif"));
+  throw InputError({path}, "the raster has no place on the map (no geotransform)",
+                   translate_command("-a_ullr XMIN YMAX XMAX YMIN", path, "placed.tif"));
+}
+
+std::array<double, 6> north_up_place(GDALDataset& dataset, const std::string& path, CellKind kind) {
+  check_placed(dataset, path, kind);
+  std::array<double, 6> g{};
+  dataset.GetGeoTransform(g.data());
+  const int n_cols = dataset.GetRasterXSize(), n_rows = dataset.GetRasterYSize();
+  const double width = std::hypot(g[1], g[4]), height = std::hypot(g[2], g[5]);
+  if (!(std::isfinite(g[0]) && std::isfinite(g[3]) && std::min(width, height) > 0 &&
+        std::isfinite(width + height)))
+    throw InputError({path}, "the cell is " + text(width) + " by " + text(height) +
+                                 ", expected a finite size above 0");
+  const std::string warp =
+      warp_command(kind, "-tr " + text(width, 6) + " " + text(height, 6), path, "north_up.tif");
+  const double skew = std::max(std::abs(g[2]) * n_rows, std::abs(g[4]) * n_cols);
+  if (skew > lattice_tolerance * std::min(width, height))
+    throw InputError({path},
+                     "the raster is rotated (by " + text(std::atan2(g[4], g[1]) / degree, 4) +
+                         " degrees), expected north-up",
+                     warp);
+  if (g[1] < 0 || g[5] > 0)
+    throw InputError({path}, "the rows do not run from north to south, expected north-up", warp);
+  return g;
 }
 
 void check_one_band(GDALDataset& dataset, const std::string& path) {
@@ -78,16 +148,22 @@ void check_one_band(GDALDataset& dataset, const std::string& path) {
   if (n_bands < 1)
     throw InputError({path}, "holds no raster",
                      "gdalinfo " + path + " shows what GDAL makes of it");
-  // A picture says of its bands that they are red, green and blue; a mask may be one of them.
+  if (is_picture(dataset))
+    throw InputError({path}, "the bands are colours of a picture, expected one band",
+                     "give the elevation model itself; of Terrain-RGB: gdal_calc.py -R " +
+                         command_words(path) + " --R_band 1 -G " + command_words(path) +
+                         " --G_band 2 -B " + command_words(path) +
+                         " --B_band 3 --type Float32 --outfile heights.tif --calc "
+                         "'(R.astype(float)*65536+G*256.0+B)*0.1-10000'");
+  // a mask may be one of several bands
   const bool has_alpha = is_alpha(dataset, n_bands);
   const std::string mask = has_alpha ? " -mask " + std::to_string(n_bands) : std::string();
   throw InputError({path}, "the raster has " + std::to_string(n_bands) + " bands, expected one",
-                   "gdal_translate -b 1" + mask + " " + path + " one_band.tif" +
+                   translate_command("-b 1" + mask, path, "one_band.tif") +
                        (has_alpha || n_bands != 2
                             ? ""
-                            : "; where band 2 says which cells are known: gdal_translate -b 1 "
-                              "-mask 2 " +
-                                  path + " one_band.tif"));
+                            : "; where band 2 says which cells are known: " +
+                                  translate_command("-b 1 -mask 2", path, "one_band.tif")));
 }
 
 std::string with_alpha_as_mask(GDALDataset& dataset) {

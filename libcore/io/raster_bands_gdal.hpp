@@ -2,12 +2,18 @@
 // Opens a raster. One band counts: what else a file may hold is its mask, or must be chosen.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
+
+#include "io/raster_commands.hpp"
 
 class GDALDataset;
 
 namespace talus {
+
+/// Of a cell, at the far end of a raster: what is not askew, oblong or beside another lattice.
+inline constexpr double lattice_tolerance = 1e-3;
 
 struct CloseDataset {
   void operator()(GDALDataset* dataset) const;
@@ -17,6 +23,15 @@ using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 /// Throws InputError where the file is no raster, is of a network, or holds several rasters
 /// (subdatasets of a GeoPackage, netCDF or HDF5 file, pages of a TIFF), with GDAL's names for them.
 [[nodiscard]] Dataset open_raster(const std::string& path);
+
+/// Throws InputError where the raster has no geotransform: with the way out where it has ground
+/// control points.
+void check_placed(GDALDataset& dataset, const std::string& path, CellKind kind);
+
+/// The geotransform of a raster whose rows run from west to east and from north to south. Throws
+/// InputError, with the command that resamples, where they do not.
+[[nodiscard]] std::array<double, 6> north_up_place(GDALDataset& dataset, const std::string& path,
+                                                   CellKind kind);
 
 /// Throws InputError unless there is one band, or one and an alpha band that is its mask.
 void check_one_band(GDALDataset& dataset, const std::string& path);

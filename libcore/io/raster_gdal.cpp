@@ -13,6 +13,7 @@
 #include <set>
 #include <utility>
 
+#include "base/length_units.hpp"
 #include "base/memory.hpp"
 #include "base/printable.hpp"
 #include "base/text.hpp"
@@ -22,8 +23,8 @@
 #include "io/crs_place_gdal.hpp"
 #include "io/errors_gdal.hpp"
 #include "io/judged_heights_gdal.hpp"
-#include "io/network_gdal.hpp"
 #include "io/raster_bands_gdal.hpp"
+#include "io/raster_commands.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/lone_levels.hpp"
 #include "terrain/resample.hpp"
@@ -31,25 +32,22 @@
 namespace talus {
 namespace {
 
-constexpr double lattice_tolerance = 1e-3;  // of a cell, at the far end of the raster
 constexpr int rows_at_once = 256;
 
 std::string size_text(int n_rows, int n_cols) {
   return std::to_string(n_cols) + " x " + std::to_string(n_rows) + " cells";
 }
 
-// The command that makes metres of heights in another unit; the system that they are in says the
-// unit too, so the copy is given the plan alone.
-std::string scale_command(double unit_m, const std::string& crs, const std::string& path) {
-  return "gdal_translate -ot Float64 -scale 0 10000 0 " + text(10000 * unit_m, 12) +
-         (height_crs(crs).empty() ? "" : " -a_srs " + crs_code(crs)) + " " + path + " metres.tif";
+// The system that heights in another unit are in says the unit too, so the copy is given the plan
+// alone.
+std::string metres_command(double unit_m, const std::string& crs, const std::string& path) {
+  return scale_command(unit_m, height_crs(crs).empty() ? std::string() : crs_code(crs), path);
 }
 
-std::string to_metres(const std::string& unit, const std::string& crs, const std::string& path) {
-  const bool is_survey = unit.find("survey") != std::string::npos || unit == "us-ft";
-  const bool is_foot = unit.starts_with("f") || unit == "international foot";
-  if (is_survey) return ": " + scale_command(1200.0 / 3937, crs, path);
-  return is_foot ? ": " + scale_command(0.3048, crs, path) : std::string();
+// The unit of the heights as the band says it; empty where it says none.
+std::string said_unit(GDALRasterBand& band) {
+  const char* const unit = band.GetUnitType();
+  return unit == nullptr || is_no_unit(unit) ? std::string() : unit;
 }
 
 void check_band(GDALDataset& dataset, const std::string& path, bool has_heights) {
@@ -62,56 +60,39 @@ void check_band(GDALDataset& dataset, const std::string& path, bool has_heights)
     throw InputError({path},
                      "the values have 8 bits, 0 to 255, as the shades of a picture (a hillshade) "
                      "have; expected elevations",
-                     "give the elevation model itself; if these are heights: gdal_translate -ot "
-                     "Float32 " +
-                         path + " heights.tif");
-  const std::string unit = lower(band.GetUnitType() ? band.GetUnitType() : "");
-  for (const char* metre : {"", "m", "metre", "metres", "meter", "meters"})
-    if (unit == metre) return;
+                     "give the elevation model itself; if these are heights: " +
+                         translate_command("-ot Float32", path, "heights.tif"));
+  const std::string unit = said_unit(band);
+  const double metres = metres_in(unit);
+  if (unit.empty() || metres == 1) return;
   throw InputError({path}, "the elevations are in \"" + unit + "\", expected metres",
-                   "convert them first" + to_metres(unit, wkt_of(dataset.GetSpatialRef()), path));
+                   metres > 0 ? metres_command(metres, wkt_of(dataset.GetSpatialRef()), path)
+                              : "if they are metres: " + metres_command(1, "", path));
 }
 
 // Heights are in metres by the unit of the band (check_band), by the user's word, or by
 // height_unit_m of the CRS; another unit that the CRS says is refused with it (check_crs).
 void check_unit_of_heights(GDALDataset& dataset, const std::string& crs, const std::string& path,
                            const DemOptions& options) {
-  const char* const unit = dataset.GetRasterBand(1)->GetUnitType();
-  if ((unit != nullptr && *unit != '\0') || !options.vertical_crs.empty()) return;
+  if (!said_unit(*dataset.GetRasterBand(1)).empty() || !options.vertical_crs.empty()) return;
   (void)height_unit_m(
       crs, {path},
       "in metres: --vertical-crs with their system, e.g. EPSG:5703 (NAVD88); in the units of the "
       "plan: " +
-          scale_command(length_unit_m(crs), crs, path) + ", then the former of metres.tif");
+          metres_command(length_unit_m(crs), crs, path) + ", then the former of metres.tif");
 }
 
 // The lattice of the cell centres; refuses what no TRN can stand on.
 GridFrame frame_of_raster(GDALDataset& dataset, const std::string& path) {
-  std::array<double, 6> g{};
+  const std::array<double, 6> g = north_up_place(dataset, path, CellKind::heights);
   const int n_cols = dataset.GetRasterXSize(), n_rows = dataset.GetRasterYSize();
-  if (dataset.GetGeoTransform(g.data()) != CE_None)
-    throw InputError({path}, "the raster has no place on the map (no geotransform)",
-                     "gdal_translate -a_ullr XMIN YMAX XMAX YMIN " + path + " placed.tif");
-  const double width = std::abs(g[1]), height = std::abs(g[5]);
-  const double smaller = std::min(width, height);
-  const std::string warp = "gdalwarp -r bilinear -tr " + text(smaller, 6) + " " + text(smaller, 6) +
-                           " " + path + " north_up.tif";
-  if (!(std::isfinite(g[0]) && std::isfinite(g[3]) && smaller > 0 && std::isfinite(width + height)))
-    throw InputError({path}, "the cell is " + text(width) + " by " + text(height) +
-                                 ", expected a finite size above 0");
-  const double skew = std::max(std::abs(g[2]) * n_rows, std::abs(g[4]) * n_cols);
-  if (skew > lattice_tolerance * smaller)
-    throw InputError({path},
-                     "the raster is rotated (by " + text(std::atan2(g[4], g[1]) / degree, 4) +
-                         " degrees), expected north-up",
-                     warp);
-  if (g[1] < 0 || g[5] > 0)
-    throw InputError({path}, "the rows do not run from north to south, expected north-up", warp);
+  const double width = g[1], height = -g[5], smaller = std::min(width, height);
   if (std::abs(width - height) * std::max(n_rows, n_cols) > lattice_tolerance * smaller)
     throw InputError(
         {path},
         "the cells are " + text(width, 10) + " by " + text(height, 10) + ", expected squares",
-        warp);
+        warp_command(CellKind::heights, "-tr " + text(smaller, 6) + " " + text(smaller, 6), path,
+                     "north_up.tif"));
   return {n_rows, n_cols, width, {g[0] + 0.5 * width, g[3] - 0.5 * width}};
 }
 
@@ -223,16 +204,31 @@ Dataset reprojected(GDALDataset& source, GDALDataset& ringed, const std::string&
                std::to_string(n_rows)});
 }
 
-void check_crs(const std::string& crs, const std::string& path, const Vec2& place) {
+// The command that makes metres of the plan and the heights of a local system.
+std::string local_metres_command(double unit_m, const MapWindow& w, const std::string& path) {
+  const auto metres = [unit_m](double value) { return text(value * unit_m, 12); };
+  return translate_command("-a_srs 'LOCAL_CS[\"metres\",UNIT[\"metre\",1]]' -a_ullr " +
+                               metres(w.x_min) + " " + metres(w.y_max) + " " + metres(w.x_max) +
+                               " " + metres(w.y_min) + " -ot Float64 -scale 0 10000 0 " +
+                               metres(10000),
+                           path, "metres.tif");
+}
+
+void check_crs(const std::string& crs, const std::string& path, const MapWindow& edges) {
   if (crs.empty()) return;
+  const Vec2 place(0.5 * (edges.x_min + edges.x_max), 0.5 * (edges.y_min + edges.y_max));
   const CrsProblem problem = find_crs_problem(crs, place);
   if (problem.finding.empty()) return;
   if (problem.height_unit_m != 1)
-    throw InputError({path}, problem.finding, scale_command(problem.height_unit_m, crs, path));
+    throw InputError({path}, problem.finding, metres_command(problem.height_unit_m, crs, path));
+  if (is_local(crs))
+    throw InputError({path}, problem.finding,
+                     local_metres_command(length_unit_m(crs), edges, path) +
+                         " makes metres of plan and heights; then --crs none");
   const std::string to = problem.mend_to.empty() ? "EPSG:code" : problem.mend_to;
-  throw InputError(
-      {path}, problem.finding,
-      "--t-srs " + to + ", or gdalwarp -r bilinear -t_srs " + to + " " + path + " projected.tif");
+  throw InputError({path}, problem.finding,
+                   "--t-srs " + to + ", or " +
+                       warp_command(CellKind::heights, "-t_srs " + to, path, "projected.tif"));
 }
 
 }  // namespace
@@ -259,6 +255,7 @@ struct DemFile::Impl {
   }
   void open();
   void check_value(double raw, const Where& place) const;
+  void check_most_values(const double* raw, std::size_t n) const;
   void check_place_of(const MapWindow& edges, const std::string& work_crs, bool has_options);
   void take_to(const std::string& target, bool accept_ballpark, const MapWindow& edges);
   void take_heights_to(const DemOptions& options);
@@ -282,11 +279,7 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
     impl_->take_to(options.t_srs, options.accept_ballpark, edges);
     if (impl_->warped) dataset = impl_->warped.get();
   }
-  std::array<double, 6> g{};
-  dataset->GetGeoTransform(g.data());
-  check_crs(impl_->crs, path,
-            {g[0] + 0.5 * g[1] * dataset->GetRasterXSize(),
-             g[3] + 0.5 * g[5] * dataset->GetRasterYSize()});
+  check_crs(impl_->crs, path, edges_of(*dataset));
   impl_->frame = frame_of_raster(*dataset, path);
   if (!impl_->warped) {
     const MapWindow read = intersection(edges, options.window);
@@ -301,9 +294,10 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
 
 // An alpha band becomes the mask of the elevations.
 void DemFile::Impl::open() {
-  name = path;
   source = open_raster(path);
+  name = source->GetDescription();
   check_band(*source, path, has_heights);
+  check_placed(*source, path, has_heights ? CellKind::heights : CellKind::values);
   const std::string masked = with_alpha_as_mask(*source);
   if (masked.empty()) return;
   int has_nodata = 0;
@@ -367,6 +361,32 @@ Where DemFile::where_of_cell(int row, int col) const {
   return impl_->where(0, row, col, impl_->frame.n_cols);
 }
 
+// Most cells of a strip above every summit: whole numbers of a smaller unit.
+void DemFile::Impl::check_most_values(const double* raw, std::size_t n) const {
+  std::size_t n_known = 0, n_beyond = 0;
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double z = raw[i] * scale + offset;
+    if (std::isnan(z) || raw[i] == nodata || is_usual_nodata(raw[i])) continue;
+    ++n_known;
+    if (std::abs(z) > highest_elevation) ++n_beyond;
+    low = std::min(low, z), high = std::max(high, z);
+  }
+  if (2 * n_beyond <= n_known || low == high) return;
+  constexpr double highest_summit = 8850;
+  const double unit_m = high * 0.1 < highest_summit    ? 0.1
+                        : high * 0.01 < highest_summit ? 0.01
+                                                       : 0.001;
+  const char* const name = unit_m == 0.1    ? "decimetres"
+                           : unit_m == 0.01 ? "centimetres"
+                                            : "millimetres";
+  throw InputError({path},
+                   "the elevations are " + text(low, 8) + " to " + text(high, 8) +
+                       ", expected metres; as " + name + " they would be " + text(low * unit_m, 8) +
+                       " to " + text(high * unit_m, 8) + " m",
+                   "if they are " + std::string(name) + ": " + metres_command(unit_m, crs, path));
+}
+
 void DemFile::Impl::check_value(double raw, const Where& place) const {
   const double z = raw * scale + offset;
   if (std::abs(z) <= highest_elevation && !is_usual_nodata(raw)) return;
@@ -374,8 +394,8 @@ void DemFile::Impl::check_value(double raw, const Where& place) const {
                    "the elevation is " + text(z, 10) +
                        " m, which the file does not declare as "
                        "nodata",
-                   "if it stands for nodata: gdal_translate -a_nodata " + text(raw) + " " + path +
-                       " declared.tif");
+                   "if it stands for nodata: " +
+                       translate_command("-a_nodata " + text(raw), path, "declared.tif"));
 }
 
 void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) const {
@@ -393,12 +413,13 @@ void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) 
                                                   n_cols, n_rows, GDT_Byte, 0, 0, nullptr);
   }
   if (status != CE_None || errors.failed()) {
-    const std::string way_out = needs_permission(errors.failure());
+    const bool names_other_format = errors.failure().find("not recognized") != std::string::npos;
     throw InputError(
         {impl_->path},
         "reading rows " + std::to_string(row) + " to " + std::to_string(row + n_rows - 1) + " of " +
             size_text(impl_->frame.n_rows, impl_->frame.n_cols) + " failed: " + errors.failure(),
-        way_out.empty() ? "the file is damaged or cut short: fetch it again" : way_out);
+        names_other_format ? translate_command("", impl_->path, "one.tif") + " makes one file of it"
+                           : "the file is damaged or cut short: fetch it again");
   }
   for (std::size_t i = 0; i < n; ++i) {
     double& z = elevation[i];
@@ -406,8 +427,10 @@ void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) 
       z = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
-    if (impl_->has_heights && !(std::abs(z) < 9999))
+    if (impl_->has_heights && !(std::abs(z) < 9999)) {
+      if (z > highest_elevation) impl_->check_most_values(elevation + i, n - i);
       impl_->check_value(z, impl_->where(i, row, col, n_cols));
+    }
     if (impl_->scale != 1 || impl_->offset != 0) z = z * impl_->scale + impl_->offset;
   }
   if (impl_->to_vertical) impl_->shift_heights(row, n_rows, col, n_cols, elevation);
@@ -454,15 +477,15 @@ void refuse_lone_level(const DemFile& dem, const RowResampler& part,
   const std::optional<LoneLevel> found = levels.worst();
   if (!found) return;
   const int row = part.first_row() + found->row, col = part.first_col() + found->col;
-  throw InputError(dem.where_of_cell(row, col),
-                   "the elevation is " + text(found->value, 10) + " m in " +
-                       counted(found->n_cells, "cell") + " side by side, more than " +
-                       text(step, 6) + " m off " + std::to_string(found->n_far) + " of the " +
-                       std::to_string(found->n_beside) +
-                       " beside them, and the file does not declare it as nodata (talus-trn "
-                       "--accept-doubts takes it as ground, make TRN_FLAGS=--accept-doubts)",
-                   "if it stands for nodata: gdal_translate -a_nodata " +
-                       text(dem.raw_of(found->value)) + " " + dem.path() + " declared.tif");
+  throw InputError(
+      dem.where_of_cell(row, col),
+      "the elevation is " + text(found->value, 10) + " m in " + counted(found->n_cells, "cell") +
+          " side by side, more than " + text(step, 6) + " m off " + std::to_string(found->n_far) +
+          " of the " + std::to_string(found->n_beside) +
+          " beside them, and the file does not declare it as nodata (talus-trn "
+          "--accept-doubts takes it as ground, make TRN_FLAGS=--accept-doubts)",
+      "if it stands for nodata: " + translate_command("-a_nodata " + text(dem.raw_of(found->value)),
+                                                      dem.path(), "declared.tif"));
 }
 
 }  // namespace
@@ -518,18 +541,12 @@ std::vector<double> rows_to_write(const Trn& trn, int row, int n_rows, Elevation
   return rows;
 }
 
-Dataset create_geotiff(const std::string& path, const Trn& trn, const TrnFileOptions& options) {
+Dataset create_geotiff(const std::string& path, const Trn& trn) {
   register_gdal_drivers();
   CPLStringList words;
   for (const char* word :
        {"TILED=YES", "COMPRESS=DEFLATE", "PREDICTOR=3", "ZLEVEL=1", "BIGTIFF=IF_SAFER"})
     words.AddString(word);
-  for (const std::string& option : options.creation_options) {
-    const std::size_t equals = option.find('=');
-    if (equals == std::string::npos)
-      throw InputError({"", 0, "-co " + option}, "no value, expected NAME=VALUE");
-    words.SetNameValue(option.substr(0, equals).c_str(), option.substr(equals + 1).c_str());
-  }
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   return Dataset(
       driver->Create(path.c_str(), trn.n_cols, trn.n_rows, 1, GDT_Float64, words.List()));
@@ -559,7 +576,7 @@ void describe(GDALDataset& dataset, const Trn& trn, const TrnFileOptions& option
 
 void write_trn(const std::string& path, const Trn& trn, const TrnFileOptions& options) {
   const GdalErrors errors;
-  Dataset dataset = create_geotiff(path, trn, options);
+  Dataset dataset = create_geotiff(path, trn);
   CPLErr status = dataset ? CE_None : CE_Failure;
   if (dataset) describe(*dataset, trn, options);
   ElevationSums sums;
@@ -579,10 +596,7 @@ void write_trn(const std::string& path, const Trn& trn, const TrnFileOptions& op
   }
   dataset.reset();  // the last bytes are written here
   if (status != CE_None || errors.failed())
-    throw InputError({path}, "cannot be written: " + errors.failure(),
-                     options.creation_options.empty()
-                         ? errors.why_not_written()
-                         : "do the creation options fit 64-bit floats? Or is the disk full?");
+    throw InputError({path}, "cannot be written: " + errors.failure(), errors.why_not_written());
 }
 
 }  // namespace talus

@@ -92,9 +92,8 @@ class DemFile {
 
 /// What a TRN file says besides its elevations.
 struct TrnFileOptions {
-  std::map<std::string, std::string> tags;    ///< metadata, e.g. RUN_ID
-  std::vector<std::string> creation_options;  ///< GTiff's, NAME=VALUE; they win over ours
-  std::string accepted_doubts = {};           ///< places that the user accepted; empty: none
+  std::map<std::string, std::string> tags;  ///< metadata, e.g. RUN_ID
+  std::string accepted_doubts = {};         ///< places that the user accepted; empty: none
 };
 
 /// Writes a tiled, deflated GeoTIFF of Float64 node elevations, AREA_OR_POINT=Point, nodata -9999,

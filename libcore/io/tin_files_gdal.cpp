@@ -16,7 +16,10 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/file_paths.hpp"
+#include "base/length_units.hpp"
 #include "base/read_file.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "io/contour_heights_gdal.hpp"
 #include "io/contour_layer_gdal.hpp"
@@ -104,7 +107,7 @@ void note_upright(const FaceCollector& faces, TinFile& file, const std::string& 
 
 // --- drawings ------------------------------------------------------------------------------------
 
-constexpr LayerRole faces_role{LayerShape::face, "faces", "--"};
+constexpr LayerRole faces_role{LayerShape::face, "faces"};
 
 struct DrawingCounts {
   std::int64_t n_faces = 0, n_quads = 0, n_others = 0;
@@ -140,10 +143,11 @@ void add_face(const OGRGeometry& geometry, double unit_m, FaceCollector& faces,
 }
 
 double unit_of_faces(const LayerChoice& choice, TinFile& file) {
-  if (const std::string doubt = doubt_on_unit(choice.path, choice.unit_m); !doubt.empty())
-    file.warnings.push_back(choice.path + ": " + doubt);
-  const DrawingUnit unit = drawing_unit(choice.path);
-  return scale_of_drawing(choice.path, choice.unit_m, 1, {choice.path},
+  const std::string drawing = file_of(choice.path);
+  if (const std::string doubt = doubt_on_unit(drawing, choice.unit_m); !doubt.empty())
+    file.warnings.push_back(drawing + ": " + doubt);
+  const DrawingUnit unit = drawing_unit(drawing);
+  return scale_of_drawing(drawing, choice.unit_m, 1, {drawing},
                           "--unit-m " + (unit.metres > 0 ? text(unit.metres) : "METRES") +
                               " scales plan and heights; --unit-m 1 if it is in metres whatever "
                               "its header says");
@@ -206,39 +210,49 @@ std::vector<std::string> words_of(const CPLXMLNode* node) {
   return words;
 }
 
-void check_landxml_unit(const CPLXMLNode* root, const std::string& path) {
-  for_each_element(root, "Imperial", [&](const CPLXMLNode*) {
-    throw InputError({path}, "the units are feet (Imperial), expected metres",
-                     "export the surface in metres");
-  });
+// Metres in one unit of plan and heights: what the user says, else the file must say metres.
+double unit_of_landxml(const CPLXMLNode* root, const std::string& path, double user_unit_m) {
+  if (user_unit_m > 0) return user_unit_m;
+  const auto check = [&](const CPLXMLNode* units, const char* attribute, const char* otherwise) {
+    const std::string unit = CPLGetXMLValue(units, attribute, otherwise);
+    const double metres = metres_in(unit);
+    if (metres == 1) return;
+    throw InputError(
+        {path}, std::string(attribute) + " is " + unit + ", expected meter",
+        "--unit-m " + (metres > 0 ? text(metres, 10) : "METRES") + " scales plan and heights");
+  };
+  for_each_element(root, "Imperial",
+                   [&](const CPLXMLNode* units) { check(units, "linearUnit", "foot"); });
   for_each_element(root, "Metric", [&](const CPLXMLNode* units) {
-    for (const auto& [attribute, name] :
-         {std::pair{"linearUnit", "linear unit"}, std::pair{"elevationUnit", "unit of heights"}}) {
-      const std::string unit = lower(CPLGetXMLValue(units, attribute, "meter"));
-      if (unit != "meter" && unit != "metre")
-        throw InputError({path}, std::string("the ") + name + " is " + unit + ", expected meter",
-                         "export the surface in metres");
-    }
+    check(units, "linearUnit", "meter");
+    check(units, "elevationUnit", "meter");
   });
+  return 1;
 }
 
-const CPLXMLNode* only_surface(const CPLXMLNode* root, const std::string& path) {
+// The only surface, or that called `layer`.
+const CPLXMLNode* chosen_surface(const CPLXMLNode* root, const std::string& path,
+                                 const std::string& layer) {
   std::vector<const CPLXMLNode*> surfaces;
-  std::string names;
+  std::string names, first;
   for_each_element(root, "Surface", [&](const CPLXMLNode* surface) {
-    surfaces.push_back(surface);
-    names += (names.empty() ? "" : ", ") + std::string(CPLGetXMLValue(surface, "name", "unnamed"));
+    const std::string name = CPLGetXMLValue(surface, "name", "unnamed");
+    if (layer.empty() || layer == name) surfaces.push_back(surface);
+    if (first.empty()) first = name;
+    names += (names.empty() ? "" : ", ") + name;
   });
   if (surfaces.size() != 1)
     throw InputError({path},
-                     std::to_string(surfaces.size()) + " surfaces, expected one" +
-                         (names.empty() ? "" : ": " + names),
-                     "export the ground alone");
+                     std::to_string(surfaces.size()) + " surfaces" +
+                         (layer.empty() ? "" : " called " + layer) + ", expected one" +
+                         (names.empty() ? "" : "; there are: " + names),
+                     names.empty() ? "export the ground as a surface"
+                                   : "choose one: '" + path + "|layername=" + first + "'");
   return surfaces.front();
 }
 
 std::map<std::string, int> read_landxml_points(const CPLXMLNode* surface, const std::string& path,
-                                               FaceCollector& faces) {
+                                               double unit_m, FaceCollector& faces) {
   std::map<std::string, int> number_of;
   for_each_element(surface->psChild, "P", [&](const CPLXMLNode* node) {
     const std::string id = CPLGetXMLValue(node, "id", "");
@@ -250,7 +264,7 @@ std::map<std::string, int> read_landxml_points(const CPLXMLNode* surface, const 
       throw InputError(
           {path, 0, "point " + id},
           std::to_string(words.size()) + " words, expected northing, easting, elevation");
-    number_of[id] = faces.new_point(point);
+    number_of[id] = faces.new_point(unit_m * point);
   });
   return number_of;
 }
@@ -288,15 +302,15 @@ std::string crs_of_landxml(const CPLXMLNode* root) {
   return crs;
 }
 
-TinFile read_landxml(const std::string& path) {
+TinFile read_landxml(const std::string& path, const std::string& layer, double user_unit_m) {
   const GdalErrors errors;
   const XmlTree tree(CPLParseXMLFile(path.c_str()));
   if (!tree.root) throw InputError({path}, "is no whole XML: " + errors.failure());
   CPLStripXMLNamespace(tree.root.get(), nullptr, TRUE);
-  check_landxml_unit(tree.root.get(), path);
-  const CPLXMLNode* const surface = only_surface(tree.root.get(), path);
+  const double unit_m = unit_of_landxml(tree.root.get(), path, user_unit_m);
+  const CPLXMLNode* const surface = chosen_surface(tree.root.get(), path, layer);
   FaceCollector faces;
-  const std::map<std::string, int> number_of = read_landxml_points(surface, path, faces);
+  const std::map<std::string, int> number_of = read_landxml_points(surface, path, unit_m, faces);
   const std::int64_t n_invisible = read_landxml_faces(surface, path, number_of, faces);
   if (faces.n_triangles() == 0)
     throw InputError({path}, "the surface has no faces, expected a TIN",
@@ -321,17 +335,22 @@ TinFile read_ply(const std::string& path) {
 
 }  // namespace
 
-bool is_tin_file(const std::string& path) {
+bool is_tin_file(const std::string& source) {
+  const std::string path = file_of(source);
   return is_ply(path) || is_landxml(path) || extension_of(path) == ".dxf";
 }
 
 TinFile read_tin_file(const LayerChoice& choice) {
-  const bool has_layers = !is_ply(choice.path) && !is_landxml(choice.path);
-  if (has_layers) return read_drawing(choice);
-  if (!choice.layer.empty() || !choice.where.empty() || choice.unit_m != 0)
-    throw InputError({choice.path}, "has no layers, filter and unit to choose, only a drawing has",
-                     "leave --layer, --where and --unit-m away");
-  return is_ply(choice.path) ? read_ply(choice.path) : read_landxml(choice.path);
+  const std::string path = file_of(choice.path);
+  const bool is_surface = is_landxml(path);
+  if (!is_ply(path) && !is_surface) return read_drawing(choice);
+  const SourcePath named = parse_source_path(choice.path);
+  if (!is_surface && (path != choice.path || choice.unit_m != 0))
+    throw InputError({path}, "has no layers, filter and unit to choose, only a drawing has",
+                     "omit --unit-m and what follows the file");
+  if (!named.subset.empty())
+    throw InputError({path}, "has no filter to choose, only a drawing has", "omit |subset=");
+  return is_surface ? read_landxml(path, named.layer, choice.unit_m) : read_ply(path);
 }
 
 FoldedEdges find_folded_edges(const Tin& tin) {

@@ -14,7 +14,7 @@
 namespace talus {
 
 /// By name or first bytes: a PLY, a LandXML, or a drawing (DXF). A raster is none.
-[[nodiscard]] bool is_tin_file(const std::string& path);
+[[nodiscard]] bool is_tin_file(const std::string& source);
 
 struct TinFile {
   Tin tin;
@@ -24,10 +24,10 @@ struct TinFile {
 };
 
 /// Faces of a drawing: 3DFACE and meshes of its only layer with faces, or of those that are chosen;
-/// a face of four corners is two triangles. LandXML: the only surface, without its invisible faces.
-/// Other units than metres are refused; a drawing's may be said (`unit_m`), and scales plan and
-/// heights. Triangles without an area in plan are left out and counted. Throws InputError, also for
-/// layers or a unit of a file that has none.
+/// a face of four corners is two triangles. LandXML: the only surface, or that of the layer's name,
+/// without its invisible faces. Other units than metres are refused unless they are said (`unit_m`,
+/// which scales plan and heights). Triangles without an area in plan are left out and counted.
+/// Throws InputError, also for layers or a unit of a file that has none.
 [[nodiscard]] TinFile read_tin_file(const LayerChoice& choice);
 
 /// Edges at which triangles lie over one another: more than two meet, or both on one side.

@@ -13,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "io/archives_gdal.hpp"
 #include "io/errors_gdal.hpp"
 #include "io/network_gdal.hpp"
 #include "io/point_table.hpp"
@@ -21,84 +22,8 @@ namespace talus {
 namespace fs = std::filesystem;
 namespace {
 
-// --- archives ------------------------------------------------------------------------------------
-
 std::string extension_of(const std::string& path) {
   return lower(fs::path(path).extension().string());
-}
-
-// What stands beside a vector file and is none itself.
-bool is_companion(const std::string& path, const std::set<std::string>& all) {
-  static const std::set<std::string> extensions = {
-      ".shx", ".dbf", ".prj",  ".cpg", ".sbn", ".sbx",  ".qix", ".qpj",
-      ".qml", ".sld", ".qmd",  ".xml", ".pdf", ".html", ".htm", ".md",
-      ".xsd", ".gfs", ".csvt", ".jpg", ".png", ".tif",  ".lyr", ".txt"};
-  return all.size() > 1 && extensions.count(extension_of(path)) > 0;
-}
-
-bool is_vector(const std::string& source) {
-  if (is_table_name(source)) return true;
-  const GdalErrors quiet;
-  return GDALIdentifyDriverEx(source.c_str(), GDAL_OF_VECTOR, nullptr, nullptr) != nullptr;
-}
-
-// Files of an archive, and folders that are one source (.gdb), by their names in it.
-std::set<std::string> names_in(const std::string& archive) {
-  const GdalErrors quiet;
-  std::set<std::string> names;
-  const CPLStringList found(VSIReadDirRecursive(archive.c_str()));
-  for (int i = 0; i < found.size(); ++i) {
-    std::string name = found[i];
-    if (name.empty() || name.rfind("__MACOSX", 0) == 0) continue;
-    if (const std::size_t gdb = lower(name).find(".gdb/"); gdb != std::string::npos)
-      name = name.substr(0, gdb + 4);
-    if (name.back() != '/') names.insert(name);
-  }
-  return names;
-}
-
-std::vector<std::string> vector_members(const std::string& archive) {
-  const std::set<std::string> names = names_in(archive);
-  std::vector<std::string> members;
-  for (const std::string& name : names)
-    if (!is_companion(name, names) && is_vector(archive + "/" + name)) members.push_back(name);
-  return members;
-}
-
-// Shapefiles in one folder are the layers of one source.
-bool are_shapefiles_of_one_folder(const std::vector<std::string>& members) {
-  return std::all_of(members.begin(), members.end(), [&members](const std::string& member) {
-    return extension_of(member) == ".shp" &&
-           fs::path(member).parent_path() == fs::path(members.front()).parent_path();
-  });
-}
-
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
-// The source in an archive; one that is compressed by itself (.gz) is the source.
-std::string source_in(const SourcePath& path, std::vector<std::string>& remarks) {
-  const std::string prefix = archive_prefix(path.file);
-  const bool is_whole = !prefix.empty() && path.source == prefix + path.file;
-  if (!is_whole || prefix == "/vsigzip/") return path.source;
-  const std::vector<std::string> members = vector_members(path.source);
-  if (members.empty())
-    throw InputError({path.file}, "the archive holds no vector file that GDAL reads",
-                     "unzip it, and look what it holds");
-  if (members.size() > 1 && are_shapefiles_of_one_folder(members)) {
-    const std::string folder = fs::path(members.front()).parent_path().string();
-    return folder.empty() ? path.source : path.source + "/" + folder;
-  }
-  if (members.size() > 1)
-    throw InputError({path.file},
-                     "the archive holds " + std::to_string(members.size()) +
-                         " vector files, expected one; they are: " + list_of(members),
-                     "name one: " + path.file + "/" + members.front());
-  remarks.push_back("read from " + members.front() + " in the archive");
-  return path.source + "/" + members.front();
 }
 
 // --- tables of points ----------------------------------------------------------------------------
@@ -248,7 +173,7 @@ void check_rows(GDALDataset& dataset) {
 VectorDataset open_vectors(const SourcePath& path) {
   register_gdal_drivers();
   VectorDataset opened;
-  const std::string source = source_in(path, opened.remarks);
+  const std::string source = source_in(path, Contents::vectors, opened.remarks);
   const std::string named =
       lower(source).ends_with(".gz") ? source.substr(0, source.size() - 3) : source;
   if (is_table_name(named)) {
@@ -264,16 +189,14 @@ VectorDataset open_vectors(const SourcePath& path) {
   const GdalErrors errors;
   opened.dataset = GDALDatasetUniquePtr(
       GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR));
-  if (opened.dataset) {
-    check_rows(*opened.dataset);
-    return opened;
-  }
-  const std::string way_out = needs_permission(errors.failure());
-  throw InputError(
-      {path.file},
-      "cannot be opened as vectors" + (errors.failed() ? ": " + errors.failure() : std::string()),
-      way_out.empty() ? "ogrinfo " + command_words(source) + " shows what GDAL makes of it"
-                      : way_out);
+  if (!opened.dataset)
+    throw InputError(
+        {path.file},
+        "cannot be opened as vectors" + (errors.failed() ? ": " + errors.failure() : std::string()),
+        way_to_open(source, "ogrinfo " + command_words(source) + " shows what GDAL makes of it"));
+  check_tables(*opened.dataset, path.file);
+  check_rows(*opened.dataset);
+  return opened;
 }
 
 }  // namespace talus

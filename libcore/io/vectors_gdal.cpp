@@ -23,13 +23,13 @@ namespace {
 LayerRole role_of(const VectorQuery& query) {
   switch (query.kind) {
     case VectorKind::points:
-      return {LayerShape::point, "points", query.options.c_str()};
+      return {LayerShape::point, "points"};
     case VectorKind::lines:
-      return {LayerShape::line, "lines", query.options.c_str()};
+      return {LayerShape::line, "lines"};
     case VectorKind::areas:
       break;
   }
-  return {LayerShape::polygon, "polygons", query.options.c_str()};
+  return {LayerShape::polygon, "polygons"};
 }
 
 std::vector<Vec3> vertices_of(const OGRSimpleCurve& curve, bool is_ring) {
@@ -195,7 +195,8 @@ void check_unit(const OpenLayer& source, const std::string& crs, const Where& wh
 }  // namespace
 
 VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt) {
-  const LayerChoice choice{query.path, query.layer, "", query.where};
+  LayerChoice choice;
+  choice.path = query.path;
   OpenLayer source = open_layer(choice, role_of(query));
   Parts parts = read_parts(query, choice, source);
   const Where where = where_of_layer(choice, source);

@@ -15,11 +15,8 @@ enum class VectorKind { points, lines, areas };
 
 /// What is asked for.
 struct VectorQuery {
-  std::string path;
-  std::string layer;  ///< or layers, parted by commas; empty: the only one that holds the kind
-  std::string where;  ///< OGR attribute filter; empty: all
+  std::string path;  ///< with layers and a filter where need be: base/source_path.hpp
   VectorKind kind = VectorKind::areas;
-  std::string options = "--";  ///< how the key begins that names the layer: "source.polygon_"
   std::vector<std::string> fields = {};  ///< attributes to read of each point
 };
 

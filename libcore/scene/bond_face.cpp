@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "contact/scales.hpp"
 #include "geometry/convex_outline.hpp"
 #include "geometry/plan2d.hpp"
 
@@ -43,7 +44,6 @@ struct PlaneFace {
 // Pressure may be of any size, so stresses above -t balance the normal forces where these and t
 // over the whole area together press within the face: not out across any of its sides.
 bool holds_normal_force(const BondFace& face, const PlaneFace& plane) {
-  constexpr double rounding = 1e-9;
   double all_over = plane.pressed;
   for (const BondCorner& corner : face.corners) all_over += corner.tension * corner.area;
   if (all_over < 0) return false;
@@ -71,17 +71,20 @@ struct ShearPiece {
 };
 
 // Points of a quadrature of degree 5 over triangles (Radon), barycentric, and their weights.
-constexpr double root = 3.872983346207417;  // sqrt(15)
-constexpr std::array<std::array<double, 4>, 7> quadrature = [] {
-  constexpr double a = (6 - root) / 21, b = (6 + root) / 21;
-  constexpr double wa = (155 - root) / 1200, wb = (155 + root) / 1200;
-  return std::array<std::array<double, 4>, 7>{{{1.0 / 3, 1.0 / 3, 1.0 / 3, 9.0 / 40},
-                                               {1 - 2 * a, a, a, wa},
-                                               {a, 1 - 2 * a, a, wa},
-                                               {a, a, 1 - 2 * a, wa},
-                                               {1 - 2 * b, b, b, wb},
-                                               {b, 1 - 2 * b, b, wb},
-                                               {b, b, 1 - 2 * b, wb}}};
+struct QuadraturePoint {
+  double a, b, c, weight;
+};
+constexpr std::array<QuadraturePoint, 7> quadrature = [] {
+  std::array<QuadraturePoint, 7> points{{{1.0 / 3, 1.0 / 3, 1.0 / 3, 9.0 / 40}}};
+  for (const int sign : {-1, 1}) {
+    const double root = sign * 3.872983346207417;  // sqrt(15)
+    const double a = (6 + root) / 21, weight = (155 + root) / 1200;
+    const auto at = static_cast<size_t>(sign < 0 ? 1 : 4);
+    points[at] = {1 - 2 * a, a, a, weight};
+    points[at + 1] = {a, 1 - 2 * a, a, weight};
+    points[at + 2] = {a, a, 1 - 2 * a, weight};
+  }
+  return points;
 }();
 
 // A triangle of even strength, divided n times along each side.
@@ -176,7 +179,6 @@ bool holds_shear_force(const BondFace& face, const PlaneFace& plane) {
   // The speed has a kink where the face turns about a point inside a triangle, which a quadrature
   // over the whole of it misses by up to 0.7 % of the strength; in these parts by 0.03 %.
   constexpr int n_parts = 4;
-  constexpr double least_speed = 1e-9;
   Vec3 load = Vec3::Zero();
   double all = 0;
   for (size_t k = 0; k < plane.at.size(); ++k) {
@@ -219,7 +221,7 @@ bool holds_shear_force(const BondFace& face, const PlaneFace& plane) {
       continue;
     }
     if (resists < load.dot(motion)) return false;
-    for (double& s : speed) s = std::max(s, least_speed * fastest);
+    for (double& s : speed) s = std::max(s, rounding * fastest);
   }
   return true;  // as near to its strength as the rounds can tell
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "contact/scales.hpp"
 #include "scene/stems.hpp"
 #include "solver/law_numbers.hpp"
 
@@ -171,7 +172,7 @@ double time_to_first_break(const Scene& scene, const YieldingState& yielding,
     }
     const Yielded& met = met_by(yielding, world_of(scene, push.block), push.yielding);
     const double left = std::max(0.0, capacity - met.work);
-    if (work <= left + (1 - law::used_up) * capacity) continue;
+    if (work <= left + rounding * capacity) continue;
     const double change = (work - power * h) / (h * h);  // work(t) = power t + change t^2
     const double root = std::sqrt(std::max(0.0, power * power + 4 * change * left));
     first = std::min(first, 2 * left / (power + root));
@@ -197,7 +198,7 @@ void push_bodies(const Scene& scene, std::span<const YieldPush> pushes, double t
     const Yielding& how = yielding_of(scene, push.yielding);
     const int world = world_of(scene, push.block);
     Yielded& met = meet(state.yielding, world, push.yielding);
-    if (met.work < law::used_up * how.capacity || met.broken_by >= 0) continue;
+    if (met.work < (1 - rounding) * how.capacity || met.broken_by >= 0) continue;
     met.broken_at = time;
     met.broken_by = hardest_pusher(pushes, push.yielding);
     wake_sleepers_at(scene, how.body, world, state);

@@ -8,7 +8,7 @@
 #include "record/crossings.hpp"
 #include "record/object_hits.hpp"
 #include "record/run_file.hpp"
-#include "scene/site_scene.hpp"
+#include "setup/site_scene.hpp"
 
 namespace talus {
 

@@ -89,10 +89,7 @@ std::optional<Area> area_of(const ForestSection& s) {
   if (f.polygon_file.empty()) return std::nullopt;
   const std::string path = resolved(s.site, f.polygon_file);
   read_data(s.log, s.name(), path);
-  VectorShapes found = read_layer(
-      s.log, s.name(),
-      {path, f.polygon_layer, f.polygon_where, VectorKind::areas, s.name() + ".polygon_"},
-      s.trn.crs_wkt);
+  VectorShapes found = read_layer(s.log, s.name(), {path, VectorKind::areas}, s.trn.crs_wkt);
   for (std::vector<Vec3>& ring : found.shapes) {
     for (Vec3& point : ring) point -= s.trn.origin;
     add(ring);
@@ -315,14 +312,9 @@ std::vector<Stem> listed_stems(const ForestSection& s) {
   check_list_keys(s);
   StemList list{resolved(s.site, f.stems_file), {}};
   read_data(s.log, s.name(), list.path);
-  list.points = read_layer(s.log, s.name(),
-                           {list.path,
-                            f.stems_layer,
-                            f.stems_where,
-                            VectorKind::points,
-                            s.name() + ".stems_",
-                            {"dbh_cm", "species", "conifer"}},
-                           s.trn.crs_wkt);
+  list.points =
+      read_layer(s.log, s.name(), {list.path, VectorKind::points, {"dbh_cm", "species", "conifer"}},
+                 s.trn.crs_wkt);
   std::vector<Stem> stems;
   for (size_t row = 0; row < list.points.shapes.size(); ++row) {
     const Vec3 at = list.points.shapes[row][0] - s.trn.origin;
@@ -403,10 +395,11 @@ void leave_out_in_blocks(const ForestSection& s, const StartBlocks& blocks,
     }
     if (s.forest.stems_file.empty()) continue;
     const Vec3 at = stem.foot + s.trn.origin;
-    throw InputError({resolved(s.site, s.forest.stems_file), 0, "stem " + std::to_string(stem.id)},
-                     "stands in block " + std::to_string(block) + " at the start, at " +
-                         text(at.x(), 9) + ", " + text(at.y(), 9),
-                     "leave out what stands in the source, with stems_where for example");
+    throw InputError(
+        {resolved(s.site, s.forest.stems_file), 0, "stem " + std::to_string(stem.id)},
+        "stands in block " + std::to_string(block) + " at the start, at " + text(at.x(), 9) + ", " +
+            text(at.y(), 9),
+        "leave out what stands in the source, e.g. by stems_file = \"FILE|subset=FILTER\"");
   }
   if (free.size() < stems.size())
     s.warn(std::to_string(stems.size() - free.size()) + " of " +

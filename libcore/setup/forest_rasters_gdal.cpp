@@ -5,6 +5,7 @@
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/raster_commands.hpp"
 #include "io/raster_gdal.hpp"
 #include "setup/forest_section.hpp"
 #include "setup/vector_inputs_gdal.hpp"
@@ -34,11 +35,11 @@ void check_crs(const ForestSection& s, const DemFile& raster) {
   if (raster.crs_wkt().empty() || s.trn.crs_wkt.empty() ||
       same_crs(raster.crs_wkt(), s.trn.crs_wkt))
     return;
-  throw InputError(
-      {raster.path()},
-      "the raster is in " + crs_name(raster.crs_wkt()) + ", the terrain is in " +
-          crs_name(s.trn.crs_wkt),
-      "gdalwarp -r near -t_srs " + crs_code(s.trn.crs_wkt) + " " + raster.path() + " warped.tif");
+  throw InputError({raster.path()},
+                   "the raster is in " + crs_name(raster.crs_wkt()) + ", the terrain is in " +
+                       crs_name(s.trn.crs_wkt),
+                   warp_command(CellKind::values, "-t_srs " + crs_code(s.trn.crs_wkt),
+                                raster.path(), "warped.tif"));
 }
 
 StandRaster read_raster(const ForestSection& s, const char* key, const std::string& file,
@@ -80,6 +81,15 @@ StandRaster read_raster(const ForestSection& s, const char* key, const std::stri
   return out;
 }
 
+// The words of gdalwarp that give a raster these cells.
+std::string on_cells(const GridFrame& frame) {
+  const double half = frame.cell_size / 2;
+  const Vec2 corner = frame.north_west + Vec2(-half, half);
+  return "-tr " + text(frame.cell_size) + " " + text(frame.cell_size) + " -te " + text(corner.x()) +
+         " " + text(corner.y() - frame.n_rows * frame.cell_size) + " " +
+         text(corner.x() + frame.n_cols * frame.cell_size) + " " + text(corner.y());
+}
+
 bool has_same_cells(const GridFrame& a, const GridFrame& b) {
   return a.n_rows == b.n_rows && a.n_cols == b.n_cols && a.cell_size == b.cell_size &&
          (a.north_west - b.north_west).norm() < 1e-6 * a.cell_size;
@@ -92,7 +102,8 @@ std::optional<StandRaster> read_beside(const ForestSection& s, const char* key,
   StandRaster raster = read_raster(s, key, file, box);
   if (!has_same_cells(raster.frame, frame))
     throw InputError({raster.path}, std::string(key) + " has other cells than nrtrees_raster",
-                     "bring it to them: gdalwarp -r near -tr SIZE SIZE -te XMIN YMIN XMAX YMAX");
+                     "bring it to them: " +
+                         warp_command(CellKind::values, on_cells(frame), raster.path, "same.tif"));
   return raster;
 }
 

@@ -41,10 +41,7 @@ void add_ground_areas(InputLog& log, const Site& site, const Trn& trn, int index
   if (ground.polygon_file.empty()) return;
   const std::string path = resolved(site, ground.polygon_file);
   read_data(log, section, path);
-  VectorShapes found = read_layer(
-      log, section,
-      {path, ground.polygon_layer, ground.polygon_where, VectorKind::areas, section + ".polygon_"},
-      trn.crs_wkt);
+  VectorShapes found = read_layer(log, section, {path, VectorKind::areas}, trn.crs_wkt);
   for (std::vector<Vec3>& ring : found.shapes)
     for (Vec3& point : ring) point -= trn.origin;
   add(found.shapes);

@@ -42,10 +42,6 @@ void warn_of_rigid_blocks(InputLog& log, const Site& site, const ScenePlan& plan
 
 void check_times(const Site& site) {
   const SolverSettings& solver = site.solver;
-  if (solver.min_time_step_s > solver.max_time_step_s)  // false where one is not given
-    throw InputError(where_of(site, "solver.min_time_step_s"),
-                     "min_time_step_s is " + text(solver.min_time_step_s) +
-                         ", above max_time_step_s, " + text(solver.max_time_step_s));
   if (solver.duration_s < time_step(solver))
     throw InputError(where_of(site, "solver.duration_s"),
                      "duration_s is " + text(solver.duration_s) + ", less than a time step of " +

@@ -13,12 +13,12 @@
 #include "io/raster_gdal.hpp"
 #include "io/trn_digest.hpp"
 #include "scene/site_fence.hpp"
-#include "scene/start_depth.hpp"
-#include "scene/start_overlaps.hpp"
 #include "setup/forest_inputs_gdal.hpp"
 #include "setup/ground_class_inputs_gdal.hpp"
 #include "setup/search_lines.hpp"
 #include "setup/site_places_gdal.hpp"
+#include "setup/start_depth.hpp"
+#include "setup/start_overlaps.hpp"
 #include "setup/vector_inputs_gdal.hpp"
 
 namespace talus {

@@ -28,7 +28,7 @@ std::string without_quotes(const std::string& value) {
 // that stands alone.
 std::set<std::string> further_files(const Site& site, const EffectiveValue& value) {
   const std::string name = without_quotes(value.value);
-  if (!value.key.ends_with("file") || name.empty() || name == site.layers_file) return {};
+  if (!value.key.ends_with("file") || name.empty() || names_layers_file(site, name)) return {};
   const std::string path = resolved(site, name), file = file_of(path);
   if (file.empty() || is_virtual(file)) return {};
   std::set<std::string> files;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "base/input_log.hpp"
-#include "scene/site_scene.hpp"
 #include "setup/dda_inputs.hpp"
+#include "setup/site_scene.hpp"
 #include "site/plan.hpp"
 #include "site/site.hpp"
 

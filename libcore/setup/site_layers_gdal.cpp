@@ -36,7 +36,8 @@ void check_layers(InputLog& log, const std::string& path, const std::vector<std:
   std::string others;
   for (const std::string& layer : layers_of(path)) {
     const std::string name = lower(layer);
-    if (std::count(known.begin(), known.end(), name) > 0) continue;
+    if (name == "layer_styles" || std::count(known.begin(), known.end(), name) > 0)
+      continue;  // QGIS keeps its styles in a table of that name
     if (const std::string nearest = nearest_name(name, known); !nearest.empty())
       throw InputError({path}, "has a layer " + layer + " that stands for no section",
                        "did you mean " + nearest + "? Rename the layer, or take it out");
@@ -78,9 +79,9 @@ struct Reader {
     LayerSection section{layer.section, name, place, {}};
     const std::string filter = name.empty() ? "" : "name = '" + name + "'";
     section.digest = digest_of_features(resolved(site, site.info.layers), layer.name, filter);
-    section.values.push_back({layer.prefix + "file", site.info.layers});
-    section.values.push_back({layer.prefix + "layer", layer.name});
-    if (!filter.empty()) section.values.push_back({layer.prefix + "where", filter});
+    section.values.push_back({layer.prefix + "file", site.info.layers + "|layername=" + layer.name +
+                                                         (filter.empty() ? "" : "|subset=") +
+                                                         filter});
     sections.push_back(std::move(section));
     return sections.back();
   }

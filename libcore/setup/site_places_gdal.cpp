@@ -110,11 +110,8 @@ std::vector<RecordLine> fence_lines(InputLog& log, const Site& site, const Trn& 
   if (!fence.line_file.empty()) {
     const std::string path = resolved(site, fence.line_file);
     read_data(log, "fence." + fence.name, path);
-    const std::string section = "fence." + fence.name;
-    VectorShapes shapes = read_layer(
-        log, section,
-        {path, fence.line_layer, fence.line_where, VectorKind::lines, section + ".line_"},
-        trn.crs_wkt);
+    VectorShapes shapes =
+        read_layer(log, "fence." + fence.name, {path, VectorKind::lines}, trn.crs_wkt);
     for (std::vector<Vec3>& line : shapes.shapes) {
       for (Vec3& point : line) point -= trn.origin;
       found.push_back(std::move(line));
@@ -169,8 +166,7 @@ std::vector<std::vector<Vec3>> shapes_of(InputLog& log, const Site& site, const 
   }
   const std::string path = resolved(site, object.file);
   log.read_also(section, path);
-  VectorShapes found = read_layer(
-      log, section, {path, object.layer, object.where, kind, section + "."}, trn.crs_wkt);
+  VectorShapes found = read_layer(log, section, {path, kind}, trn.crs_wkt);
   for (std::vector<Vec3>& shape : found.shapes) {
     for (Vec3& p : shape) p -= trn.origin;
     shapes.push_back(std::move(shape));

@@ -18,6 +18,7 @@
 #include "blocks/daylight_envelope.hpp"
 #include "blocks/failure_raster.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/raster_commands.hpp"
 #include "io/raster_gdal.hpp"
 #include "setup/ground_class_inputs_gdal.hpp"
 #include "setup/site_places_gdal.hpp"
@@ -48,10 +49,8 @@ Area read_area(InputLog& log, const BlocksWork& work) {
   }
   const std::string path = resolved(work.site, source.polygon_file);
   read_data(log, "source.polygon_file", path);
-  const VectorShapes found = read_layer(
-      log, "source",
-      {path, source.polygon_layer, source.polygon_where, VectorKind::areas, "source.polygon_"},
-      work.ground.crs_wkt);
+  const VectorShapes found =
+      read_layer(log, "source", {path, VectorKind::areas}, work.ground.crs_wkt);
   for (std::vector<Vec3> ring : found.shapes) {
     for (Vec3& p : ring) p -= work.ground.origin;
     add_ring(ring);
@@ -80,12 +79,13 @@ std::vector<double> read_failure_raster(InputLog& log, const BlocksWork& work) {
   const DemFile raster(path, options);
   if (!raster.crs_wkt().empty() && !work.ground.crs_wkt.empty() &&
       !same_crs(raster.crs_wkt(), work.ground.crs_wkt))
-    throw InputError({path},
-                     "the CRS is " + crs_name(raster.crs_wkt()) + ", that of the terrain is " +
-                         crs_name(work.ground.crs_wkt),
-                     "a raster is never reprojected silently: gdalwarp -r bilinear -novshift "
-                     "-dstnodata -9999 -t_srs " +
-                         crs_code(work.ground.crs_wkt) + " " + path + " surface.tif");
+    throw InputError(
+        {path},
+        "the CRS is " + crs_name(raster.crs_wkt()) + ", that of the terrain is " +
+            crs_name(work.ground.crs_wkt),
+        "a raster is never reprojected silently: " +
+            warp_command(CellKind::heights, "-novshift -t_srs " + crs_code(work.ground.crs_wkt),
+                         path, "surface.tif"));
   if (!is_thickness) check_heights_of_surface(log, work, raster);
   std::vector<double> z = read_dem(raster, frame_of(work.ground));
   if (is_thickness) {

@@ -86,11 +86,11 @@ VectorShapes read_layer(InputLog& log, const std::string& role, const VectorQuer
   VectorShapes found = read_vectors(query, crs_wkt);
   log.content_read(role, digest_of(found));
   log.info(sentence_on(found, query));
-  if (!found.operation.empty()) log.record(query.path + ": " + found.operation);
+  if (!found.operation.empty()) log.record(found.file + ": " + found.operation);
   for (const std::string& warning : found.warnings) log.warn(warning);
-  for (const std::string& remark : found.remarks) log.info(query.path + ": " + remark);
+  for (const std::string& remark : found.remarks) log.info(found.file + ": " + remark);
   if (found.n_passed_over > 0)
-    log.warn(query.path + ": layer " + found.layer + " also holds " + found.passed_over +
+    log.warn(found.file + ": layer " + found.layer + " also holds " + found.passed_over +
              ", passed over");
   log.layer_read(facts_on(found, role, query));
   return found;

@@ -61,7 +61,9 @@ void check_angle(const char* name, double angle, double highest, const Where& wh
   if (angle >= 0 && angle <= highest) return;
   throw InputError(where,
                    std::string(name) + " is " + text(angle) + ", expected 0 to " + text(highest),
-                   pair_hint);
+                   angle > highest && angle <= highest / 0.9
+                       ? "in gon? Then name the columns Dip direction [gon] and Dip [gon]"
+                       : pair_hint);
 }
 
 // --- words ---------------------------------------------------------------------------------------
@@ -169,16 +171,32 @@ Vec3 pole_of_pair(const ColumnText& list, Notation notation, bool is_named,
 
 // --- lists with names ----------------------------------------------------------------------------
 
-const std::vector<std::string> dip_names = {"dip",        "dipangle",   "truedip",
-                                            "fallwinkel", "einfallen",  "inclinazione",
-                                            "pendage",    "buzamiento", "inclination"};
+const std::vector<std::string> dip_names = {"dip",         "dipangle",     "truedip", "fallwinkel",
+                                            "einfallen",   "inclinazione", "pendage", "buzamiento",
+                                            "inclination", "fallen"};
 const std::vector<std::string> direction_names = {
     "dipdirection",   "dipdir",           "dipazimuth",   "dipaz",      "ddr",
     "directionofdip", "einfallsrichtung", "fallrichtung", "immersione", "dirbuzamiento"};
 const std::vector<std::string> right_names = {"strike",    "strikeright",    "striker",
-                                              "strikerhr", "strikedipright", "strikerighthandrule"};
+                                              "strikerhr", "strikedipright", "strikerighthandrule",
+                                              "streichen", "streichrichtung"};
 const std::vector<std::string> left_names = {"strikeleft", "strikel", "strikelhr",
                                              "strikelefthandrule"};
+
+// A full circle has 400 gon. The unit is that in the brackets of a name: "Dip [gon]".
+double degrees_in_unit_of(const std::string& name) {
+  const std::size_t open = name.find_first_of("[("), close = name.find_first_of("])");
+  if (open == std::string::npos || close == std::string::npos || close < open) return 1;
+  const std::string unit = lower(name.substr(open + 1, close - open - 1));
+  return unit == "gon" || unit == "grad" || unit == "gradians" || unit == "neugrad" ? 0.9 : 1;
+}
+
+// The word of a column in degrees.
+std::string in_degrees(const ColumnText& list, const std::string& word, int column) {
+  const double factor = degrees_in_unit_of(list.names[column]);
+  double value = 0;
+  return factor != 1 && parse_number(list, word, value) ? text(factor * value) : word;
+}
 
 // Where the orientation stands in the columns.
 struct NamedPair {
@@ -273,8 +291,9 @@ OrientationList read_named(const ColumnText& list, const std::string& notation) 
       axis = pole_of_normal(list, row, normal);
     } else {
       const std::string side = quadrant < 0 ? std::string() : word_at(list, row, quadrant);
-      axis = pole_of_pair(list, pair.notation, true, word_at(list, row, pair.first),
-                          word_at(list, row, pair.second) + side, where);
+      axis = pole_of_pair(
+          list, pair.notation, true, in_degrees(list, word_at(list, row, pair.first), pair.first),
+          in_degrees(list, word_at(list, row, pair.second), pair.second) + side, where);
     }
     found.poles.insert(found.poles.end(),
                        static_cast<std::size_t>(quantity_of(list, row, quantity)), axis);

@@ -22,7 +22,7 @@ std::string without_quotes(const std::string& value) {
 std::string digest_of_file(const Site& site, const EffectiveValue& entry) {
   if (!entry.key.ends_with("file") && entry.key != "recipe") return "";
   const std::string name = without_quotes(entry.value);
-  if (name == site.layers_file) return "";  // its features count, below
+  if (names_layers_file(site, name)) return "";  // its features count, below
   const std::string path = resolved(site, name.substr(0, name.find('|')));
   std::error_code error;
   return !name.empty() && std::filesystem::is_regular_file(path, error) ? sha256_of_file(path) : "";

@@ -21,4 +21,8 @@ std::string resolved(const Site& site, const std::string& path) {
   return file.lexically_normal().string() + (end == std::string::npos ? "" : path.substr(end));
 }
 
+bool names_layers_file(const Site& site, const std::string& name) {
+  return !site.layers_file.empty() && name.substr(0, name.find('|')) == site.layers_file;
+}
+
 }  // namespace talus

@@ -5,6 +5,7 @@
 // them.
 //
 // A field named like its key, unit included. NaN, an empty text and an empty list mean "not given".
+// A vector file may name layers and a filter: "map.gpkg|layername=release|subset=kind = 'a'".
 #pragma once
 
 #include <cstdint>
@@ -30,10 +31,10 @@ struct SiteInfo {
 
 /// [terrain]: what talus-tin and talus-trn are called with.
 struct TerrainSettings {
-  std::string contours, layer, where, elevation_field;
-  std::string breaklines, breaklines_layer, breaklines_where, breaklines_elevation_field;
-  std::string spots, spots_layer, spots_where, spots_elevation_field;
-  std::string boundary, boundary_layer, boundary_where;
+  std::string contours, elevation_field;
+  std::string breaklines, breaklines_elevation_field;
+  std::string spots, spots_elevation_field;
+  std::string boundary;
   std::string dem;
   std::string ground_raster;  ///< classes of ground, whole numbers
   std::string flat = "fill";
@@ -44,7 +45,7 @@ struct TerrainSettings {
 /// [source]: where the moving mass is, down to which surface, and the limits of cutting.
 struct SourceSettings {
   std::vector<Vec3> polygon;  ///< map x, y; or polygon_file
-  std::string polygon_file, polygon_layer, polygon_where;
+  std::string polygon_file;
   std::string failure_surface = "normal_depth";
   std::string sliding_set;  ///< of a daylighting surface; not given: that of the largest mass
   double depth_m = not_given;
@@ -125,7 +126,7 @@ struct GroundSettings {
   double drag_1_s = 0, drag_1_m = 0;
   double friction_weak_deg = not_given, weakening_speed_m_s = not_given;
   std::vector<Vec3> polygon;
-  std::string polygon_file, polygon_layer, polygon_where;
+  std::string polygon_file;
   std::vector<double> raster_values;  ///< of TerrainSettings::ground_raster, whole numbers
 };
 
@@ -134,7 +135,6 @@ struct SolverSettings {
   std::string law = "talus";
   double duration_s = 60;
   double time_step_s = not_given;  ///< not given: time_step() says
-  double min_time_step_s = not_given, max_time_step_s = not_given;
   double gravity_m_s2 = 9.80665;
   double normal_stiffness_n_m = not_given;
   double shear_stiffness_ratio = 0.4;  ///< k_s / k_n
@@ -157,7 +157,7 @@ struct FenceSettings {
   std::string name;
   int line_number = 0;
   std::vector<Vec3> line;  ///< map x, y of at least two points; or line_file
-  std::string line_file, line_layer, line_where;
+  std::string line_file;
   double height_m = 5;
   double capacity_kj = not_given;       ///< of a panel; not given: rigid
   double max_deflection_m = not_given;  ///< where it is used up; not given: half the height
@@ -171,14 +171,14 @@ struct ForestSettings {
   std::string name;
   int line = 0;
   std::vector<Vec3> polygon;  ///< map x, y; or polygon_file
-  std::string polygon_file, polygon_layer, polygon_where;
+  std::string polygon_file;
   double stems_per_ha = not_given;
   double dbh_mean_cm = 30, dbh_std_cm = 10;  ///< diameter at breast height, gamma distributed
   double conifer_share = 1;
   std::string nrtrees_raster, dbhmean_raster, dbhstd_raster, conif_percent_raster;
-  std::string stems_file, stems_layer, stems_where;  ///< points with dbh_cm, and species or conifer
-  double fe_conifer = 0.93, fe_broadleaf = 1.59;     ///< FE of the energy that breaks a stem
-  double deflection_m = 0.5;                         ///< over which it takes that energy
+  std::string stems_file;                         ///< points with dbh_cm, and species or conifer
+  double fe_conifer = 0.93, fe_broadleaf = 1.59;  ///< FE of the energy that breaks a stem
+  double deflection_m = 0.5;                      ///< over which it takes that energy
   double height_m = 20, friction_deg = 16.7;
   double drag_kg_s = 0;  ///< d of the force -d v on a block below the canopy
   std::int64_t seed = 1;
@@ -233,8 +233,8 @@ struct PlacedSettings {
   std::string material;
   std::vector<Vec3> position_m;  ///< map x, y or x, y, z; several: one body each
   double height_above_ground_m =
-      not_given;  ///< of the lowest vertex; not given with z: z of the centroid
-  std::string release_file, release_layer, release_where;  ///< points or lines
+      not_given;             ///< of the lowest vertex; not given with z: z of the centroid
+  std::string release_file;  ///< points or lines
   double release_spacing_m = not_given;  ///< along lines, or of the grid in the source polygon
   bool release_grid = false;
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
@@ -268,7 +268,7 @@ struct ObjectSettings {
   std::string name;
   int line_number = 0;
   std::vector<Vec3> polygon, line, position_m;  ///< map x, y; one of them, or file
-  std::string file, layer, where;
+  std::string file;
   double width_m = not_given;   ///< of a line
   double radius_m = not_given;  ///< about points
   std::string kind;             ///< "house", "road": printed
@@ -328,7 +328,7 @@ struct PlaceSettings {
   std::string name;
   int line = 0;
   std::vector<Vec3> polygon;  ///< map x, y; or polygon_file; or fence
-  std::string polygon_file, polygon_layer, polygon_where;
+  std::string polygon_file;
   std::string fence;         ///< a line of [fence.*]
   double half_width = 0.05;  ///< wanted, of the interval of the share of blocks
 };
@@ -412,6 +412,9 @@ struct EffectiveValue {
 
 /// `path` as it is when absolute or virtual, else below the site file's folder.
 [[nodiscard]] std::string resolved(const Site& site, const std::string& path);
+
+/// Whether a key names the GeoPackage that sections were taken from: "site.gpkg|layername=fences".
+[[nodiscard]] bool names_layers_file(const Site& site, const std::string& name);
 
 /// One row of the table of keys.
 struct KeyDescription {

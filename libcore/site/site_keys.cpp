@@ -36,20 +36,12 @@ template <> const std::vector<SiteKey<TerrainSettings>>& keys_of() {
   using S = TerrainSettings;
   static const std::vector<SiteKey<S>> table = {
       {"contours", &S::contours, "contour lines for talus-tin"},
-      {"layer", &S::layer, "layer of the contours; several: \"index, intermediate\", or with * and ?"},
-      {"where", &S::where, "attribute filter on the contours, e.g. type = 'contour'"},
       {"elevation_field", &S::elevation_field, "field with the elevation of a contour; Z: the geometries' own"},
       {"breaklines", &S::breaklines, "breaklines for talus-tin"},
-      {"breaklines_layer", &S::breaklines_layer, "their layer or layers"},
-      {"breaklines_where", &S::breaklines_where, "attribute filter on the breaklines"},
       {"breaklines_elevation_field", &S::breaklines_elevation_field, "field with their elevation, or Z"},
       {"spots", &S::spots, "spot heights for talus-tin"},
-      {"spots_layer", &S::spots_layer, "their layer or layers"},
-      {"spots_where", &S::spots_where, "attribute filter on the spot heights"},
       {"spots_elevation_field", &S::spots_elevation_field, "field with their elevation, or Z"},
       {"boundary", &S::boundary, "boundary polygon, or closed line, for talus-tin"},
-      {"boundary_layer", &S::boundary_layer, "its layer or layers"},
-      {"boundary_where", &S::boundary_where, "attribute filter on the boundary"},
       {"dem", &S::dem, "elevation raster for talus-trn instead of contours"},
       {"ground_raster", &S::ground_raster, "raster of ground classes, whole numbers; [ground.*] raster_values says which is which"},
       {"flat", &S::flat, "what happens to flat triangles", any, "fill|keep"},
@@ -62,8 +54,6 @@ template <> const std::vector<SiteKey<SourceSettings>>& keys_of() {
   static const std::vector<SiteKey<S>> table = {
       {"polygon", &S::polygon, "corners of the source area, map x, y", any, "", "", 3},
       {"polygon_file", &S::polygon_file, "vector file with the source area: polygons, or closed lines"},
-      {"polygon_layer", &S::polygon_layer, "its layer or layers; not needed where one layer alone holds polygons"},
-      {"polygon_where", &S::polygon_where, "attribute filter, e.g. name = 'release'"},
       {"failure_surface", &S::failure_surface, "how the surface below the mass is given", any, "vertical_depth|normal_depth|plane|daylighting|raster|thickness|slbl"},
       {"sliding_set", &S::sliding_set, "daylighting: the joint set whose plane is the failure surface; the one with the largest mass when not given"},
       {"depth_m", &S::depth_m, "depth of the failure surface", positive},
@@ -154,8 +144,6 @@ template <> const std::vector<SiteKey<GroundSettings>>& keys_of() {
       {"weakening_speed_m_s", &S::weakening_speed_m_s, "slip speed at which friction is halfway from friction_deg to friction_weak_deg", positive},
       {"polygon", &S::polygon, "corners of the area, map x, y", any, "", "", 3},
       {"polygon_file", &S::polygon_file, "vector file with the area: polygons, or closed lines"},
-      {"polygon_layer", &S::polygon_layer, "its layer or layers"},
-      {"polygon_where", &S::polygon_where, "attribute filter, e.g. type = 'scree'"},
       {"raster_values", &S::raster_values, "values of [terrain] ground_raster that stand for this ground", any, "", "whole numbers, as the raster has them", 1}};
   return table;
 }
@@ -165,8 +153,6 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"law", &S::law, "contact law", any, "talus|paper"},
       {"duration_s", &S::duration_s, "time simulated", positive},
       {"time_step_s", &S::time_step_s, "time step, which law talus cuts where it must; not given: 0.005, law paper 0.0001", {0, 1, true, false}},
-      {"min_time_step_s", &S::min_time_step_s, "smallest time step", {0, 1, true, false}},
-      {"max_time_step_s", &S::max_time_step_s, "largest time step", {0, 1, true, false}},
       {"accuracy", &S::accuracy, "law talus: estimated error of a moving block's displacement, as a share of it; a step whose estimate is larger is cut", {0, 1, true, false}},
       {"gravity_m_s2", &S::gravity_m_s2, "gravity, downwards", {0, 1000}},
       {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "penalty stiffness of a contact", positive},
@@ -192,8 +178,6 @@ template <> const std::vector<SiteKey<FenceSettings>>& keys_of() {
   static const std::vector<SiteKey<S>> table = {
       {"line", &S::line, "points of the fence, map x, y", any, "", "a fence needs two points", 2},
       {"line_file", &S::line_file, "vector file with the fence line, instead of line"},
-      {"line_layer", &S::line_layer, "its layer or layers"},
-      {"line_where", &S::line_where, "attribute filter on the lines"},
       {"height_m", &S::height_m, "height above the ground", {0, 1000, true, false}},
       {"capacity_kj", &S::capacity_kj, "energy that a panel takes before it breaks; rigid when not given", positive},
       {"max_deflection_m", &S::max_deflection_m, "deflection at which one block has used up the capacity; half the height when not given", positive},
@@ -208,8 +192,6 @@ template <> const std::vector<SiteKey<ForestSettings>>& keys_of() {
   static const std::vector<SiteKey<S>> table = {
       {"polygon", &S::polygon, "corners of the stand, map x, y", any, "", "", 3},
       {"polygon_file", &S::polygon_file, "vector file with the stand, instead of polygon: polygons, or closed lines"},
-      {"polygon_layer", &S::polygon_layer, "its layer or layers"},
-      {"polygon_where", &S::polygon_where, "attribute filter, e.g. type = 'spruce'"},
       {"stems_per_ha", &S::stems_per_ha, "stems on a hectare, drawn at random places", {0, 100000}},
       {"dbh_mean_cm", &S::dbh_mean_cm, "mean diameter at breast height", {0, 1000, true, false}},
       {"dbh_std_cm", &S::dbh_std_cm, "its standard deviation (gamma distribution); 0: all alike", {0, 1000}},
@@ -219,8 +201,6 @@ template <> const std::vector<SiteKey<ForestSettings>>& keys_of() {
       {"dbhstd_raster", &S::dbhstd_raster, "raster of their standard deviations [cm]"},
       {"conif_percent_raster", &S::conif_percent_raster, "raster of the percentage of conifers"},
       {"stems_file", &S::stems_file, "vector file of stems instead of a stand: points with field dbh_cm, and species or conifer (1 or 0) where known"},
-      {"stems_layer", &S::stems_layer, "its layer or layers"},
-      {"stems_where", &S::stems_where, "attribute filter on the stems"},
       {"fe_conifer", &S::fe_conifer, "factor on the energy that breaks a conifer", {0, 10, true, false}},
       {"fe_broadleaf", &S::fe_broadleaf, "the same of a broadleaf", {0, 10, true, false}},
       {"deflection_m", &S::deflection_m, "path of the block over which a stem takes its energy", {0, 10, true, false}},
@@ -285,8 +265,6 @@ template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
       {"position_m", &S::position_m, "map x, y or x, y, z of each body", any, "", "", 1},
       {"height_above_ground_m", &S::height_above_ground_m, "height of the lowest vertex above the ground below it", {0, 100000}},
       {"release_file", &S::release_file, "vector file of release points or lines"},
-      {"release_layer", &S::release_layer, "its layer or layers"},
-      {"release_where", &S::release_where, "attribute filter on the points or lines"},
       {"release_spacing_m", &S::release_spacing_m, "spacing along release lines or of the release grid", positive},
       {"release_grid", &S::release_grid, "release all over the source polygon, evenly by sloping area"},
       {"yaw_deg", &S::yaw_deg, "rotation about z, applied last", {-360, 360}},
@@ -308,8 +286,6 @@ template <> const std::vector<SiteKey<ObjectSettings>>& keys_of() {
       {"line", &S::line, "points of a line, map x, y", any, "", "a line needs two points", 2},
       {"position_m", &S::position_m, "map x, y of points", any, "", "", 1},
       {"file", &S::file, "vector file with areas, or with lines (width_m) or points (radius_m), instead"},
-      {"layer", &S::layer, "its layer or layers"},
-      {"where", &S::where, "attribute filter on its features"},
       {"width_m", &S::width_m, "width of lines", positive},
       {"radius_m", &S::radius_m, "radius about points", positive},
       {"kind", &S::kind, "what it is, e.g. house, road: printed"}};
@@ -394,8 +370,6 @@ template <> const std::vector<SiteKey<PlaceSettings>>& keys_of() {
   static const std::vector<SiteKey<S>> table = {
       {"polygon", &S::polygon, "corners of the place, map x, y", any, "", "", 3},
       {"polygon_file", &S::polygon_file, "vector file with the place: polygons, or closed lines"},
-      {"polygon_layer", &S::polygon_layer, "its layer or layers"},
-      {"polygon_where", &S::polygon_where, "attribute filter, e.g. name = 'school'"},
       {"fence", &S::fence, "the line of this fence instead of a polygon"},
       {"half_width", &S::half_width, "wanted half of the 95 % interval of the share of blocks that reach the place: make RUNS=auto adds runs until it is so narrow", {0, 0.5, true, false}}};
   return table;

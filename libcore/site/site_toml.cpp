@@ -11,6 +11,7 @@
 #include "base/printable.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
+#include "site/gone_keys.hpp"
 #include "site/site_keys.hpp"
 #include "site/site_layers.hpp"
 #include "site/soils.hpp"
@@ -237,6 +238,9 @@ const SiteKey<Section>& key_named(std::string_view name, const std::string& sect
                                   const Where& where) {
   for (const auto& key : keys_of<Section>())
     if (name == key.name) return key;
+  if (const std::string instead = written_instead(section, name); !instead.empty())
+    throw InputError(where, "the key " + std::string(name) + " of [" + section + "] is gone",
+                     "write " + instead);
   throw InputError(where, "unknown key " + std::string(name) + " in [" + section + "]",
                    did_you_mean(name, key_names<Section>()));
 }
@@ -424,15 +428,25 @@ void check_names(const Site& site) {
 
 // --- command line ------------------------------------------------------------------------------
 
-// `value` as a TOML value; plain text when it is none.
-toml::table parsed_value(const std::string& value) {
+// `value` as a list of one TOML value; plain text when it is none. In a list a remark ("5 # m") is
+// no value either.
+toml::array parsed_value(const std::string& value) {
   try {
-    toml::table table = parsed("value = " + value, "--set");
-    if (table.size() == 1) return table;
+    toml::table table = parsed("value = [" + value + "]", "--set");
+    if (auto* list = table["value"].as_array(); table.size() == 1 && list && list->size() == 1)
+      return std::move(*list);
   } catch (const toml::parse_error&) {
     // not a TOML value: text without quotes
   }
-  return toml::table{{"value", value}};
+  return toml::array{value};
+}
+
+// As parsed_value(); what a key that takes text is given without quotes is text, also 2024 or true.
+template <class Section>
+toml::array value_for(const SiteKey<Section>& key, const std::string& value) {
+  toml::array parsed = parsed_value(value);
+  const bool takes_text = std::holds_alternative<std::string Section::*>(key.field);
+  return takes_text && !parsed[0].is_string() ? toml::array{value} : std::move(parsed);
 }
 
 // Is "section.key" one of the site's?
@@ -454,14 +468,14 @@ struct KeyFinder {
 struct Overrider {
   Site& site;
   std::string section, key;  // "hazard", "fence.upper", "hazard.class.V1"
-  const toml::node& node;
+  const std::string& value;
   bool& is_done;
 
   template <class Section>
   void set(Section& fields, const std::string& path) const {
     const Where where{"", 0, "command line"};
     const auto& row = key_named<Section>(key, path, where);
-    read_value(fields, row, path + "." + key, node, where);
+    read_value(fields, row, path + "." + key, value_for(row, value)[0], where);
     site.sources[path + "." + key] = {ValueSource::from_cli, 0};
     is_done = true;
   }
@@ -482,16 +496,16 @@ struct Overrider {
 struct LayerNode {
   const std::string& words;
   template <class Field>
-  toml::table operator()(Field) const {
+  toml::array operator()(Field) const {
     return parsed_value(words);
   }
   template <class Section>
-  toml::table operator()(bool Section::*) const {
+  toml::array operator()(bool Section::*) const {
     return parsed_value(words == "1" ? "true" : words == "0" ? "false" : words);
   }
   template <class Section>
-  toml::table operator()(std::string Section::*) const {
-    return toml::table{{"value", words}};
+  toml::array operator()(std::string Section::*) const {
+    return toml::array{words};
   }
 };
 
@@ -511,8 +525,8 @@ struct SectionTaker {
                                 ? given->second.words
                                 : site.file + ":" + std::to_string(given->second.line)),
                        "say it once: take it out of one of the two");
-    const toml::table holder = std::visit(LayerNode{value.text}, row.field);
-    read_value(fields, row, path + "." + row.name, *holder.get("value"), where);
+    const toml::array holder = std::visit(LayerNode{value.text}, row.field);
+    read_value(fields, row, path + "." + row.name, holder[0], where);
     site.sources[path + "." + row.name] = {ValueSource::from_layer, 0, from.place};
   }
   template <class Section>
@@ -536,6 +550,28 @@ struct SectionTaker {
 
 }  // namespace
 
+namespace {
+
+// What to do about a file that is not TOML.
+std::string way_to_toml(const std::string& finding, const std::string& text,
+                        const std::string& path) {
+  const auto says = [&finding](const char* words) {
+    return finding.find(words) != std::string::npos;
+  };
+  if (says("redefine")) return "a section or key is in the file twice: put its keys in one place";
+  if (says("escape"))
+    return "a backslash begins a special sign: write / in paths, or put the text in single quotes";
+  if (says("utf-8")) {
+    const bool is_utf16 = text.find('\0') != std::string::npos || text.starts_with("\xFF\xFE") ||
+                          text.starts_with("\xFE\xFF");
+    return std::string("save it as UTF-8: iconv -f ") + (is_utf16 ? "UTF-16" : "WINDOWS-1252") +
+           " -t UTF-8 " + path + " > utf8.toml";
+  }
+  return "the file must be TOML: key = value, text in quotes, decimals with a point";
+}
+
+}  // namespace
+
 Site parse_site(const std::string& text, const std::string& path) {
   Site site;
   site.file = path;
@@ -544,11 +580,8 @@ Site parse_site(const std::string& text, const std::string& path) {
     root = parsed(text, path);
   } catch (const toml::parse_error& error) {
     const std::string finding(error.description());
-    const bool is_twice = finding.find("redefine") != std::string::npos;
-    throw InputError(
-        {path, static_cast<int>(error.source().begin.line)}, finding,
-        is_twice ? "a section or key stands in the file twice: put its keys in one place"
-                 : "the file must be TOML: key = value, text in quotes, decimals with a point");
+    throw InputError({path, static_cast<int>(error.source().begin.line)}, finding,
+                     way_to_toml(finding, text, path));
   }
   check_groups(root, path);
   for_each_group(site, GroupReader{site, root});
@@ -580,12 +613,8 @@ void override_value(Site& site, const std::string& key, const std::string& value
     throw InputError({"", 0, "command line"}, "\"" + key + "\" is not section.key",
                      "e.g. solver.duration_s");
   const std::string group = key.substr(0, first);
-  const toml::table holder = parsed_value(value);
-  const toml::node* node = holder.get("value");
-  const toml::value<std::string> plain(value);
   bool is_done = false;
-  const Overrider overrider{site, key.substr(0, last), key.substr(last + 1),
-                            node ? *node : static_cast<const toml::node&>(plain), is_done};
+  const Overrider overrider{site, key.substr(0, last), key.substr(last + 1), value, is_done};
   for_each_group(site, overrider);
   if (!is_done) {
     Texts known;

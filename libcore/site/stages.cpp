@@ -16,11 +16,9 @@ struct Stage {
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> list = {
       {"tin",
-       {"terrain.contours", "terrain.layer", "terrain.where", "terrain.elevation_field",
-        "terrain.breaklines", "terrain.breaklines_layer", "terrain.breaklines_where",
-        "terrain.breaklines_elevation_field", "terrain.spots", "terrain.spots_layer",
-        "terrain.spots_where", "terrain.spots_elevation_field", "terrain.boundary",
-        "terrain.boundary_layer", "terrain.boundary_where", "terrain.flat"}},
+       {"terrain.contours", "terrain.elevation_field", "terrain.breaklines",
+        "terrain.breaklines_elevation_field", "terrain.spots", "terrain.spots_elevation_field",
+        "terrain.boundary", "terrain.flat"}},
       {"trn", {"terrain.dem", "terrain.cell_size_m", "terrain.window_m"}},
       {"blocks", {"site.crs", "source", "joints", "blocks", "material"}},
       {"rock", {"site.crs", "source", "joints", "blocks", "material", "uncertainty"}},

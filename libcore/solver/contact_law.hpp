@@ -129,7 +129,6 @@ template <class V, class Rows>
                                          const StateOf<V>& state_before, Evaluation evaluation,
                                          Mask<V>& closed, V& cap) {
   using Row = typename Rows::Row;
-  constexpr double unbounded = 1e150;  // friction bound whose square is finite
   Strength<V> strength;
   rows.read(&Row::friction, strength.friction);
   rows.read(&Row::cohesion, strength.cohesion);
@@ -144,7 +143,7 @@ template <class V, class Rows>
   const Mask<V> is_new = state_before == all_in<V>(ContactState::open);
   const Mask<V> slips = (state_before == all_in<V>(ContactState::slip)) |
                         ((strength.friction + strength.cohesion) <= 0);
-  cap = is_new ? cap : slips ? last_cap : V{} + unbounded;
+  cap = is_new ? cap : slips ? last_cap : V{} + no_normal_limit;
   // what just touches may be pushed; what would pull more than it pressed has parted
   closed = (p_n >= -strength.tension) | (none_of<V>(is_new) & (p_n >= -last_p_n));
 }

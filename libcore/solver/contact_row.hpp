@@ -79,7 +79,6 @@ struct KeptContact {  // clang-format off
   int memory = -1;                ///< index into A's memory, -1: new
   int pair = 0;                   ///< island: index into its pairs
   int row = 0;                    ///< island: its number among the rows of the solver
-  int hit = -1;                   ///< island: index into the hits of the substep, -1: not hit
   int rests = 0;                  ///< ContactMemory::rests
   bool waits = false;             ///< approaches too fast to press without being hit: presses nothing
   // where it is and how it moves in the substep without contact forces
@@ -89,6 +88,7 @@ struct KeptContact {  // clang-format off
   double approach = 0;            ///< island: normal velocity, the smaller of start and mean [m/s]
   double offset = 0;              ///< see ContactMemory [m]
   double touch = 0;               ///< island: it touches below this gap [m]
+  double hit_time = -1;           ///< island: in the substep, < 0: it is not hit [s]
   double restitution = 0;         ///< of the two surfaces [-]
   double bond_area = 0;           ///< share of its bond, of blocks or with the ground [m2]
   double last_force = 0;          ///< ContactMemory::normal_force [N]
@@ -96,6 +96,8 @@ struct KeptContact {  // clang-format off
   Vec3 arm_start = Vec3::Zero();  ///< from the centroid of A to A's point, at the start [m]
   Vec3 free_move = Vec3::Zero();  ///< displacement [m]
   Vec3 shear = Vec3::Zero();      ///< s_n [m]
+
+  [[nodiscard]] bool is_hit() const { return hit_time >= 0; }
 };  // clang-format on
 
 /// A bond that breaks within the step makes the law jump, and a step with a jump may have no

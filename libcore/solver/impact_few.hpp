@@ -1,7 +1,8 @@
 // libcore/solver/impact_few.hpp
 // The impact law for few contacts, in their impulses: u = u- + W p with the velocities that
-// impulses give each other's points. One dense matrix for all, however many bodies there are. in:
-// bodies, contacts, their rows with arms, targets and first impulses out:   impulses in the rows
+// impulses give each other's points. One dense matrix for all, however many bodies there are.
+// in:    bodies, contacts with arms, targets and first impulses
+// out:   impulses of the contacts
 // theory 1.12; Alart and Curnier 1991
 #pragma once
 
@@ -29,11 +30,10 @@ struct FewContacts {
   Eigen::PartialPivLU<Array<Eigen::Dynamic>> factor;
 };
 
-/// Newton's method from the impulses in `rows`. False where it does not find them: then they are
+/// Newton's method from the contacts' impulses. False where it does not find them: then they are
 /// none. `velocity` is that before the impact, six numbers a body; `scale` the fastest approach
 /// [m/s]; at most FewContacts::most contacts; `passes` counts evaluations.
-bool solve_few(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
-               const Eigen::VectorXd& velocity, double scale, std::span<ImpactRow> rows,
-               FewContacts& few, int& passes);
+bool solve_few(std::span<const ImpactBody> bodies, std::span<ImpactContact> contacts,
+               const Eigen::VectorXd& velocity, double scale, FewContacts& few, int& passes);
 
 }  // namespace talus

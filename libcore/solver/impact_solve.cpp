@@ -5,32 +5,25 @@
 #include <limits>
 #include <utility>
 
+#include "contact/scales.hpp"
+#include "solver/law_numbers.hpp"
 #include "solver/one_contact.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
-using Row = ImpactWork::Row;
 
 // A contact gives way by 1/D of the error of its expected impulse: four figures a round.
-constexpr double stiffness_ratio = 9e3;    // D over the mass that the contact feels
-constexpr double first_stiffness = 1e3;    // in the first round
-constexpr double round_tolerance = 1e-12;  // of the fastest approach: what contacts give way
-constexpr double settled = 1e-5;     // ... where a round hardly helps, for rounding or slow slips
-constexpr double tolerance = 1e-13;  // of the same: residual of the balance of momentum
+constexpr double stiffness_ratio = 9e3;  // D over the mass that the contact feels
+constexpr double first_stiffness = 1e3;  // in the first round
+constexpr double settled = 1e-5;         // of the fastest approach: what contacts give way, at most
+constexpr double tolerance = 1e-13;      // of the same: residual of the balance of momentum
 constexpr double loose_tolerance = 1e-7;  // ... where a step hardly helps
-constexpr double gain_rounding = 1e-12;   // of the kinetic energy: not a gain
-constexpr int most_rounds = 12;           // of expected impulses
-constexpr int convex_rounds = 15;         // ... in the convex form, before the other is tried ...
-constexpr int most_convex_tries = 8;      // ... so often
-constexpr double least_renewed = 0.05, most_renewed = 20;  // of what a slip misses
-constexpr int most_steps = 30, most_convex_steps = 100;    // of Newton in a round
-constexpr int whole_steps = 6;                             // before its line search
-
-constexpr int most_turns = 12;  // of Newton, for one contact alone
-
-constexpr size_t least_shared = 128;  // contacts: below, threads wait more than they spare
+constexpr int most_rounds = 12;           // of expected impulses ...
+constexpr int most_convex_rounds = 500;   // ... and in the convex form, where these do not settle
+constexpr double most_renewed = 20;       // of what a slip misses, and at least its inverse
+constexpr int most_steps = 30, most_convex_steps = 100;  // of Newton in a round
 
 using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
@@ -38,30 +31,19 @@ using Mat2 = Eigen::Matrix2d;
 /// An impact being solved; a struct so that its parts share what they all need.
 struct Solver {
   std::span<const ImpactBody> bodies;
-  std::span<const ImpactContact> contacts;
+  std::span<ImpactContact> contacts;
   ImpactWork& w;
   double scale = 0;          // fastest approach [m/s]
   double rounding = 0;       // of velocities [m/s]
   double renewed = 1;        // share of what a slip misses that a round adds
   bool has_missing = false;  // of the round before
-  bool is_held = false;      // bounds of couples are those expected
+  bool is_convex = false;    // slips and the bounds of couples are those expected
   int passes = 0;
 
-  [[nodiscard]] Vec6 of(const Eigen::VectorXd& v, int k) const { return v.segment<6>(6 * k); }
-
-  [[nodiscard]] Vec3 point_velocity(const Eigen::VectorXd& v, size_t i) const {
-    const ImpactContact& c = contacts[i];
-    const Row& row = w.rows[i];
-    const Vec6 a = of(v, c.a);
-    Vec3 u = a.head<3>() + a.tail<3>().cross(row.arm_a);
-    if (c.b < 0) return u;
-    const Vec6 b = of(v, c.b);
-    return u - (b.head<3>() + b.tail<3>().cross(row.arm_b));
-  }
+  [[nodiscard]] static Vec6 of(const Eigen::VectorXd& v, int k) { return v.segment<6>(6 * k); }
 
   // Speed of a contact's point per impulse along the normal, and the largest along a tangent.
-  [[nodiscard]] std::pair<double, double> mobility(size_t i) const {
-    const ImpactContact& c = contacts[i];
+  [[nodiscard]] std::pair<double, double> mobility(const ImpactContact& c) const {
     double along = 0, all = 0;
     const auto add = [&](const ImpactBody& body, const Vec3& arm) {
       const Vec3 turn = arm.cross(c.normal);
@@ -69,8 +51,8 @@ struct Solver {
       all += 3 * body.per_mass + body.per_inertia.trace() * arm.squaredNorm() -
              arm.dot(body.per_inertia * arm);
     };
-    add(bodies[c.a], w.rows[i].arm_a);
-    if (c.b >= 0) add(bodies[c.b], w.rows[i].arm_b);
+    add(bodies[c.a], c.arm_a);
+    if (c.b >= 0) add(bodies[c.b], c.arm_b);
     return {along, std::max(along, all - along)};
   }
 
@@ -82,16 +64,19 @@ struct Solver {
       w.before.segment<6>(static_cast<Eigen::Index>(6 * k)) = bodies[k].velocity;
       fastest = std::max(fastest, bodies[k].velocity.head<3>().norm());
     }
-    w.rows.assign(contacts.size(), {});
-    for (size_t i = 0; i < contacts.size(); ++i) {
-      const ImpactContact& c = contacts[i];
-      Row& row = w.rows[i];
-      row.arm_a = c.point - bodies[c.a].position;
-      if (c.b >= 0) row.arm_b = c.point - bodies[c.b].position;
-      const auto [normal, tangent] = mobility(i);
-      row.normal_damping = 1 / normal;
-      row.shear_damping = 1 / tangent;
-      scale = std::max(scale, point_velocity(w.before, i).norm());
+    for (ImpactContact& c : contacts) {
+      c.impulse.setZero();
+      c.arm_a = c.point - bodies[c.a].position;
+      if (c.b >= 0) c.arm_b = c.point - bodies[c.b].position;
+      const auto [normal, tangent] = mobility(c);
+      c.normal_damping = 1 / normal;
+      c.shear_damping = 1 / tangent;
+      const Vec3 u = point_velocity(w.before, c);
+      scale = std::max(scale, u.norm());
+      c.approach = c.normal.dot(u);
+      c.target = !c.is_bond && c.approach < -c.resting_speed
+                     ? -c.fall.at(c.restitution, -c.approach) * c.approach
+                     : 0;
     }
     rounding = 1e-14 * fastest;
     list_turns();
@@ -100,8 +85,7 @@ struct Solver {
   void list_turns() {
     w.turns.clear();
     w.turn_of.clear();
-    for (size_t i = 0; i < contacts.size(); ++i) {
-      const ImpactContact& c = contacts[i];
+    for (const ImpactContact& c : contacts) {
       if (c.b >= 0 || (c.arm.rolling == 0 && c.arm.spinning == 0)) continue;
       if (w.turn_of.empty()) w.turn_of.assign(bodies.size(), -1);
       int& at = w.turn_of[static_cast<size_t>(c.a)];
@@ -112,7 +96,7 @@ struct Solver {
         w.turns.back().damping = 1 / bodies[static_cast<size_t>(c.a)].per_inertia.trace();
       }
       ImpactWork::Turn& turn = w.turns[static_cast<size_t>(at)];
-      turn.lever = std::max(turn.lever, w.rows[i].arm_a.norm());
+      turn.lever = std::max(turn.lever, c.arm_a.norm());
     }
   }
 
@@ -126,14 +110,13 @@ struct Solver {
   // normal impulses let them be; in the convex form what those expected do.
   void add_couples(const Eigen::VectorXd& v) {
     for (ImpactWork::Turn& turn : w.turns) turn.bounds = {};
-    for (size_t i = 0; i < contacts.size(); ++i)
-      if (ImpactWork::Turn* turn = turn_of(contacts[i]))
-        turn->bounds.add(contacts[i].arm, contacts[i].normal.dot(w.rows[i].impulse),
-                         contacts[i].normal);
+    for (const ImpactContact& c : contacts)
+      if (ImpactWork::Turn* turn = turn_of(c))
+        turn->bounds.add(c.arm, c.normal.dot(c.impulse), c.normal);
     for (ImpactWork::Turn& turn : w.turns) {
       const Vec3 spin = v.segment<3>(6 * turn.body + 3) - turn.expected / turn.damping;
       turn.law.damping = turn.damping;
-      talus::evaluate(spin, is_held ? turn.held : turn.bounds, turn.law);
+      talus::evaluate(spin, is_convex ? turn.held : turn.bounds, turn.law);
       turn.couple = turn.law.couple;
       turn.tangent = tangent(turn.law);
       w.residual.segment<3>(6 * turn.body + 3) -= turn.couple;
@@ -144,70 +127,68 @@ struct Solver {
     for (const ImpactWork::Turn& turn : w.turns)
       w.matrix.diagonal[w.matrix.pattern.place[static_cast<size_t>(turn.body)]]
           .bottomRightCorner<3, 3>() += turn.tangent;
-    if (is_held) return;
-    for (size_t i = 0; i < contacts.size(); ++i) {
-      const ImpactContact& c = contacts[i];
-      const Row& row = w.rows[i];
+    if (is_convex) return;
+    for (const ImpactContact& c : contacts) {
       const ImpactWork::Turn* turn = turn_of(c);
-      if (turn == nullptr || !(c.normal.dot(row.impulse) > 0)) continue;
-      const Vec3 by_velocity = row.tangent.transpose() * c.normal;  // -d p_n / d u
+      if (turn == nullptr || !(c.normal.dot(c.impulse) > 0)) continue;
+      const Vec3 by_velocity = c.tangent.transpose() * c.normal;  // -d p_n / d u
       Vec6 by_motion;
-      by_motion << by_velocity, row.arm_a.cross(by_velocity);
+      by_motion << by_velocity, c.arm_a.cross(by_velocity);
       w.matrix.diagonal[w.matrix.pattern.place[static_cast<size_t>(c.a)]].bottomRows<3>() -=
           by_bound(turn->law, c.arm) * by_motion.transpose();
     }
   }
 
   // The law at velocity `u` of the contact's point: impulse and tangent.
-  static void evaluate(const ImpactContact& c, const Vec3& u, Row& row) {
+  void evaluate(const Vec3& u, ImpactContact& c) const {
     const Vec3& n = c.normal;
     const Mat3 across = Mat3::Identity() - n * n.transpose();
     if (c.is_bond) {
-      row.impulse =
-          row.expected - row.normal_damping * u.dot(n) * n - row.shear_damping * (u - u.dot(n) * n);
-      row.tangent = row.normal_damping * n * n.transpose() + row.shear_damping * across;
+      c.impulse =
+          c.expected - c.normal_damping * u.dot(n) * n - c.shear_damping * (u - u.dot(n) * n);
+      c.tangent = c.normal_damping * n * n.transpose() + c.shear_damping * across;
       return;
     }
-    row.impulse.setZero();
-    row.tangent.setZero();
-    if (row.slip >= 0) return evaluate_convex(c, u, row);
-    const double pressed = n.dot(row.expected) - row.normal_damping * (n.dot(u) - row.target);
+    c.impulse.setZero();
+    c.tangent.setZero();
+    if (is_convex) return evaluate_convex(u, c);
+    const double pressed = n.dot(c.expected) - c.normal_damping * (n.dot(u) - c.target);
     if (pressed <= 0) return;
-    const Vec3 trial = across * (row.shear_damping * u - row.expected);
+    const Vec3 trial = across * (c.shear_damping * u - c.expected);
     const double size = trial.norm(), cap = c.friction * pressed;
-    row.tangent = row.normal_damping * n * n.transpose();
+    c.tangent = c.normal_damping * n * n.transpose();
     if (size <= cap) {
-      row.impulse = pressed * n - trial;
-      row.tangent += row.shear_damping * across;
+      c.impulse = pressed * n - trial;
+      c.tangent += c.shear_damping * across;
       return;
     }
     const Vec3 direction = trial / size, side = n.cross(direction);
-    row.impulse = pressed * n - cap * direction;
-    row.tangent += (cap * row.shear_damping / size) * side * side.transpose() -
-                   (c.friction * row.normal_damping) * direction * n.transpose();
+    c.impulse = pressed * n - cap * direction;
+    c.tangent += (cap * c.shear_damping / size) * side * side.transpose() -
+                 (c.friction * c.normal_damping) * direction * n.transpose();
   }
 
-  // The same where the slip `row.slip` is taken as known (de Saxce): the impulse is the nearest in
+  // The same where the slip `c.slip` is taken as known (de Saxce): the impulse is the nearest in
   // the cone of friction to what a damper would give that asks for friction times the slip more.
-  static void evaluate_convex(const ImpactContact& c, const Vec3& u, Row& row) {
+  static void evaluate_convex(const Vec3& u, ImpactContact& c) {
     const Vec3& n = c.normal;
-    const double D = row.shear_damping, mu = c.friction;
-    const Vec3 pull = row.expected - D * (u + (mu * row.slip - row.target) * n);
+    const double D = c.shear_damping, mu = c.friction;
+    const Vec3 pull = c.expected - D * (u + (mu * c.slip - c.target) * n);
     const double pressed = n.dot(pull);
     const Vec3 across = pull - pressed * n;
     const double size = across.norm();
     if (size <= mu * pressed) {
-      row.impulse = pull;
-      row.tangent = D * Mat3::Identity();
+      c.impulse = pull;
+      c.tangent = D * Mat3::Identity();
       return;
     }
     if (mu * size <= -pressed) return;
     const Vec3 direction = size > 0 ? Vec3(across / size) : Vec3(Vec3::Zero());
     const Vec3 ray = n + mu * direction, side = n.cross(direction);
     const double p_n = (pressed + mu * size) / (1 + mu * mu);
-    row.impulse = p_n * ray;
-    row.tangent = (D / (1 + mu * mu)) * ray * ray.transpose();
-    if (size > 0) row.tangent += (D * mu * p_n / size) * side * side.transpose();
+    c.impulse = p_n * ray;
+    c.tangent = (D / (1 + mu * mu)) * ray * ray.transpose();
+    if (size > 0) c.tangent += (D * mu * p_n / size) * side * side.transpose();
   }
 
   // M (v - v-) - sum J^T p per body, as a velocity: the largest.
@@ -220,21 +201,16 @@ struct Solver {
       w.residual.segment<3>(at) = dv.head<3>() / bodies[k].per_mass;
       w.residual.segment<3>(at + 3) = bodies[k].inertia * dv.tail<3>();
     }
-    const auto find = [&](size_t i) { evaluate(contacts[i], point_velocity(v, i), w.rows[i]); };
-    const bool shared = w.workers != nullptr && contacts.size() >= least_shared;
-    if (shared)
-      in_chunks(w.workers, contacts.size(), 16, least_shared, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) find(i);
-      });
-    for (size_t i = 0; i < contacts.size(); ++i) {
-      const ImpactContact& c = contacts[i];
-      if (!shared) find(i);
-      const Row& row = w.rows[i];
-      w.residual.segment<3>(6 * c.a) -= row.impulse;
-      w.residual.segment<3>(6 * c.a + 3) -= row.arm_a.cross(row.impulse);
+    in_chunks(w.workers, contacts.size(), [&](size_t begin, size_t end) {
+      for (ImpactContact& c : contacts.subspan(begin, end - begin))
+        evaluate(point_velocity(v, c), c);
+    });
+    for (const ImpactContact& c : contacts) {
+      w.residual.segment<3>(6 * c.a) -= c.impulse;
+      w.residual.segment<3>(6 * c.a + 3) -= c.arm_a.cross(c.impulse);
       if (c.b < 0) continue;
-      w.residual.segment<3>(6 * c.b) += row.impulse;
-      w.residual.segment<3>(6 * c.b + 3) += row.arm_b.cross(row.impulse);
+      w.residual.segment<3>(6 * c.b) += c.impulse;
+      w.residual.segment<3>(6 * c.b + 3) += c.arm_b.cross(c.impulse);
     }
     if (!w.turns.empty()) add_couples(v);
     double worst = 0;
@@ -245,12 +221,6 @@ struct Solver {
                                                               m.dot(bodies[k].per_inertia * m))));
     }
     return worst;
-  }
-
-  static Mat3 cross_matrix(const Vec3& x) {
-    Mat3 X;
-    X << 0, -x.z(), x.y(), x.z(), 0, -x.x(), -x.y(), x.x(), 0;
-    return X;
   }
 
   // T(arm)^T K T(arm') of a contact's tangent.
@@ -278,18 +248,16 @@ struct Solver {
       M.topLeftCorner<3, 3>().diagonal().setConstant(1 / bodies[k].per_mass);
       M.bottomRightCorner<3, 3>() = bodies[k].inertia;
     }
-    for (size_t i = 0; i < contacts.size(); ++i) {
-      const ImpactContact& c = contacts[i];
-      const Row& row = w.rows[i];
-      if (row.tangent.isZero(0)) continue;
+    for (const ImpactContact& c : contacts) {
+      if (c.tangent.isZero(0)) continue;
       const auto add = [&](int k, const Vec3& arm) {
-        w.matrix.diagonal[w.matrix.pattern.place[k]] += block(row.tangent, arm, arm);
+        w.matrix.diagonal[w.matrix.pattern.place[k]] += block(c.tangent, arm, arm);
       };
-      add(c.a, row.arm_a);
+      add(c.a, c.arm_a);
       if (c.b < 0) continue;
-      add(c.b, row.arm_b);
-      add_blocks<6>(w.matrix, c.a, c.b, -block(row.tangent, row.arm_a, row.arm_b),
-                    -block(row.tangent, row.arm_b, row.arm_a));
+      add(c.b, c.arm_b);
+      add_blocks<6>(w.matrix, c.a, c.b, -block(c.tangent, c.arm_a, c.arm_b),
+                    -block(c.tangent, c.arm_b, c.arm_a));
     }
     if (!w.turns.empty()) add_couple_tangents();
   }
@@ -330,13 +298,13 @@ struct Solver {
     for (int cut = 0; cut < 8; ++cut, share /= 2) {
       w.tried = w.velocity + share * w.step;
       next = balance(w.tried);
-      if (k < whole_steps || next < error) break;
+      if (k < law::lone_free_steps || next < error) break;
     }
     return next;
   }
 
   // One round: the velocities that belong to the expected impulses.
-  bool solve_round(bool is_convex) {
+  bool solve_round() {
     const double enough = tolerance * scale + rounding, nearly = loose_tolerance * scale + rounding;
     const int most = is_convex ? most_convex_steps : most_steps;
     double error = balance(w.velocity);
@@ -354,10 +322,7 @@ struct Solver {
   }
 
   void scale_stiffness(double factor) {
-    for (Row& row : w.rows) {
-      row.normal_damping *= factor;
-      row.shear_damping *= factor;
-    }
+    for (ImpactContact& c : contacts) c.normal_damping *= factor, c.shear_damping *= factor;
     for (ImpactWork::Turn& turn : w.turns) turn.damping *= factor;
   }
 
@@ -367,7 +332,7 @@ struct Solver {
     for (ImpactWork::Turn& turn : w.turns) {
       gives = std::max(gives, turn.lever * (turn.couple - turn.expected).norm() / turn.damping);
       turn.expected = turn.couple;
-      if (!is_held) continue;
+      if (!is_convex) continue;
       const double missing = std::abs(turn.bounds.rolling - turn.held.rolling) +
                              std::abs(turn.bounds.spinning - turn.held.spinning);
       gives = std::max(
@@ -380,17 +345,18 @@ struct Solver {
   // Rounds until no contact gives way any more, with ever stiffer contacts: what sticks, slides or
   // opens is found while they are soft. In the convex form slips are renewed with the impulses:
   // velocities do not depend on how contacts share impulses, so neither do they.
-  bool solve_rounds(bool is_convex, int most, double stiffness) {
-    double gives = 0, last = std::numeric_limits<double>::infinity();
+  bool solve_rounds() {
+    begin_rounds();
+    double gives = 0, last = std::numeric_limits<double>::infinity(), stiffness = first_stiffness;
     scale_stiffness(stiffness);
-    for (int round = 0; round < most; ++round) {
-      const bool solved = solve_round(is_convex);
+    for (int round = 0; round < (is_convex ? most_convex_rounds : most_rounds); ++round) {
+      const bool solved = solve_round();
       if (!solved && !is_convex) {
         gives = scale;
         break;
       }
-      gives = renew(is_convex);
-      if (solved && (gives <= round_tolerance * scale + rounding ||
+      gives = renew();
+      if (solved && (gives <= last_figures * scale + rounding ||
                      (gives <= settled * scale && gives > last / 2)))
         break;
       last = gives;
@@ -405,68 +371,54 @@ struct Solver {
   }
 
   // Impulses and slips found are those expected from now on: by how much they were not [m/s].
-  double renew(bool is_convex) {
+  double renew() {
     double gives = renew_couples(), along_change = 0, change = 0;
-    for (size_t i = 0; i < contacts.size(); ++i) {
-      Row& row = w.rows[i];
-      const Vec3& n = contacts[i].normal;
-      const Vec3 error = row.impulse - row.expected;
-      const double along = n.dot(error),
-                   damping = is_convex ? row.shear_damping : row.normal_damping;
+    for (ImpactContact& c : contacts) {
+      const Vec3& n = c.normal;
+      const Vec3 error = c.impulse - c.expected;
+      const double along = n.dot(error), damping = is_convex ? c.shear_damping : c.normal_damping;
       gives = std::max(
-          {gives, std::abs(along) / damping, (error - along * n).norm() / row.shear_damping});
-      row.expected = row.impulse;
-      if (!is_convex || contacts[i].is_bond) continue;
-      const Vec3 u = point_velocity(w.velocity, i);
-      const double slip = (u - n.dot(u) * n).norm(), missing = slip - row.slip;
-      if (!row.impulse.isZero(0)) gives = std::max(gives, contacts[i].friction * std::abs(missing));
-      const double turned = missing - row.missing_slip;
-      along_change += row.missing_slip * turned;
+          {gives, std::abs(along) / damping, (error - along * n).norm() / c.shear_damping});
+      c.expected = c.impulse;
+      if (!is_convex || c.is_bond) continue;
+      const Vec3 u = point_velocity(w.velocity, c);
+      const double slip = (u - n.dot(u) * n).norm(), missing = slip - c.slip;
+      if (!c.impulse.isZero(0)) gives = std::max(gives, c.friction * std::abs(missing));
+      const double turned = missing - c.missing_slip;
+      along_change += c.missing_slip * turned;
       change += turned * turned;
-      row.missing_slip = missing;
+      c.missing_slip = missing;
     }
     if (!is_convex) return gives;
     // Aitken: less where slips swing, more where they creep
     if (has_missing && change > 0)
-      renewed = std::clamp(-renewed * along_change / change, least_renewed, most_renewed);
+      renewed = std::clamp(-renewed * along_change / change, 1 / most_renewed, most_renewed);
     has_missing = true;
-    for (Row& row : w.rows) row.slip = std::max(0.0, row.slip + renewed * row.missing_slip);
+    for (ImpactContact& c : contacts) c.slip = std::max(0.0, c.slip + renewed * c.missing_slip);
     return gives;
-  }
-
-  // Speed of a contact's point per impulse on it.
-  [[nodiscard]] Mat3 compliance(size_t i) const {
-    const auto of_body = [](const ImpactBody& body, const Vec3& arm) -> Mat3 {
-      const Mat3 X = cross_matrix(arm);
-      return body.per_mass * Mat3::Identity() - X * body.per_inertia * X;
-    };
-    const ImpactContact& c = contacts[i];
-    Mat3 W = of_body(bodies[c.a], w.rows[i].arm_a);
-    if (c.b >= 0) W += of_body(bodies[c.b], w.rows[i].arm_b);
-    return W;
   }
 
   // One contact alone: it sticks, or slides along a direction in which what friction leaves of the
   // slip points. False where that direction is not found.
   bool solve_one() {
-    const ImpactContact& c = contacts[0];
-    Row& row = w.rows[0];
+    ImpactContact& c = contacts[0];
     const Vec3& n = c.normal;
     ++passes;
-    const Mat3 W = compliance(0);
-    const Vec3 u = point_velocity(w.before, 0);
-    const double normal = n.dot(W * n), missing = row.target - n.dot(u);
+    Mat3 W = response(bodies[c.a], c.arm_a, c.arm_a);
+    if (c.b >= 0) W += response(bodies[c.b], c.arm_b, c.arm_b);
+    const Vec3 u = point_velocity(w.before, c);
+    const double normal = n.dot(W * n), missing = c.target - n.dot(u);
     if (!c.is_bond && missing <= 0) return true;
-    row.impulse = W.ldlt().solve(row.target * n - u);
-    const double p_n = n.dot(row.impulse);
-    if (c.is_bond || (p_n >= 0 && (row.impulse - p_n * n).norm() <= c.friction * p_n)) return true;
+    c.impulse = W.ldlt().solve(c.target * n - u);
+    const double p_n = n.dot(c.impulse);
+    if (c.is_bond || (p_n >= 0 && (c.impulse - p_n * n).norm() <= c.friction * p_n)) return true;
     const Vec3 t = n.unitOrthogonal(), s = n.cross(t);
     const Vec2 across(t.dot(u), s.dot(u)), coupling(t.dot(W * n), s.dot(W * n));
     Mat2 A;
     A << t.dot(W * t), t.dot(W * s), s.dot(W * t), s.dot(W * s);
     // a contact that does not slip before slides where the push across its lever throws it
     Vec2 direction = across.isZero(0) ? coupling : across;
-    for (int k = 0; k < most_turns; ++k) {
+    for (int k = 0; k < most_rounds; ++k) {
       ++passes;
       direction.normalize();
       if (!direction.allFinite()) return false;
@@ -477,7 +429,7 @@ struct Solver {
       const Vec2 slip = across + pressed * per_pressed, turned(-direction.y(), direction.x());
       const double error = turned.dot(slip);
       if (std::abs(error) <= tolerance * scale && direction.dot(slip) >= 0) {
-        row.impulse = pressed * (n - c.friction * (direction.x() * t + direction.y() * s));
+        c.impulse = pressed * (n - c.friction * (direction.x() * t + direction.y() * s));
         return true;
       }
       const double pressed_by_turn = pressed * c.friction * coupling.dot(turned) / gives;
@@ -491,45 +443,23 @@ struct Solver {
 
   void begin_rounds() {
     w.velocity = w.before;
-    for (Row& row : w.rows) row.expected.setZero();
+    for (ImpactContact& c : contacts) c.expected.setZero(), c.slip = 0;
     for (ImpactWork::Turn& turn : w.turns) {
       turn.expected.setZero();
       turn.held = {};
     }
-  }
-
-  void set_form(bool is_convex) {
-    for (Row& row : w.rows) row.slip = is_convex ? 0 : -1;
-    is_held = is_convex;
     has_missing = false;
     renewed = 1;
   }
 
   // Newton's method with friction that follows the normal impulses is quick, and fails where many
-  // contacts stick and slide. The convex form finds which do, and then it is quick again. What has
-  // not settled is nearly a solution, and whatever its slips are it gains no energy without
-  // restitution (theory 1.12).
+  // contacts stick and slide. The convex form then finds which do. What has not settled is nearly a
+  // solution, and whatever its slips are it gains no energy without restitution (theory 1.12).
   bool solve() {
     find_pattern();
-    begin_rounds();
-    set_form(false);
-    if (solve_rounds(false, most_rounds, first_stiffness)) return true;
-    begin_rounds();
-    set_form(true);
-    for (int k = 0; k < most_convex_tries; ++k) {
-      if (solve_rounds(true, convex_rounds, k == 0 ? first_stiffness : stiffness_ratio))
-        return true;
-      w.kept = w.rows;
-      w.kept_turns = w.turns;
-      w.kept_velocity = w.velocity;
-      set_form(false);
-      if (solve_rounds(false, most_rounds, stiffness_ratio / 100)) return true;
-      w.rows.swap(w.kept);
-      w.turns.swap(w.kept_turns);
-      is_held = true;
-      w.velocity.swap(w.kept_velocity);
-      has_missing = false;
-      renewed = 1;
+    for (const bool convex : {false, true}) {
+      is_convex = convex;
+      if (solve_rounds()) return true;
     }
     (void)balance(w.velocity);
     return false;
@@ -539,7 +469,7 @@ struct Solver {
   bool solve_any() {
     if (contacts.size() == 1 && w.turns.empty() && solve_one()) return true;
     if (contacts.size() > 1 && contacts.size() <= FewContacts::most && w.turns.empty() &&
-        solve_few(bodies, contacts, w.before, scale, w.rows, w.few, passes))
+        solve_few(bodies, contacts, w.before, scale, w.few, passes))
       return true;
     return solve();
   }
@@ -573,11 +503,9 @@ struct Solver {
       w.velocity.segment<3>(6 * k) += body.per_mass * p;
       w.velocity.segment<3>(6 * k + 3) += body.per_inertia * arm.cross(p);
     };
-    for (size_t i = 0; i < contacts.size(); ++i) {
-      const ImpactContact& c = contacts[i];
-      const Row& row = w.rows[i];
-      add(c.a, row.arm_a, row.impulse);
-      if (c.b >= 0) add(c.b, row.arm_b, -row.impulse);
+    for (const ImpactContact& c : contacts) {
+      add(c.a, c.arm_a, c.impulse);
+      if (c.b >= 0) add(c.b, c.arm_b, -c.impulse);
     }
     for (const ImpactWork::Turn& turn : w.turns)
       w.velocity.segment<3>(6 * turn.body + 3) +=
@@ -587,13 +515,8 @@ struct Solver {
   // The largest share of the restitution that gains no energy.
   bool lower_restitution(Impact& out) {
     w.full = w.velocity;
-    w.full_impulse.clear();
-    for (Row& row : w.rows) {
-      w.full_impulse.push_back(row.impulse);
-      row.target = 0;
-    }
-    w.full_couple.clear();
-    for (const ImpactWork::Turn& turn : w.turns) w.full_couple.push_back(turn.couple);
+    for (ImpactContact& c : contacts) c.full_impulse = c.impulse, c.target = 0;
+    for (ImpactWork::Turn& turn : w.turns) turn.full_couple = turn.couple;
     const bool solved = solve_any();
     take_impulses();
     w.full -= w.velocity;
@@ -603,10 +526,9 @@ struct Solver {
     out.share =
         largest_share(square, work_of(w.velocity, gained), energy(w.velocity) - energy(w.before));
     w.velocity += out.share * gained;
-    for (size_t i = 0; i < w.rows.size(); ++i)
-      w.rows[i].impulse += out.share * (w.full_impulse[i] - w.rows[i].impulse);
-    for (size_t i = 0; i < w.turns.size(); ++i)
-      w.turns[i].couple += out.share * (w.full_couple[i] - w.turns[i].couple);
+    for (ImpactContact& c : contacts) c.impulse += out.share * (c.full_impulse - c.impulse);
+    for (ImpactWork::Turn& turn : w.turns)
+      turn.couple += out.share * (turn.full_couple - turn.couple);
     return solved;
   }
 };
@@ -623,30 +545,22 @@ Impact solve_impact(std::span<ImpactBody> bodies, std::span<ImpactContact> conta
   Impact out;
   Solver solver{bodies, contacts, work};
   solver.begin();
-  for (size_t i = 0; i < contacts.size(); ++i) {
-    ImpactContact& c = contacts[i];
-    c.approach = c.normal.dot(solver.point_velocity(work.before, i));
-    if (!c.is_bond && c.approach < -c.resting_speed)
-      work.rows[i].target = -c.fall.at(c.restitution, -c.approach) * c.approach;
-  }
   const double before = solver.energy(work.before);
   out.converged = solver.solve_any();
   solver.take_impulses();
-  if (solver.energy(work.velocity) > (1 + gain_rounding) * before)
+  if (solver.energy(work.velocity) > (1 + last_figures) * before)
     out.converged = solver.lower_restitution(out) && out.converged;
   out.passes = solver.passes;
   if (!work.velocity.allFinite()) {
     out.converged = false;
+    for (ImpactContact& c : contacts) c.impulse.setZero();
     return out;
   }
-  for (size_t i = 0; i < contacts.size(); ++i) contacts[i].impulse = work.rows[i].impulse;
   for (size_t k = 0; k < bodies.size(); ++k)
     bodies[k].velocity = work.velocity.segment<6>(static_cast<Eigen::Index>(6 * k));
   out.dissipated = before - solver.energy(work.velocity);
-  for (size_t i = 0; i < contacts.size(); ++i) {
-    const ImpactContact& c = contacts[i];
-    const Vec3 mean =
-        (solver.point_velocity(work.before, i) + solver.point_velocity(work.velocity, i)) / 2;
+  for (const ImpactContact& c : contacts) {
+    const Vec3 mean = (point_velocity(work.before, c) + point_velocity(work.velocity, c)) / 2;
     out.by_friction -= (c.impulse - c.normal.dot(c.impulse) * c.normal).dot(mean);
   }
   for (const ImpactWork::Turn& turn : work.turns) {

@@ -31,7 +31,6 @@ struct Impact {
 
 /// Scratch of solve_impact.
 struct ImpactWork {  // clang-format off
-  using Row = ImpactRow;
   /// A body that the ground resists to roll on it.
   struct Turn {
     int body = 0;
@@ -41,16 +40,14 @@ struct ImpactWork {  // clang-format off
     CoupleBounds held;                   ///< by those expected
     Vec3 expected = Vec3::Zero();        ///< couple that the solution is sought around [N m s]
     Vec3 couple = Vec3::Zero();          ///< [N m s]
+    Vec3 full_couple = Vec3::Zero();     ///< with all of the restitution
     Mat3 tangent = Mat3::Zero();         ///< - d couple / d spin [kg m2]
     AngularRow law;                      ///< at the last evaluation
   };
   Workers* workers = nullptr;            ///< share the contacts of a large group
-  std::vector<Turn> turns, kept_turns;   ///< mostly none
+  std::vector<Turn> turns;               ///< mostly none
   std::vector<int> turn_of;              ///< of a body, -1: none; empty: no turns         (n_bodies)
-  std::vector<Vec3> full_couple;         ///< with all of the restitution
-  std::vector<Row> rows, kept;           ///<                                            (n_contacts)
-  std::vector<Vec3> full_impulse;        ///< with all of the restitution                (n_contacts)
-  Eigen::VectorXd before, velocity, kept_velocity, full, tried, residual, step;  ///<   (6 n_bodies)
+  Eigen::VectorXd before, velocity, full, tried, residual, step;  ///<                  (6 n_bodies)
   FewContacts few;
   BlockLu<6> matrix;
   std::vector<std::pair<int, int>> edges;

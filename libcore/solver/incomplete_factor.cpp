@@ -82,10 +82,8 @@ void set_pivot(const Packed<6>& diagonal, size_t k, IncompleteFactor& factor) {
 
 // --- rows that need others ---------------------------------------------------------------------
 
-constexpr size_t rows_a_chunk = 16, least_rows = 128;  // below, threads wait more than they spare
-
 bool has_workers(const IncompleteFactor& factor) {
-  return factor.workers != nullptr && factor.order.size() >= least_rows;
+  return are_shared(factor.workers, factor.order.size());
 }
 
 // Calls row(k) for each place, as if one by one: in several threads each row waits for those that
@@ -99,7 +97,7 @@ void sweep(IncompleteFactor& factor, bool upwards, const ForNeeded& for_needed, 
   }
   if (factor.done.size() < n) factor.done.resize(n, 0);
   const std::uint64_t number = ++factor.n_sweeps;
-  in_chunks(factor.workers, n, rows_a_chunk, least_rows, [&](size_t begin, size_t end) {
+  in_chunks(factor.workers, n, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const size_t k = upwards ? i : n - 1 - i;
       for_needed(k, [&](int needed) {
@@ -124,7 +122,7 @@ void sweep_up(IncompleteFactor& factor, const Row& row) {
 // Calls work(k) for each place: in any order.
 template <class Work>
 void for_rows(const IncompleteFactor& factor, const Work& work) {
-  in_chunks(factor.workers, factor.order.size(), 64, least_rows, [&](size_t begin, size_t end) {
+  in_chunks(factor.workers, factor.order.size(), [&](size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) work(k);
   });
 }

@@ -144,7 +144,7 @@ bool sum_pair(Island& island, const BodyPair& pair, Packed<6>& W, Mat6* rest) {
 // Symmetric tangents of `pairs`, and by how much they changed: each is its pair's alone.
 void renew_tangents(Island& island, std::span<const int> pairs, IslandMatrix& matrix) {
   if (matrix.change.size() < pairs.size()) matrix.change.resize(pairs.size());
-  in_chunks(matrix.workers, pairs.size(), 32, 128, [&](size_t begin, size_t end) {
+  in_chunks(matrix.workers, pairs.size(), [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const auto p = static_cast<size_t>(pairs[i]);
       const BodyPair& pair = island.pairs[p];

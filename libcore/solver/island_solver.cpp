@@ -7,6 +7,7 @@
 
 #include "solver/law_numbers.hpp"
 #include "solver/one_contact.hpp"
+#include "solver/relax.hpp"
 #include "solver/row_groups.hpp"
 
 namespace talus {
@@ -15,8 +16,6 @@ namespace {
 using std::size_t;
 
 using law::slack;
-
-constexpr size_t least_shared = 128;  // pairs: below, threads wait more than they spare
 
 /// One solve; a struct so that its parts share what they all need.
 struct Solve {
@@ -103,7 +102,7 @@ struct Solve {
     }
   }
 
-  using FewPairs = std::array<PairEvaluation, 32>;  // few enough to stay near
+  using FewPairs = std::array<PairEvaluation, chunk_size>;  // few enough to stay near
 
   [[gnu::always_inline]] void evaluate_few(std::span<const int> pairs, Evaluation evaluation,
                                            FewPairs& now) {
@@ -126,8 +125,7 @@ struct Solve {
 
   // Contacts of active bodies; what a body at rest had from them before is replaced.
   [[gnu::flatten]] void evaluate_contacts(std::span<const int> pairs, Evaluation evaluation) {
-    if (work.matrix.workers != nullptr && pairs.size() >= least_shared)
-      return evaluate_shared(pairs, evaluation);
+    if (are_shared(work.matrix.workers, pairs.size())) return evaluate_shared(pairs, evaluation);
     FewPairs now;
     for (size_t begin = 0; begin < pairs.size(); begin += now.size()) {
       const auto some = pairs.subspan(begin, std::min(now.size(), pairs.size() - begin));
@@ -141,7 +139,7 @@ struct Solve {
   void evaluate_shared(std::span<const int> pairs, Evaluation evaluation) {
     std::vector<PairImpulse>& found = work.evaluated;
     if (found.size() < pairs.size()) found.resize(pairs.size());
-    in_chunks(work.matrix.workers, pairs.size(), std::tuple_size_v<FewPairs>, least_shared,
+    in_chunks(work.matrix.workers, pairs.size(),
               [&](size_t begin, size_t end) { evaluate_part(pairs, begin, end, evaluation); });
     for (size_t i = 0; i < pairs.size(); ++i)
       take_impulse(pairs[i], found[i].changed, found[i].impulse);
@@ -292,55 +290,38 @@ struct Solve {
     return false;
   }
 
-  // A step of pseudo-time `step_time` from work.from, whose residual has the energy `before`: the
-  // implicit Euler step of M dv/dt = -residual by one step of Newton. Returns the share of that
-  // residual which the step leaves of its own equation, as a root of energies.
-  double relax(double step_time, double before) {
-    scale_masses(1 + 1 / step_time, work.matrix);
-    find_step();
-    keep_from();
-    go_along(1);
-    evaluate(Evaluation::coupled);
-    double left = 0;
-    for (size_t i = 0; i < work.residual.size(); ++i) {
-      const Mat6& mass = island.mass[i];
-      const Vec6 r = work.residual[i] + times_mass(mass, work.step[i]) / step_time;
-      left += r.dot(solve_mass(mass, r));
-    }
-    return std::sqrt(left / before);
+  [[nodiscard]] static double energy(const Mat6& mass, const Vec6& r) {
+    return r.dot(solve_mass(mass, r));
   }
 
-  [[nodiscard]] double energy_of_residual() const {
-    double sum = 0;
-    for (size_t i = 0; i < work.residual.size(); ++i)
-      sum += work.residual[i].dot(solve_mass(island.mass[i], work.residual[i]));
-    return sum;
-  }
-
-  // The free motion comes to rest under the residual, in a time of its own that has nothing to do
-  // with the step: what that settles on is a solution, and one that is stable. Where a light body
-  // is jammed by a heavy one, forces differ by orders of magnitude between solutions that are next
-  // to each other, and steps of Newton do not get there. Steps of that time are as long as one step
-  // of Newton gets their implicit equation right, and become steps of Newton near the end.
   bool solve_relaxing() {
     direct = n_bodies(island) <= settings.direct_fallback;
     work.velocity = island.free_velocity;
     work.matrix.changed_pairs.fill();
     activate_all(island, work.matrix);
-    double residual = evaluate(Evaluation::coupled);
-    double time = 1 / std::max(1.0, work.stiffness_ratio);
-    for (int steps = 0; residual > tolerance && steps < 3 * settings.max_passes; ++steps) {
-      const double left = relax(time, energy_of_residual());
-      residual = result.residual;
-      if (!(left < 1)) {
-        go_along(0);
-        residual = evaluate(Evaluation::coupled);
-      }
-      const double next = std::isfinite(left) ? std::sqrt(law::usually_left / left) : 0;
-      time *= std::clamp(next, 1 / law::longer, law::longer);
-    }
+    evaluate(Evaluation::coupled);
+    const auto advance = [&](double time) {
+      double before = 0, left = 0;
+      for (size_t i = 0; i < work.residual.size(); ++i)
+        before += energy(island.mass[i], work.residual[i]);
+      scale_masses(1 + 1 / time, work.matrix);
+      find_step();
+      keep_from();
+      go_along(1);
+      evaluate(Evaluation::coupled);
+      for (size_t i = 0; i < work.residual.size(); ++i)
+        left += energy(island.mass[i],
+                       work.residual[i] + times_mass(island.mass[i], work.step[i]) / time);
+      left = std::sqrt(left / before);
+      if (left < 1) return left;
+      go_along(0);
+      evaluate(Evaluation::coupled);
+      return left;
+    };
+    const auto is_open = [&] { return result.residual > tolerance; };
+    relax(work.stiffness_ratio, 3 * settings.max_passes, is_open, advance);
     scale_masses(1, work.matrix);
-    return residual <= tolerance;
+    return result.residual <= tolerance;
   }
 
   // Velocities that are handed back: v - M^-1 residual, so that what the bodies exchange adds up to

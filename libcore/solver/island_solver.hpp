@@ -13,8 +13,8 @@ namespace talus {
 
 struct IslandSettings {
   double tolerance = 0;        ///< largest residual, as a velocity of a body's points, > 0 [m/s]
-  int max_passes = 200;        ///< evaluations of all contacts; then three times as many steps
-                               ///< of pseudo-time
+  int max_passes = 200;        ///< evaluations of all contacts; then it relaxes, in three
+                               ///< times as many steps
   Vec3 down = -Vec3::UnitZ();  ///< along gravity: the order in which bodies are eliminated
   double linear_tolerance = 1e-2;   ///< of conjugate gradients, relative to the step's start
   int max_linear_iterations = 250;  ///< of conjugate gradients in one step

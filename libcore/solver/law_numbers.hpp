@@ -13,21 +13,52 @@
 
 namespace talus::law {
 
+// --- scales that many rules share --------------------------------------------------------------
+
+/// [thickness] Shallow: a hit that ends deeper is remembered (Tried: none; edges that slide while
+/// they turn are hit anew in every step, each time with all overlap as an offset), one of the next
+/// substep goes no deeper, bodies with more overlap are measured, a displacement counts as no less
+/// when errors are compared with it. [radius] A jump of a gap over one plane is by turning up to
+/// this, and left unpressed; a contact that comes fast takes over no memory when it is deeper by
+/// more.
+inline constexpr double shallow = 1e-2;
+/// [thickness] Sunk in: overlap above this is pressed out whatever the force, in full from twice as
+/// much on; a contact is stiffer than the heaviest neighbour asks for; what a hit left deep is hit
+/// anew when a substep brings it in by so much; a hit cuts the substep that ends deeper by so much.
+inline constexpr double sunk = 2e-2;
+/// [g h, or the resting speed] Speed that is no hit where the solver's error or a block's own
+/// motion may bring it about, and that a sweep of a mass may still change. Tried for masses: 0.05;
+/// a wall that a mass reaches at one end sags by 2 mm in a second at the other, and a block on 400
+/// that are 10,000 times lighter comes 2.5 % short of its closed form.
+inline constexpr double least_speed = 2e-2;
+/// [-] Longest or shortest next substep, step of pseudo-time, or stiffness of a contact that slips
+/// or opens: this many times the last. Tried for pseudo-time: 10; half as many steps again.
+inline constexpr double largest_change = 4;
+/// [blocks] An island of at most so many is small; a mass of which no more are faster than g dt is
+/// calm.
+inline constexpr std::size_t few_blocks = 8;
+/// [-] Rounds of a substep until no contact is added that hits left to be stopped; cuts in a step
+/// where a block would end deep in something.
+inline constexpr int most_rounds_in_substep = 8;
+/// [-] Rounds of hits at one time, and two for each block that they hit; hits in a step of a lone
+/// block, or of an island whose hits end substeps; half of the looks at a pair in a substep.
+inline constexpr int most_hits = 40;
+/// [-] Repetitions of a substep: of a lone block, to find an event or to converge; where what gives
+/// way is used up.
+inline constexpr int most_repetitions = 24;
+
 // --- stiffness ---------------------------------------------------------------------------------
 
 /// [-] k_n dt^2 / m of the stiffest contact of a lone block. Tried: the block's full mass for m;
 /// needles fail.
 inline constexpr double stiffest_lone = 400;
-/// [-] The same in an island, before a contact knows what it bears. Tried: 400 for all; the forces
-/// of masses in motion are not found.
-inline constexpr double stiffest_in_island = 1;
-/// [-] The same where the island's matrix is cheap to factor, and of a mass that stands since the
-/// start. Tried: 1 for these; twin towers near the angle at which they topple sway and fall. 30 for
-/// all that rests; a mass that comes to rest is thrown up again and again.
+/// [-] The same in an island whose matrix is cheap to factor, and of a mass that stands since the
+/// start, before a contact knows what it bears; 1 in all others. Tried: 1 for these; twin towers
+/// near the angle at which they topple sway and fall. 30 for all that rests; a mass that comes to
+/// rest is thrown up again and again. 400 for all; the forces of masses in motion are not found.
 inline constexpr double stiffest_at_rest = 30;
-/// [blocks] A small island has at most so many ...
-inline constexpr std::size_t small_island = 8;
-/// [blocks] ... or so many that hang together without a ring: a column ...
+/// [blocks] An island is small, too, of so many blocks that hang together without a ring: a column
+/// ...
 inline constexpr std::size_t small_tree = 64;
 /// [g times the sum of thicknesses] ... whose squared speeds are below this: it stands or topples.
 inline constexpr double column_falls = 0.1;
@@ -44,9 +75,8 @@ inline constexpr double most_sag_in_motion = 1e-5;
 /// little, or is as stiff as that asks. Tried: none; small blocks under a large one that slides
 /// sink in.
 inline constexpr double soft_sag = 2;
-/// [thickness] It is stiffer than the heaviest neighbour asks for at this overlap ...
-inline constexpr double most_sag_of_thickness = 2e-2;
-/// [soft sags] ... or this one, where that is more.
+/// [soft sags] It is stiffer than the heaviest neighbour asks for where it is sunk in, or at this
+/// overlap where that is more.
 inline constexpr double far_sag = 4;
 /// [-] k_n dt^2 / m of the stiffest contact by its load.
 inline constexpr double stiffest_by_load = 4e5;
@@ -55,10 +85,8 @@ inline constexpr double stiffest_by_load = 4e5;
 inline constexpr double easing = 4096;
 /// [-] ... then all of the island is soft, at once where a block moves; then substeps are halved.
 inline constexpr int most_eased = 2;
-/// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for ...
+/// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for.
 inline constexpr double stiffens = 2;
-/// [-] ... one that slips or opens softer by so much.
-inline constexpr double softens = 4;
 /// [g dt] Speed of slip or of opening from which a contact does not rest, nor a block.
 inline constexpr double slow = 0.2;
 /// [passes] An island whose first solution in a substep takes more is hard: contacts of what
@@ -71,9 +99,8 @@ inline constexpr double relief = 8;
 inline constexpr int most_rests = 40;
 /// [-] Solutions of the first step until contacts are as stiff as they bear.
 inline constexpr int most_settlings = 12;
-/// [-] Stiffness of a contact whose load asks for more: times what it needs ...
-inline constexpr double ample = 2;
-/// [-] ... times that in the first step, in which all sag at once. Tried: 2; towers sway ...
+/// [-] Stiffness of a contact whose load asks for more: `stiffens` times what it needs; times that
+/// in the first step, in which all sag at once. Tried: 2; towers sway ...
 inline constexpr double ample_at_start = 8;
 /// [-] ... and kept until it is this many times what it needs. Tried: 8; layers of small blocks
 /// that slide under a large one grow soft and are squeezed out. 100; a tower of 16 creeps at 20 ms.
@@ -87,39 +114,29 @@ inline constexpr double recovery_steps = 3;
 
 // --- touching, and overlap that presses nothing ------------------------------------------------
 
-/// [radius] A contact with the ground touches below this gap.
+/// [radius] A contact with the ground touches below this gap, one of a pair below what is
+/// negligible.
 inline constexpr double touch_ratio = 1e-8;
-/// [radius] A pair touches below this gap.
-inline constexpr double pair_touch_ratio = 1e-6;
 /// [g h] Speed at which overlap that presses nothing relaxes: slower than gravity, nothing hops ...
 inline constexpr double relaxes_by_gravity = 0.25;
-/// [m/s] ... and at most this.
+/// [m/s] ... and at most this, as deep overlap does in a mass. Tried for masses: all overlap;
+/// blocks that come from the exact step are lifted with what lies on them, again and again.
 inline constexpr double fastest_relaxing = 0.3;
 /// [weights] Overlap is pressed out in full up to this force, not at all from twice as much on.
 /// Tried: without bound; blocks that are jammed are thrown out.
 inline constexpr double heavy = 3;
-/// [thickness] Above this overlap it is pressed out all the same, in full from twice as much on.
-inline constexpr double relaxes_anyway = 0.02;
-/// [radius] A gap jumps over one plane by turning; so much of it is left unpressed ...
-inline constexpr double most_by_turning = 1e-2;
-/// [thickness] ... or so much, where that is less. Tried: all of it; a needle that spins on its tip
-/// sinks in step after step.
+/// [thickness] A jump by turning is left unpressed up to this. Tried: all of it; a needle that
+/// spins on its tip sinks in step after step.
 inline constexpr double most_of_thickness = 5e-2;
-/// [radius] A contact that comes fast takes over no memory when it is so much deeper.
-inline constexpr double far_deeper = 1e-2;
-/// [thickness] One that a hit left deep is hit anew when a substep brings it so much farther in.
-inline constexpr double far_in = 2e-2;
-/// [thickness] A hit that ends deeper than this is remembered. Tried: none; edges that slide while
-/// they turn are hit anew in every step, each time with all overlap as an offset.
-inline constexpr double remembered_hit = 1e-2;
 
 // --- how long a substep may be -----------------------------------------------------------------
 
 /// [rad] A block of an island turns by no more in a substep.
 inline constexpr double most_turn = 0.5;
-/// [thickness] A point goes by no more relative to a neighbour.
-inline constexpr double most_travel = 0.1;
-/// [substeps in dt] For these two reasons no more than this.
+/// [substeps in dt] For this reason, or since a point goes by no more than deep_share relative to a
+/// neighbour, no more than this. In a mass it may go by twice that: a hit that returns nothing
+/// leaves half of it as overlap. Tried for masses: five times; rocks that are poured end a fifth of
+/// their thickness in each other.
 inline constexpr double most_substeps = 64;
 /// [h] Pairs are searched so far ahead. Tried: at predicted poses; an approach becomes an overlap
 /// with the wrong face.
@@ -129,25 +146,17 @@ inline constexpr double slides_by_turn = 0.05;
 
 // --- hits --------------------------------------------------------------------------------------
 
-/// [g dt] Approaches above the larger of these rebound: at least this much, which resting contacts
-/// reach ...
-inline constexpr double resting_by_gravity = 1;
-/// [g dt] ... at most this much ...
+/// [g dt] Approaches above the larger of these rebound: at least g dt, which resting contacts
+/// reach, at most this much ...
 inline constexpr double rebounds_by_gravity = 2;
 /// [m/s] ... and in between those faster than this. Tried: 2 g dt at any step; what rocks lose by
 /// the rebounds that are left out shortens a slide at large steps.
 inline constexpr double rebound_matters = 0.1;
-/// [g dt] Times the factor on the solver's tolerance: what its error may bring about is no hit.
-inline constexpr double least_by_tolerance = 2e-2;
 /// [size] Corners of a pair, and pairs, whose gaps differ by less are hit at one time. Tried: 1e-6
 /// to 1e-4; a tilt beyond it is a hit of one corner.
 inline constexpr double hit_window = 1e-5;
-/// [h] Looks closer than this are at one time.
-inline constexpr double one_time = 1e-9;
 /// [-] Looks at true gaps to find the time of a hit.
 inline constexpr int most_looks_for_time = 5;
-/// [in a substep] Looks at a pair.
-inline constexpr int most_pair_looks = 80;
 /// [h] A look that found no hit looks on after this time. Tried: none; the next corner of a pair
 /// that parts is missed, and stopped without rebound.
 inline constexpr double walk_on = 1.0 / 16;
@@ -155,22 +164,12 @@ inline constexpr double walk_on = 1.0 / 16;
 inline constexpr double support_drives = 0.1;
 /// [in a substep] Hits of a pair; beyond, it is stopped.
 inline constexpr int most_pair_hits = 20;
-/// [-] Rounds of hits at one time, and two for each block that they hit; beyond, they are stopped.
-inline constexpr int most_hit_rounds = 40;
-/// [fastest approach] Slower contacts part.
-inline constexpr double parts = 1e-9;
-/// [-] Solutions until no contact is added that hits left to be stopped.
-inline constexpr int most_closing_rounds = 8;
 /// [-] D of a contact that only stops, over the mass that it feels.
 inline constexpr double stopping_stiffness = 30;
 /// [h] What is left after a hit is taken as no shorter.
 inline constexpr double shortest_rest = 1e-3;
-/// [thickness] So deep goes what is hit in the next substep.
-inline constexpr double waits_within = 1e-2;
 /// [h] So shortly after a hit nobody knows what supports a block.
 inline constexpr double short_after_hit = 0.05;
-/// [in a step] Impacts of a lone block before bouncing is given up.
-inline constexpr int most_events = 40;
 /// [in a step] Flights of a lone block.
 inline constexpr int most_flights = 16;
 /// [rad] Longest turn of a flight: bounds what its attitude costs.
@@ -180,39 +179,20 @@ inline constexpr double longest_turn = 60;
 
 /// [-] Halvings of an island's substep that does not converge.
 inline constexpr int most_halvings = 4;
-/// [-] Cuts of a substep where what gives way is used up.
-inline constexpr int most_used_up_cuts = 24;
-/// [thickness] What a block errs by is a share of its way, or of this where that is more.
-inline constexpr double way_at_rest = 1e-2;
-/// [-] A substep that is not accurate is made anew with at most so small a part of its length ...
-inline constexpr double most_parts = 4;
-/// [-] ... and the next may be longer than one that is, by this factor.
-inline constexpr double most_lengthening = 4;
-/// [in a step] Cuts where a block would end deep in something.
-inline constexpr int most_deep_cuts = 8;
-/// [thickness] A hit that ends deeper than this cuts the substep: health allows `deep_share` ...
+/// [thickness] A hit that ends deeper than this cuts the substep: health allows `deep_share`.
 inline constexpr double deep_end = 0.08;
-/// [thickness] ... where it is deeper by this than at the start.
-inline constexpr double deepened = 0.02;
 /// [h] So long after the hit the substep ends.
 inline constexpr double after_hit = 1.0 / 32;
-/// [-] Repetitions of a lone block's substep, to find an event or to converge.
-inline constexpr int most_tries = 24;
-/// [-] ... once no forces were found in the step, so that it ends.
+/// [-] Repetitions of a lone block's substep once no forces were found in the step, so that it
+/// ends.
 inline constexpr int tries_once_unconverged = 6;
-/// [thickness] A lone block has gone through a ridge when it is so deep behind it ...
+/// [thickness] A lone block has gone through a ridge when it is so deep behind it.
 inline constexpr double deep_past_ridge = 0.03;
-/// [thickness] ... and no point moved less than this.
-inline constexpr double short_move = 0.01;
 /// [thickness] A block is deep above this overlap: health counts it.
 inline constexpr double deep_share = 0.1;
-/// [thickness] Contacts with more overlap have the bodies measured.
-inline constexpr double suspect_share = deep_share / 10;
 
 // --- what gives way ----------------------------------------------------------------------------
 
-/// [capacity] A body breaks that has taken so much.
-inline constexpr double used_up = 1 - 1e-9;
 /// [-] One with an axis gives way to contacts whose normal has at least this cosine with it.
 inline constexpr double least_yield_cosine = 0.5;
 
@@ -220,16 +200,12 @@ inline constexpr double least_yield_cosine = 0.5;
 
 /// [g h] Residual at which an island's forces count as found ...
 inline constexpr double island_tolerance = 1e-2;
-/// [fastest speed] ... but not above this ...
-inline constexpr double motion_tolerance = 1e-3;
-/// [g h] ... nor below this.
-inline constexpr double rest_tolerance = 1e-6;
+/// [fastest speed] ... but not above this, which is also the least of conjugate gradients, and not
+/// below what is negligible of g h.
+/// Tried for these: 1e-2; two to four times the steps.
+inline constexpr double relative_tolerance = 1e-3;
 /// [g h] The same in an island that is factored.
 inline constexpr double small_tolerance = 1e-8;
-/// [-] Of conjugate gradients in a Newton step ...
-inline constexpr double linear_tolerance = 1e-2;
-/// [-] ... and of a mass at rest. Tried: 1e-2; two to four times the steps.
-inline constexpr double linear_tolerance_at_rest = 1e-3;
 /// [-] Newton steps before the line search looks at them.
 inline constexpr int island_free_steps = 3;
 /// [-] Halvings of a Newton step.
@@ -238,10 +214,8 @@ inline constexpr int most_step_halvings = 8;
 inline constexpr double slack = 0.5;
 /// [-] In so many steps the smallest residual has to fall by half; else motion is relaxed.
 inline constexpr int patience = 6;
-/// [residual] The next step of pseudo-time is as long as leaves so much of its own equation ...
+/// [residual] The next step of pseudo-time is as long as leaves so much of its own equation.
 inline constexpr double usually_left = 0.1;
-/// [-] ... but at most so many times as long, or as short. Tried: 10; half as many steps again.
-inline constexpr double longer = 4;
 
 // --- solution of a lone block ------------------------------------------------------------------
 
@@ -252,14 +226,6 @@ inline constexpr int lone_free_steps = 6;
 inline constexpr int lone_halvings = 9;
 /// [promised gain] Least gain of a Newton step.
 inline constexpr double least_gain = 0.1;
-/// [stiffness] Softest stage when steps do not help ...
-inline constexpr double softest = 1.0 / 1024;
-/// [-] ... its growth from stage to stage ...
-inline constexpr double stiffening = 4;
-/// [start of the stage] ... and the residual of a stage before the last.
-inline constexpr double soft_goal = 1e-6;
-/// [-] Sweeps of Gauss and Seidel, when that fails too.
-inline constexpr int most_sweeps = 2000;
 
 // --- breakage ----------------------------------------------------------------------------------
 

@@ -13,43 +13,25 @@ namespace talus::mass {
 inline constexpr int most_moving = 32;
 /// [blocks] A mass is exact again below this size ...
 inline constexpr int least_size = 24;
-/// [blocks] ... or where no more than so many of its blocks are faster than g dt ...
-inline constexpr int most_restless = 8;
-/// [s] ... for this time.
+/// [s] ... or where it is calm for this time.
 inline constexpr double calm_time = 0.2;
 
 // --- rows --------------------------------------------------------------------------------------
 
 /// [-] What a contact gives, of the mobility of its point: D_n = 1 / (compliance W_n).
 inline constexpr double compliance = 1e-3;
-/// [m/s] Deep overlap that presses nothing is pressed out so fast. Tried: all overlap; blocks that
-/// come from the exact step are lifted with what lies on them, again and again.
-inline constexpr double fastest_push = 0.3;
 /// [m/s] Contacts farther apart than this closes in h, and than g h^2, are left out.
 inline constexpr double reach_speed = 0.5;
-/// [thickness] A point goes by no more relative to a neighbour in a substep: a hit that returns
-/// nothing leaves half of it as overlap, and health allows law::deep_share. Tried: 0.5; rocks that
-/// are poured end a fifth of their thickness in each other.
-inline constexpr double most_travel = 0.2;
-
 // --- solution ----------------------------------------------------------------------------------
 
-/// [-] Sweeps at the default accuracy ...
+/// [-] Sweeps at the default accuracy, and at most eight times as many. In the first step of a run,
+/// when no contact knows what it carries: twice as many, times the square of the layers of blocks,
+/// through which support rises as heat does. Tried: 8 times that square; columns of twenty that
+/// stand still fall at 0.3 g.
 inline constexpr int sweeps = 12;
-/// [-] ... and at most.
-inline constexpr int most_sweeps = 96;
-/// [-] Sweeps of the first step of a run, when no contact knows what it carries: so many times the
-/// square of the layers of blocks, through which support rises as heat does. Tried: 8; columns of
-/// twenty that stand still fall at 0.3 g.
-inline constexpr int sweeps_per_square_layer = 24;
 /// [-] A first step that needs more is exact: six layers. 3,900 blocks in seven take twice as long
 /// by sweeps.
 inline constexpr int most_first_sweeps = 1000;
-/// [g h] Half as many sweeps follow where the last changes velocities by more; in the first step as
-/// many, where those since the last time do: root of the mean square. Tried: 0.05; takes as long,
-/// but a wall that a mass reaches at one end sags by 2 mm in a second at the other, and a block on
-/// 400 that are 10,000 times lighter comes 2.5 % short of its closed form.
-inline constexpr double settled = 0.02;
 /// [steps] A mass that so many steps in a row leave unsettled is exact for calm_time.
 inline constexpr int patience = 5;
 /// [-] D_t / W: part of the mean tangential mobility by turning that a sweep counts with.

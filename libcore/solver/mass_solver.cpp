@@ -20,8 +20,6 @@ using std::size_t;
 constexpr int n_colour_bits = 64;
 constexpr int alone = n_colour_bits - 1;  // pairs of it share bodies: each has a batch to itself
 constexpr int most_rows = 16;             // pairs with more count as this when they are sorted
-constexpr size_t batches_a_chunk = 16;    // that a thread takes at a time
-constexpr size_t least_shared = 48;       // batches of a colour; of fewer a thread has too little
 
 // Greedy colours: no two pairs of one colour share a body, but those of `alone`. Pairs are sorted
 // by colour, those with most rows first.
@@ -208,12 +206,11 @@ MassResult solve_mass(const MassSettings& settings, MassSystem& s, int width) {
   };
   // Whatever the threads: colours come in turn, and within one nothing depends on the order.
   const auto run = [&](MassPass pass) {
-    const bool is_shared = settings.workers != nullptr && s.batches.size() >= least_shared;
-    if (!is_shared) return run_over(pass, 0, s.batches.size());
+    if (!are_shared(settings.workers, s.batches.size())) return run_over(pass, 0, s.batches.size());
     for (const MassColour& colour : s.colours) {
       const auto begin = static_cast<size_t>(colour.begin);
       const auto n = static_cast<size_t>(colour.end) - begin;
-      in_chunks(colour.in_turn ? nullptr : settings.workers, n, batches_a_chunk, least_shared,
+      in_chunks(colour.in_turn ? nullptr : settings.workers, n,
                 [&](size_t from, size_t to) { run_over(pass, begin + from, begin + to); });
     }
   };

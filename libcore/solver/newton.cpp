@@ -1,12 +1,13 @@
 #include "solver/newton.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "solver/law_numbers.hpp"
 #include "solver/one_contact.hpp"
+#include "solver/relax.hpp"
 
 namespace talus {
 namespace {
@@ -110,10 +111,11 @@ Vec<Dof> residual(const BlockSystem<Dof>& system, std::span<ContactRow> rows) {
   return r;
 }
 
-// Derivative of the residual where it was last evaluated.
+// Derivative of the residual where it was last evaluated, with `scale` times the mass.
 template <int Dof>
-Mat<Dof> derivative(const BlockSystem<Dof>& system, std::span<const ContactRow> rows) {
-  Mat<Dof> H = system.mass;
+Mat<Dof> derivative(const BlockSystem<Dof>& system, std::span<const ContactRow> rows,
+                    double scale) {
+  Mat<Dof> H = scale * system.mass;
   for (const ContactRow& row : rows) {
     if (row.waits || row.state == ContactState::open) continue;
     add_tangent<Dof>(row.arm, tangent(row), H);
@@ -175,58 +177,40 @@ double size_of(const BlockSystem<Dof>& s, const Vec<Dof>& r) {
   return r.cwiseAbs2().cwiseQuotient(s.mass.diagonal()).sum();
 }
 
-// Newton steps until the residual is small or has the size `goal`; from the seventh on they are
-// shortened until it falls. In one piece: called by themselves, the law and its derivative make an
-// impact a seventh dearer.
+// The step of Newton from where the residual r was evaluated.
+template <int Dof>
+Vec<Dof> newton_step(const BlockSystem<Dof>& system, std::span<const ContactRow> rows,
+                     const Vec<Dof>& r, double mass_scale) {
+  Mat<Dof> H = derivative<Dof>(system, rows, mass_scale);
+  Vec<Dof> step = -r;
+  for (const AngularRow& turn : system.angular) step.template segment<3>(3) -= aimed(turn);
+  solve_dense<Dof>(H, step);
+  return step;
+}
+
+// Newton steps until the residual is small; from the seventh on they are shortened until it falls.
+// In one piece: called by themselves, the law and its derivative make an impact a seventh dearer.
 template <int Dof>
 [[gnu::flatten]] NewtonResult solve_coupled(BlockSystem<Dof>& system, std::span<ContactRow> rows,
-                                            int max_passes, double goal) {
-  constexpr int free_steps = law::lone_free_steps, most_halvings = law::lone_halvings;
-  using law::least_gain;
+                                            int max_passes) {
+  using namespace law;
   NewtonResult result;
   Vec<Dof> r = residual(system, rows);
   ++result.passes;
   for (int steps = 0;; ++steps) {
-    const bool asks_size = goal > 0 || steps >= free_steps;
-    const double size = asks_size ? size_of(system, r) : 0;
-    result.converged = is_small(system, r) || (goal > 0 && size <= goal);
+    result.converged = is_small(system, r);
     if (result.converged || result.passes >= max_passes) return result;
-    const Vec<Dof> from = system.velocity;
-    Mat<Dof> H = derivative<Dof>(system, rows);
-    Vec<Dof> step = -r;
-    for (const AngularRow& turn : system.angular) step.template segment<3>(3) -= aimed(turn);
-    solve_dense<Dof>(H, step);
+    const bool is_free = steps < lone_free_steps;
+    const double size = is_free ? 0 : size_of(system, r);
+    const Vec<Dof> from = system.velocity, step = newton_step<Dof>(system, rows, r, 1);
     double fraction = 1;
     for (int i = 0;; ++i, fraction /= 2) {
       system.velocity = from + fraction * step;
       r = residual(system, rows);
       ++result.passes;
-      if (steps < free_steps || i == most_halvings) break;
+      if (is_free || i == lone_halvings) break;
       if (size_of(system, r) < (1 - least_gain * fraction) * size) break;
     }
-  }
-}
-
-// From the free motion with contacts that are soft, then with ever stiffer ones, each from where
-// the last left off.
-template <int Dof>
-NewtonResult solve_stiffening(BlockSystem<Dof>& system, std::span<ContactRow> rows,
-                              int max_passes) {
-  using law::soft_goal, law::softest;
-  constexpr double growth = law::stiffening;
-  const auto scale = [&](double factor) {
-    for (ContactRow& row : rows) row.normal_damping *= factor, row.shear_damping *= factor;
-    for (AngularRow& turn : system.angular) turn.damping *= factor;
-  };
-  NewtonResult result;
-  system.velocity = system.free_velocity;
-  scale(softest);  // powers of two: the last stage has the rows' own numbers
-  for (double share = softest;; share *= growth, scale(growth)) {
-    const double goal = share < 1 ? soft_goal * size_of(system, residual(system, rows)) : 0;
-    const NewtonResult stage = solve_coupled(system, rows, max_passes, goal);
-    result.passes += stage.passes;
-    result.converged = stage.converged;
-    if (share >= 1) return result;
   }
 }
 
@@ -238,95 +222,63 @@ NewtonResult solve_holding_normals(BlockSystem<Dof>& system, std::span<ContactRo
                                    int max_passes) {
   system.velocity = system.free_velocity;
   for (AngularRow& turn : system.angular) turn.is_off = true;
-  const NewtonResult without = solve_coupled(system, rows, max_passes, 0);
+  const NewtonResult without = solve_coupled(system, rows, max_passes);
   for (AngularRow& turn : system.angular) {
     turn.is_off = false;
     turn.held_normal = bounds_of(system, turn, rows).normal;
   }
-  const NewtonResult with = solve_coupled(system, rows, max_passes, 0);
+  const NewtonResult with = solve_coupled(system, rows, max_passes);
+  for (AngularRow& turn : system.angular) turn.held_normal.setZero();
   return {with.converged, without.passes + with.passes};
 }
 
-// One sweep over the angular rows; returns the largest change of spin times its lever.
+// What steps of Newton do not find, to no less than the rounding of velocities and impulses.
 template <int Dof>
-double sweep_couples(const Mat<Dof>& per_mass, std::span<const ContactRow> rows,
-                     BlockSystem<Dof>& system) {
-  double change = 0;
-  for (AngularRow& turn : system.angular) {
-    const double give = per_mass.template block<3, 3>(3, 3).trace() + 1 / turn.damping;
-    const Vec3 spin = system.velocity.template segment<3>(3), before = turn.couple;
-    // the couple that its own law asks for, of a spin that gives way to it
-    AngularRow next = turn;
-    next.damping = 1 / give;
-    evaluate(Vec3(spin + before * (1 / turn.damping - give)), bounds_of(system, turn, rows), next);
-    next.damping = turn.damping;
-    turn = next;
-    const Vec<Dof> dv = per_mass.template middleCols<3>(3) * (turn.couple - before);
-    system.velocity += dv;
-    for (int i = turn.row_begin; i < turn.row_end; ++i)
-      change = std::max(change, point_velocity<Dof>(dv, rows[i].arm).norm());
+NewtonResult solve_relaxing(BlockSystem<Dof>& system, std::span<ContactRow> rows, int most_steps) {
+  double stiffness = 0;
+  const double free_speed = system.free_velocity.template head<3>().norm();
+  for (const ContactRow& row : rows) {
+    const double of_row = std::max(row.normal_damping, row.shear_damping) / system.mass(0, 0);
+    stiffness = std::max(stiffness, of_row);
+    system.tolerance =
+        std::max(system.tolerance, 8 * std::numeric_limits<double>::epsilon() *
+                                       (of_row * (std::abs(row.bias) + free_speed) + free_speed));
   }
-  return change;
-}
-
-// Gauss-Seidel over the contacts, each given the impulse that its own law asks for: slow, but it
-// gets through where Newton goes round in circles. Slip follows the end velocity.
-template <int Dof>
-NewtonResult solve_sweeps(BlockSystem<Dof>& system, std::span<ContactRow> rows) {
-  using law::most_sweeps;
-  const Mat<Dof> per_mass = system.mass.inverse();
-  system.velocity = system.free_velocity;
-  for (ContactRow& row : rows) row.impulse.setZero();
-  for (AngularRow& turn : system.angular) turn.couple.setZero();
-  for (int sweep = 1; sweep <= most_sweeps; ++sweep) {
-    double change = 0;
-    for (ContactRow& row : rows) {
-      if (row.waits) continue;
-      const Vec3& n = row.normal;
-      const Vec3 w = point_velocity<Dof>(system.velocity, row.arm) + row.drift;
-      const Vec<Dof> along_n = generalised<Dof>(row.arm, n);
-      const double give_n = along_n.dot(per_mass * along_n) + 1 / row.normal_damping;
-      const double p_old = row.impulse.dot(n);
-      const double p_n =
-          std::max(0.0, p_old - (n.dot(w) + row.bias + p_old / row.normal_damping) / give_n);
-      const Vec3 t_old = row.impulse - p_old * n;
-      double give_t = 1 / row.shear_damping;
-      for (int k = 0; k < 3; ++k) {
-        const Vec<Dof> unit = generalised<Dof>(row.arm, Vec3::Unit(k));
-        give_t += unit.dot(per_mass * unit);
-      }
-      const Vec3 trial = w - n.dot(w) * n + row.shear_velocity;
-      Vec3 t = t_old - (trial + t_old / row.shear_damping) / give_t;
-      double cap;
-      Strength<double>{row.friction, row.cohesion, 0}.bound(p_n, cap);
-      const double size = t.norm();
-      row.state = p_n == 0 ? ContactState::open : ContactState::stick;
-      if (size > cap) t *= cap / size, row.state = p_n == 0 ? row.state : ContactState::slip;
-      const Vec3 impulse = p_n * n + t;
-      const Vec<Dof> dv = per_mass * generalised<Dof>(row.arm, impulse - row.impulse);
-      system.velocity += dv;
-      row.impulse = impulse;
-      change = std::max(change, point_velocity<Dof>(dv, row.arm).norm());
-    }
-    change = std::max(change, sweep_couples<Dof>(per_mass, rows, system));
-    if (change <= 10 * system.tolerance) return {true, sweep};
-  }
-  return {false, most_sweeps};
+  NewtonResult result;
+  Vec<Dof> r;
+  const auto go_to = [&](const Vec<Dof>& velocity) {
+    system.velocity = velocity;
+    r = residual(system, rows);
+    ++result.passes;
+  };
+  go_to(system.velocity);
+  if (!is_small(system, r)) go_to(system.free_velocity);
+  const auto advance = [&](double time) {
+    const double before = size_of(system, r);
+    const Vec<Dof> from = system.velocity;
+    const Vec<Dof> step = newton_step<Dof>(system, rows, r, 1 + 1 / time);
+    go_to(from + step);
+    const double left = std::sqrt(size_of<Dof>(system, r + system.mass * step / time) / before);
+    if (!(left < 1)) go_to(from);
+    return left;
+  };
+  const auto is_open = [&] { return !is_small(system, r); };
+  relax(stiffness, most_steps, is_open, advance);
+  result.converged = is_small(system, r);
+  return result;
 }
 
 }  // namespace
 
 template <int Dof>
 NewtonResult solve_contacts(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes) {
-  NewtonResult result = solve_coupled(system, rows, max_passes, 0);
+  NewtonResult result = solve_coupled(system, rows, max_passes);
   const auto go_on = [&](const NewtonResult& next) {
     result = {next.converged, result.passes + next.passes};
   };
   if (!result.converged && !system.angular.empty())
     go_on(solve_holding_normals(system, rows, max_passes));
-  if (!result.converged) go_on(solve_stiffening(system, rows, max_passes));
-  if (!result.converged) go_on(solve_sweeps(system, rows));
-  for (AngularRow& turn : system.angular) turn.held_normal.setZero();
+  if (!result.converged) go_on(solve_relaxing(system, rows, 12 * max_passes));
   return result;
 }
 

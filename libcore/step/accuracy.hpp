@@ -30,14 +30,14 @@ struct WayError {
 
 /// As a share of the way, or of a part of the thickness where that is more [-].
 [[nodiscard]] inline double share_of(const WayError& of, double thickness) {
-  return of.error / (of.way + law::way_at_rest * thickness);
+  return of.error / (of.way + law::shallow * thickness);
 }
 
 /// Length of a substep whose error is allowed: `h` where `share`, that of `h`, is [s].
 [[nodiscard]] inline double accurate_substep(const Settings& settings, double share, double h) {
   const double excess = share / settings.accuracy, shortest = settings.dt / law::most_substeps;
   if (!(excess > 1) || h <= shortest) return h;
-  return std::max(shortest, h / std::min(law::most_parts, std::ceil(std::sqrt(excess))));
+  return std::max(shortest, h / std::min(law::largest_change, std::ceil(std::sqrt(excess))));
 }
 
 /// The longest substep that is tried after one of `h` whose error is `share`, `longest` having been
@@ -47,7 +47,7 @@ struct WayError {
   constexpr double sure = 0.8;
   if (h < longest) return longest;
   const double room = settings.accuracy / std::max(share, 1e-300);
-  return h * std::clamp(std::sqrt(sure * room), 1.0, law::most_lengthening);
+  return h * std::clamp(std::sqrt(sure * room), 1.0, law::largest_change);
 }
 
 }  // namespace talus

@@ -23,7 +23,7 @@ namespace talus {
 /// `block`: the thinner of its two.
 inline void note_overlap(int block, double overlap, double thickness, DeepWork& deep,
                          StepReport& report) {
-  if (overlap > law::suspect_share * thickness) {
+  if (overlap > law::shallow * thickness) {
     deep.is_suspect[block] = 1;
   } else if (overlap > report.largest_penetration) {
     report.largest_penetration = overlap;

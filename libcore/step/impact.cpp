@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 
+#include "contact/scales.hpp"
 #include "contact/search.hpp"
+#include "solver/law_numbers.hpp"
 #include "step/soil.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
-
-constexpr int most_rounds = 40;   // in which contacts are hit at one time, one after the other
-constexpr double at_rest = 1e-9;  // of the fastest approach: a contact that does not part
 
 // The block in its own axes.
 ImpactBody body_of(const Scene& scene, size_t i, const Motion& motion, const Mat3& R) {
@@ -57,7 +56,7 @@ bool hit_once(std::span<const ImpactContact> touching, const HitSpeeds& speeds, 
   result.is_fast |= fastest > speeds.resting;
   scratch.hit.clear();
   for (const ImpactContact& contact : touching)
-    if (is_last || approach_of(body, contact) <= at_rest * fastest) scratch.hit.push_back(contact);
+    if (is_last || approach_of(body, contact) <= rounding * fastest) scratch.hit.push_back(contact);
   if (is_last)
     for (ImpactContact& contact : scratch.hit) contact.restitution = 0;
   const Impact impact = solve_impact({&body, 1}, scratch.hit, scratch.solver);
@@ -75,10 +74,7 @@ void reserve_impacts(size_t n_contacts, ImpactScratch& scratch) {
   ImpactWork& w = scratch.solver;
   scratch.touching.reserve(n_contacts);
   scratch.hit.reserve(n_contacts);
-  w.rows.reserve(n_contacts);
-  w.kept.reserve(n_contacts);
-  w.full_impulse.reserve(n_contacts);
-  for (Eigen::VectorXd* v : {&w.full, &w.kept_velocity}) v->setZero(6);
+  w.full.setZero(6);
   ImpactBody body;  // an impact makes the rest
   body.per_mass = 1;
   body.velocity[2] = -1;
@@ -105,8 +101,8 @@ ImpactResult apply_impact(const Scene& scene, int b, const HitSpeeds& speeds, Mo
   for (const Contact& found : work.contacts)
     scratch.touching.push_back(
         contact_of(scene, b, found, R, body, work.soil.slide, speeds.resting));
-  for (int round = 1; round <= most_rounds; ++round)
-    if (!hit_once(scratch.touching, speeds, round == most_rounds, body, scratch, result)) break;
+  for (int round = 1; round <= law::most_hits; ++round)
+    if (!hit_once(scratch.touching, speeds, round == law::most_hits, body, scratch, result)) break;
   if (!result.hit) return result;
   motion.velocity = R * body.velocity.head<3>();
   motion.angular_momentum =

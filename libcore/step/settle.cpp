@@ -4,8 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "contact/scales.hpp"
 #include "contact/search.hpp"
 #include "geometry/corner_shares.hpp"
+#include "solver/law_numbers.hpp"
 #include "step/lone/lone_substep.hpp"
 
 namespace talus {
@@ -18,13 +20,12 @@ using std::size_t;
 // strength. `work.contacts` are those that touch.
 void bond_faces(const Scene& scene, int b, const Pose& pose, const Work& work,
                 std::vector<ContactMemory>& memory) {
-  constexpr double parallel = 1 - 1e-6;
   const Shapes& shapes = scene.blocks.shapes;
   const std::span<const Vec3> vertices = vertices_of(shapes, b);
   const auto touching = [&](int vertex, const Vec3& outward) -> const Contact* {
     for (const Contact& c : work.contacts)
       if (c.key.mode == ContactMode::vertex_face && c.key.feature_a == vertex &&
-          c.normal.dot(outward) < -parallel)
+          c.normal.dot(outward) < -1 + negligible)
         return &c;
     return nullptr;
   };
@@ -117,15 +118,13 @@ BlockSystem<Dof> static_system(const Scene& scene, int b, const BlockNumbers& c,
   return system;
 }
 
-constexpr double most_margin = 1e-2;  // of the radius: from rest nothing else comes near
-
 // Step of the static iteration [s]. Friction holds back what spreads by straining until the block
 // has slid farther than that, so where it hardly slides short steps come to no end: as long as a
 // free fall takes through the margin.
 template <int Dof>
 double static_step(const Settings& settings, const BlockNumbers& c) {
   if (Dof == 6 || c.gravity == 0) return settings.dt;
-  return std::sqrt(2 * most_margin * c.radius / c.gravity);
+  return std::sqrt(2 * law::shallow * c.radius / c.gravity);
 }
 
 // A step of the static iteration.
@@ -145,7 +144,7 @@ std::optional<StaticPass> static_pass(const Scene& scene, int b, const BlockNumb
   Motion& motion = state.motion[i];
   const Substep s = predict(scene, b, c, motion, 0, h);
   (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
-                      std::min(search_margin(c, h), most_margin * c.radius), work.world_vertices,
+                      std::min(search_margin(c, h), law::shallow * c.radius), work.world_vertices,
                       work.contacts);
   make_rows(scene, b, c, s, state.memory[b], work);
   if (work.rows.empty()) return StaticPass{};
@@ -239,7 +238,7 @@ void settle_block_as(const Scene& scene, int b, State& state, Work& work) {
   const Motion rest = state.motion[i];
   const EnergyLedger ledger = state.ledger;
   constexpr double sticking = 57;  // tan(89 degrees)
-  constexpr double nearly_still = 1e-9, still = 1e-14;
+  constexpr double still = 1e-14;
   const auto strain = [&] { return Dof == 12 ? state.strain[i] : Vec6::Zero().eval(); };
   const auto set_strain = [&](const Vec6& value) {
     if (Dof == 12) state.strain[i] = value;
@@ -247,7 +246,7 @@ void settle_block_as(const Scene& scene, int b, State& state, Work& work) {
   if (touches_at_rest(scene, b, rest, work)) {
     state.motion[i].velocity.setZero();
     bond_faces(scene, b, rest.pose, work, state.memory[i]);
-    if (settle<Dof>(scene, b, sticking, true, nearly_still, state, work) != Settled::rests) {
+    if (settle<Dof>(scene, b, sticking, true, rounding, state, work) != Settled::rests) {
       state.motion[i].pose = rest.pose;  // it topples: from where it is
       state.memory[i].clear();
       set_strain(Vec6::Zero());

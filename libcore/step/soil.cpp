@@ -40,42 +40,6 @@ void drag_on_ground(const GroundClass& ground, double h, Motion& motion) {
   motion.angular_momentum *= per_time * per_way;
 }
 
-// Shares of a straight way at which it comes over another cell.
-void add_cell_borders(const Trn& trn, const Vec3& from, const Vec3& to,
-                      std::vector<double>& shares) {
-  const GridPoint a = locate(trn, from.x(), from.y()), b = locate(trn, to.x(), to.y());
-  const auto add = [&](double begin, double end) {
-    for (double line = std::floor(std::min(begin, end)) + 1; line < std::max(begin, end); ++line)
-      shares.push_back((line - begin) / (end - begin));
-  };
-  add(a.cell.col + a.east, b.cell.col + b.east);
-  add(a.cell.row + a.south, b.cell.row + b.south);
-}
-
-// Drag of the classes of ground below a way, each for its share of the time.
-void drag_on_ground(const Scene& scene, const HalfWay& half, double h, Motion& motion) {
-  std::vector<double> shares;
-  const Trn& trn = scene.ground.trn;
-  if (!scene.ground.cell_class.empty() && contains(trn, half.from.x(), half.from.y()) &&
-      contains(trn, half.to.x(), half.to.y()))
-    add_cell_borders(trn, half.from, half.to, shares);
-  shares.push_back(1);
-  std::sort(shares.begin(), shares.end());
-  const GroundClass* last = nullptr;
-  double since = 0, begin = 0;
-  for (const double end : shares) {
-    const Vec3 middle = half.from + (begin + end) / 2 * (half.to - half.from);
-    const GroundClass* ground = class_below(scene, middle);
-    if (ground != last) {
-      if (last != nullptr) drag_on_ground(*last, (begin - since) * h, motion);
-      since = begin;
-      last = ground;
-    }
-    begin = end;
-  }
-  if (last != nullptr) drag_on_ground(*last, (1 - since) * h, motion);
-}
-
 }  // namespace
 
 RestitutionFall fall_on(const GroundClass& ground, double mass) {
@@ -146,9 +110,8 @@ void vary_friction(const GroundClass& ground, const Slide& slide, double speed, 
 
 void slide_on(const Scene& scene, const GroundClass& ground, int b, double speed, double time,
               double t, double h, State& state) {
-  constexpr double creeps = 1e-2;  // g h
   if (state.slid.empty()) return;
-  const double path = speed > creeps * scene.gravity.norm() * h ? time * speed : 0;
+  const double path = speed > law::island_tolerance * scene.gravity.norm() * h ? time * speed : 0;
   state.slid[static_cast<size_t>(b)] = {way_slid(slide_of(state, b, t), ground) + path, t + h};
 }
 
@@ -162,17 +125,13 @@ int begin_soil(const Scene& scene, int b, const BlockNumbers& c, double h, const
   return turn;
 }
 
-const GroundClass* class_below(const Scene& scene, const Vec3& x) {
-  const Trn& trn = scene.ground.trn;
-  if (!contains(trn, x.x(), x.y())) return nullptr;
-  return &scene.ground
-              .classes[static_cast<size_t>(class_of(scene.ground, triangle_at(trn, x.x(), x.y())))];
-}
-
 Motion after_drag(const Scene& scene, int b, const Motion& motion, const HalfWay& half,
                   bool is_pressed, double h) {
   Motion out = motion;
-  if (is_pressed) drag_on_ground(scene, half, h, out);
+  if (is_pressed)
+    for_each_class_below(scene.ground, half.from, half.to, [&](int ground, double share) {
+      drag_on_ground(scene.ground.classes[static_cast<size_t>(ground)], share * h, out);
+    });
   const double drag = mean_drag(scene.canopies, scene.ground.trn, half.from, half.to);
   if (drag > 0) out.velocity *= std::exp(-drag * h / scene.blocks.mass[static_cast<size_t>(b)]);
   return out;

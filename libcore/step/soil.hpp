@@ -75,9 +75,6 @@ int begin_soil(const Scene& scene, int b, const BlockNumbers& c, double h, const
                std::span<ContactRow> rows, std::vector<AngularRow>& turns,
                std::vector<RowArm>& arms);
 
-/// The class of ground below the centroid of a block; nullptr: none is known there.
-[[nodiscard]] const GroundClass* class_below(const Scene& scene, const Vec3& position);
-
 /// The straight way that a block's centroid goes in half of a substep. The two halves follow on
 /// each other, so that a border that the block crosses counts where it is.
 struct HalfWay {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "contact/entrance.hpp"
+#include "contact/scales.hpp"
 #include "motion/displacement.hpp"
 #include "motion/rotation.hpp"
 #include "solver/law_numbers.hpp"
@@ -17,17 +18,16 @@ namespace {
 
 using std::size_t;
 
-using law::least_by_tolerance, law::most_by_turning, law::most_of_thickness, law::rebound_matters,
+using law::least_speed, law::shallow, law::most_of_thickness, law::rebound_matters,
     law::recovery_steps, law::same_law, law::stiffest_lone, law::touch_ratio;
 
-constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 // Below this approach there is no impact [m/s].
 double resting_speed(const Settings& settings, double g) {
   const double by_gravity = g * settings.dt;
-  return std::max({std::clamp(rebound_matters, law::resting_by_gravity * by_gravity,
-                              law::rebounds_by_gravity * by_gravity),
-                   least_by_tolerance * settings.tolerance_factor * by_gravity, 1e-6});
+  return std::max({std::clamp(rebound_matters, by_gravity, law::rebounds_by_gravity * by_gravity),
+                   least_speed * settings.tolerance_factor * by_gravity, 1e-6});
 }
 
 // The row that a remembered contact continues: same features, nearest normal.
@@ -39,7 +39,7 @@ int row_of(const ContactMemory& memory, std::span<const Contact> contacts) {
     if (contact.key.feature_a != memory.key.feature_a || !(contact.key == memory.key)) continue;
     const double cosine = contact.normal.dot(memory.normal);
     if (cosine > nearest) nearest = cosine, best = static_cast<int>(i);
-    if (cosine > parallel) break;
+    if (cosine > 1 - last_figures) break;
   }
   return best;
 }
@@ -61,7 +61,7 @@ void keep_force(double k_n, ContactRow& row) {
 // by leaps, so that keep_force() sees them, and seldom.
 double stiffness_to_bear(const ContactRow& row, double sag) {
   const double needed = row.last_force / sag, last = row.last_stiffness;
-  return last >= needed && last <= law::too_much * needed ? last : law::ample * needed;
+  return last >= needed && last <= law::too_much * needed ? last : law::stiffens * needed;
 }
 
 // As soft as a contact may be that bears its last force: with `sag` of overlap, from `least` for
@@ -69,7 +69,7 @@ double stiffness_to_bear(const ContactRow& row, double sag) {
 double softest_by_load(const BlockNumbers& c, double sag, double least, double stiffest,
                        const ContactRow& row) {
   const double k = std::clamp(stiffness_to_bear(row, sag), std::min(least, stiffest), stiffest);
-  const double far = std::max(law::most_sag_of_thickness * c.thickness, law::far_sag * sag);
+  const double far = std::max(law::sunk * c.thickness, law::far_sag * sag);
   return row.last_force > far * stiffest ? std::max(k, stiffness_to_bear(row, far)) : k;
 }
 
@@ -82,7 +82,7 @@ double stiffness_by_load(const BlockNumbers& c, double soft, double ready, doubl
   if (last > 0 && row.rests > 0)
     k = std::min(k, row.rests == law::most_rests ? last / law::relief : last);
   const bool moves = row.slip_speed > c.slow || row.speed_start > c.slow;
-  if (moves) k = std::min(k, last / law::softens);
+  if (moves) k = std::min(k, last / law::largest_change);
   return std::clamp(k, soft, std::max(soft, most));
 }
 
@@ -107,7 +107,8 @@ FeatureStart face_start(const Vec3& node, const Contact& contact, const Vec3& no
   return {node + gap * normal, normal, gap};
 }
 
-// None where the edges were nearly parallel, or did not cross between the ends of the block's.
+// None where the edges were nearly 1 - last_figures, or did not cross between the ends of the
+// block's.
 std::optional<FeatureStart> edge_start(const Scene& scene, const Substep& s, const Contact& contact,
                                        const Vec3& normal_end) {
   const Trn& trn = scene.ground.trn;
@@ -258,7 +259,7 @@ ContactRow& begin_row(const Scene& scene, int b, size_t i, const Mat3& to_row,
 bool comes_back_fast(const ContactMemory& memory, double approach, double h,
                      const BlockNumbers& c) {
   return memory.normal_force == 0 && memory.bond_area == 0 &&
-         -approach * h > law::far_in * c.thickness;
+         -approach * h > law::sunk * c.thickness;
 }
 
 Mat3 stretch_of(const State& state, int b) {
@@ -277,10 +278,10 @@ void inherit(const ContactMemory& memory, int index, bool same_features, const M
   row.offset = std::min(memory.offset, std::max(0.0, -row.gap_start));
   const double jump = memory.gap_end - (row.gap_start + row.offset);
   if (jump > c.touch) {
-    const bool by_turning = same_features || (to_row * memory.normal).dot(row.normal) > parallel;
-    const double limit = by_turning
-                             ? std::min(most_by_turning * c.radius, most_of_thickness * c.thickness)
-                             : no_limit;
+    const bool by_turning =
+        same_features || (to_row * memory.normal).dot(row.normal) > 1 - last_figures;
+    const double limit =
+        by_turning ? std::min(shallow * c.radius, most_of_thickness * c.thickness) : no_limit;
     row.offset += std::min(
         {jump, std::max(0.0, -row.gap_start - row.offset), std::max(0.0, limit - row.offset)});
   }
@@ -335,9 +336,8 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
 }
 
 void hold(const GroundClass& face, double recovery_time, ContactRow& row) {
-  constexpr double without_limit = 1e100;
-  row.cohesion = without_limit;
-  row.tension = face.tension > 0 ? without_limit : 0;
+  row.cohesion = no_normal_limit;
+  row.tension = face.tension > 0 ? no_normal_limit : 0;
   row.bias = (row.gap_start + row.offset) / recovery_time;
 }
 
@@ -354,9 +354,8 @@ BondCorner corner_of(const KeptContact& contact, const GroundClass& face, const 
 }
 
 double located_speed(const Scene& scene, const BlockNumbers& c, double speed) {
-  constexpr double of_resting = 2e-2;
   return std::min(c.resting_speed,
-                  std::max(scene.settings.accuracy * speed, of_resting * c.resting_speed));
+                  std::max(scene.settings.accuracy * speed, law::least_speed * c.resting_speed));
 }
 
 double time_to_touch(double gap, double speed, double gap_end, double touch, double h) {
@@ -375,29 +374,17 @@ void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s,
 
 namespace {
 
-// Class of the ground below a point; `otherwise` off the grid.
-int class_below(const Ground& ground, const Vec3& x, int otherwise) {
-  if (!contains(ground.trn, x.x(), x.y())) return otherwise;
-  return class_of(ground, triangle_at(ground.trn, x.x(), x.y()));
-}
-
-// Friction of a vertex that ends on another class of ground than it starts on: the mean over its
-// path, so that where the class changes within the substep is not rounded to its end.
+// Friction of a vertex: the mean over its displacement, so that where the class of the ground
+// changes within the substep is not rounded to its end.
 double friction_on_path(const Scene& scene, const Substep& s, const Contact& contact) {
-  constexpr int halvings = 20;
   const std::vector<GroundClass>& classes = scene.ground.classes;
-  const int last = contact.ground_class;
-  const Vec3 from = place(s.start.pose, contact.point_a), to = place(s.free.pose, contact.point_a);
-  const int first = class_below(scene.ground, from, last);
-  const double at_end = classes[static_cast<size_t>(last)].friction;
-  if (first == last) return at_end;
-  double low = 0, high = 1;  // shares of the path: still on the first class, no longer on it
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = (low + high) / 2;
-    const bool is_first = class_below(scene.ground, from + middle * (to - from), last) == first;
-    (is_first ? low : high) = middle;
-  }
-  return high * classes[static_cast<size_t>(first)].friction + (1 - high) * at_end;
+  double sum = 0, left = 1;
+  for_each_class_below(scene.ground, place(s.start.pose, contact.point_a),
+                       place(s.free.pose, contact.point_a), [&](int ground, double share) {
+                         sum += share * classes[static_cast<size_t>(ground)].friction;
+                         left -= share;
+                       });
+  return sum + left * classes[static_cast<size_t>(contact.ground_class)].friction;
 }
 
 // Where the contacts are and how their points move without contact forces.

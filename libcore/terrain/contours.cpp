@@ -34,20 +34,26 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 Vec2 plan(const Vec3& point) { return point.head<2>(); }
 
+constexpr double measured_alike_m = 0.1;  // two measured heights of one place
+
 // Collects places where heights disagree.
 class HeightJudge {
  public:
-  HeightJudge(double interval, std::vector<HeightConflict>& conflicts)
-      : interval_(interval), conflicts_(conflicts) {}
+  HeightJudge(double interval, std::vector<HeightConflict>& conflicts, CleaningCounts& counts)
+      : interval_(interval), conflicts_(conflicts), counts_(counts) {}
 
   // True when both heights may be taken as one. Contours must agree; a breakline or spot height
-  // yields to a contour within half an interval.
+  // yields to a contour within half an interval, and one of two such is taken, which is counted.
   bool agree(const Vec2& place, double height1, Kind kind1, double height2, Kind kind2) {
     const double difference = std::abs(height1 - height2);
     if (difference <= same_height_m) return true;
-    const bool both_contours = kind1 == Kind::contour && kind2 == Kind::contour;
-    if (!both_contours && difference <= interval_ / 2) return true;
+    const bool is_contour1 = kind1 == Kind::contour, is_contour2 = kind2 == Kind::contour;
     const auto point = [&](double height) { return Vec3(place.x(), place.y(), height); };
+    if (!(is_contour1 && is_contour2) && difference <= interval_ / 2) {
+      if (!is_contour1 && !is_contour2 && difference > measured_alike_m)
+        note_apart(difference, point(height1));
+      return true;
+    }
     conflicts_.push_back({name(kind1), name(kind2), point(height1), point(height2)});
     return false;
   }
@@ -60,8 +66,16 @@ class HeightJudge {
     return names[static_cast<int>(kind)];
   }
 
+  void note_apart(double difference, const Vec3& place) {
+    ++counts_.measured_apart;
+    if (difference <= counts_.measured_apart_m) return;
+    counts_.measured_apart_m = difference;
+    counts_.measured_apart_at = place;
+  }
+
   double interval_;
   std::vector<HeightConflict>& conflicts_;
+  CleaningCounts& counts_;
 };
 
 void gather_lines(const Polylines& lines, Kind kind, int first_line, Network& network,
@@ -351,7 +365,7 @@ void check_heights(const ContourMap& map) {
 std::optional<CleanLines> try_clean_lines(const ContourMap& map,
                                           std::vector<HeightConflict>& conflicts) {
   CleaningCounts counts;
-  HeightJudge judge(contour_interval(map), conflicts);
+  HeightJudge judge(contour_interval(map), conflicts, counts);
   Network network = gather(map, counts);
   for (int round = 0; round < max_rounds; ++round) {
     join_equal_points(network, judge, counts);

@@ -54,6 +54,9 @@ struct CleaningCounts {
   std::size_t single_points = 0;       ///< lines of one distinct point, kept as a point
   std::size_t breakline_meetings =
       0;  ///< breakline or spot height on a contour: the contour's height taken
+  std::size_t measured_apart = 0;         ///< breaklines and spot heights that meet at two heights
+  double measured_apart_m = 0;            ///< largest difference among them [m]
+  Vec3 measured_apart_at = Vec3::Zero();  ///< and its place [m]
 };
 
 /// Lines that meet at their ends only. The points of contours come first.

@@ -1,5 +1,7 @@
 #include "terrain/grid_frame.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/memory.hpp"
@@ -60,6 +62,24 @@ MapWindow extent(const GridFrame& frame) {
 MapWindow intersection(const MapWindow& a, const MapWindow& b) {
   return {std::max(a.x_min, b.x_min), std::max(a.y_min, b.y_min), std::min(a.x_max, b.x_max),
           std::min(a.y_max, b.y_max)};
+}
+
+std::optional<MapWindow> other_order_within(const MapWindow& w, const MapWindow& data) {
+  if (!std::isfinite(w.x_min + w.y_min + w.x_max + w.y_max)) return std::nullopt;
+  const MapWindow as_is = intersection(w, data);
+  if (as_is.x_min == w.x_min && as_is.y_min == w.y_min && as_is.x_max == w.x_max &&
+      as_is.y_max == w.y_max)
+    return std::nullopt;
+  for (const MapWindow& other : {MapWindow{w.x_min, w.x_max, w.y_min, w.y_max},
+                                 MapWindow{w.y_min, w.x_min, w.y_max, w.x_max}}) {
+    const MapWindow common = intersection(other, data);
+    const double width = other.x_max - other.x_min, height = other.y_max - other.y_min;
+    const double common_width = common.x_max - common.x_min;
+    const double common_height = common.y_max - common.y_min;
+    if (width > 0 && height > 0 && common_width > width / 2 && common_height > height / 2)
+      return other;
+  }
+  return std::nullopt;
 }
 
 GridFrame frame_inside(const MapWindow& window, double cell_size) {

@@ -2,6 +2,8 @@
 // Where the nodes of a grid lie on the map: what a raster is read into before it is local ground.
 #pragma once
 
+#include <optional>
+
 #include "terrain/trn.hpp"
 
 namespace talus {
@@ -34,6 +36,12 @@ struct MapWindow {
 
 /// Common part; x_min > x_max or y_min > y_max when there is none.
 [[nodiscard]] MapWindow intersection(const MapWindow& a, const MapWindow& b);
+
+/// The window in another order of its numbers (xmin,xmax,ymin,ymax as QGIS writes an extent, or y
+/// first) where it reaches beyond `data` as it is and lies mostly within it in that order; else
+/// nothing.
+[[nodiscard]] std::optional<MapWindow> other_order_within(const MapWindow& window,
+                                                          const MapWindow& data);
 
 /// Nodes at whole multiples of the cell size, so that grids of neighbouring windows fit together:
 /// all that lie in `window`, its border included. Coordinates that are multiples but for rounding

@@ -9,6 +9,7 @@
 
 #include "terrain/elevation.hpp"
 #include "terrain/lone_levels.hpp"
+#include "terrain/seams.hpp"
 
 namespace talus {
 namespace {
@@ -28,6 +29,12 @@ class DoubtFinder {
       for (int c = 0; c < trn_.n_cols; ++c) look(r, c);
     for (const LoneLevel& level : levels())
       found_.push_back({GroundDoubtKind::level, level.row, level.col, nan, level.n_cells});
+    for (const Seam& seam : find_seams(trn_)) {
+      const int row = seam.between_rows ? seam.line : seam.middle;
+      const int col = seam.between_rows ? seam.middle : seam.line;
+      if (std::isnan(height(row, col))) continue;
+      found_.push_back({GroundDoubtKind::seam, row, col, height(row, col) + seam.step_m, 1});
+    }
     std::stable_sort(found_.begin(), found_.end(), [](const GroundDoubt& a, const GroundDoubt& b) {
       return std::pair(a.row, a.col) < std::pair(b.row, b.col);
     });

@@ -17,7 +17,8 @@ enum class GroundDoubtKind {
   below_land,  ///< below lowest_land
   level,       ///< an area of one value that stands off most of what is beside it
   rim,         ///< beside unknown ground, far off the node further in: blended with nodata
-  step         ///< far above or below a node beside it
+  step,        ///< far above or below a node beside it
+  seam         ///< one step along a straight line of nodes: two sources meet (seams.hpp)
 };
 
 struct GroundDoubt {
@@ -32,8 +33,8 @@ struct GroundDoubt {
 [[nodiscard]] double doubtful_step(double cell_size);
 
 /// A step is doubtful from impossible_step() on, at a rim and around a level area from
-/// doubtful_step() on; a level area has two nodes and more. Each node once, row by row; none in
-/// most sound terrain.
+/// doubtful_step() on; a level area has two nodes and more. A seam is one doubt, in
+/// the middle of its line. Each node once, row by row; none in most sound terrain.
 [[nodiscard]] std::vector<GroundDoubt> find_ground_doubts(const Trn& trn);
 
 }  // namespace talus

@@ -9,8 +9,7 @@ cat >site.toml <<END
 name = "gschnitz_gar"
 crs = "EPSG:31287"
 [source]
-polygon_file = "$data/scenarios/gschnitz_gar.gpkg"
-polygon_layer = "release"
+polygon_file = "$data/scenarios/gschnitz_gar.gpkg|layername=release"
 [ground.slope]
 friction_deg = 32
 cor = 0.35

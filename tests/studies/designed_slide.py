@@ -28,7 +28,7 @@ FENCED = [("talus", 1e-3, 20), ("talus", 2e-3, 20), ("talus", 5e-3, 20), ("talus
 def simulate(tools, out, law, step_s, n_seeds, fence):
     """talus-runout's answer for the runs of one setting, and their CPU seconds."""
     make = ["make", "-k", "-s", "-C", SOURCE / "sample_sites/designed", f"BIN={tools}/", f"OUT={out}", f"RUNS={n_seeds}",
-            "WITHOUT=no", f"DDA_FLAGS=--law {law} --time-step-s {step_s} --set fence.valley.active={fence}"]
+            "WITHOUT=no", f"DDA_FLAGS=--set solver.law={law} --set solver.time_step_s={step_s} --set fence.valley.active={fence}"]
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     # a run that breaks a limit of its health keeps its file, and make takes it as made the second time
     subprocess.run([*make, "runs"], check=False, **quiet)

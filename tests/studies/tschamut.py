@@ -137,9 +137,9 @@ class Slope:
         kept = "__".join([name, *([] if trn == "trn" else [trn]), *said]) + ".csv"
         if not (self.reuse and (self.folder / kept).exists()):
             self.run("talus-dda", f"{name}.toml", "--trn", f"{trn}.tif", "--blocks", f"{name}.h5", "-o", "run.h5",
-                     "--independent", "--settle", "--frame-interval-s", 1, "--set", "output.passages=false", *words)
-            self.run("talus-runout", "run.h5", "--trn", f"{trn}.tif", "-o", "run.gpkg", "--csv", "run.csv")
-            (self.folder / "run.csv").replace(self.folder / kept)
+                     "--independent", "--settle", "--set", "output.frame_interval_s=1", "--set", "output.passages=false", *words)
+            self.run("talus-runout", "run.h5", "--trn", f"{trn}.tif", "-o", "run.gpkg", "--tables", ".")
+            (self.folder / "runout.csv").replace(self.folder / kept)
         rows = rows_of(self.folder / kept)
         return [rows[k:k + N_BLOCKS[n]] for k in range(0, len(rows), N_BLOCKS[n])]
 

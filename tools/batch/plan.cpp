@@ -274,17 +274,17 @@ Ensemble of_case(const Ensemble& all, const std::string& name) {
 
 // Parts of talus-reduce all of whose runs are wanted.
 std::vector<std::string> parts_of(const BatchPlan& plan) {
-  std::set<std::string> ids;
+  std::set<std::string> keys;
   for (const EnsembleMember& member : plan.ensemble.members)
-    if (has_result(member)) ids.insert(member.run_id);
+    if (has_result(member)) keys.insert(key_of(member));
   std::vector<std::string> parts;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(parts_folder(plan), error)) {
     const std::string name = entry.path().filename().string();
     if (!name.ends_with(".h5") || name[0] == '.') continue;
-    const std::vector<std::string> in_part = ids_in_part(entry.path().string());
+    const std::vector<std::string> in_part = keys_in_part(entry.path().string());
     if (!in_part.empty() && std::all_of(in_part.begin(), in_part.end(),
-                                        [&ids](const auto& id) { return ids.contains(id); }))
+                                        [&keys](const auto& key) { return keys.contains(key); }))
       parts.push_back(fs::relative(entry.path(), plan.folder).string());
   }
   std::sort(parts.begin(), parts.end());

@@ -285,20 +285,20 @@ void run_through(Tool& tool, const std::vector<std::string>& words) {
 // The runs of the part that have a result, as one file.
 void reduce(Tool& tool, const BatchPlan& plan) {
   std::vector<std::string> words = tool_words(plan, "talus-reduce");
-  std::set<std::string> ids;
+  std::set<std::string> keys;
   for (std::size_t i = 0; i < plan.ensemble.members.size(); ++i) {
     const EnsembleMember& member = plan.ensemble.members[i];
     if (!plan.part.has(i) || !has_result(member)) continue;
     words.push_back((fs::path(plan.folder) / member.file).string());
-    ids.insert(member.run_id);
+    keys.insert(key_of(member));
   }
-  if (ids.empty()) return;
+  if (keys.empty()) return;
   const std::string part =
       (fs::path(parts_folder(plan)) /
        (std::to_string(plan.part.number) + "-of-" + std::to_string(plan.part.n_parts) + ".h5"))
           .string();
-  const std::vector<std::string> there = ids_in_part(part);
-  if (there == std::vector<std::string>(ids.begin(), ids.end())) return;
+  const std::vector<std::string> there = keys_in_part(part);
+  if (there == std::vector<std::string>(keys.begin(), keys.end())) return;
   fs::create_directories(parts_folder(plan));
   for (const std::string& word :
        {std::string("--trn"), ground_of(plan), std::string("-o"), part, std::string("--overwrite")})

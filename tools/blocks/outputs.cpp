@@ -69,7 +69,7 @@ void write_outputs(Tool& tool, const BlocksOutputs& files, const BlocksWork& wor
   write_blocks(tool.stage(files.blocks), work.blocks, {{"RUN_ID", tool.run_id()}});
   if (!files.trn.empty())
     write_trn(tool.stage(files.trn), work.is_cut() ? work.mass.bed : work.ground,
-              {{{"RUN_ID", tool.run_id()}}, {}, work.accepted_doubts});
+              {{{"RUN_ID", tool.run_id()}}, work.accepted_doubts});
   if (!files.footprints.empty()) {
     std::vector<std::vector<Vec2>> rings = work.area.rings;
     for (auto& ring : rings)

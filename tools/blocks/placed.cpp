@@ -150,11 +150,9 @@ std::vector<Vec3> release_from_file(const PlacedContext& context, const PlacedSe
   const std::string path = resolved(context.site, section.release_file);
   read_data(context.tool, "blocks." + section.name + ".release", path);
   const bool along_lines = !std::isnan(section.release_spacing_m);
-  const std::string key = "blocks." + section.name + ".release_";
   const VectorKind kind = along_lines ? VectorKind::lines : VectorKind::points;
-  const VectorShapes found = read_layer(
-      context.tool, "blocks." + section.name + ".release",
-      {path, section.release_layer, section.release_where, kind, key}, context.ground.crs_wkt);
+  const VectorShapes found = read_layer(context.tool, "blocks." + section.name + ".release",
+                                        {path, kind}, context.ground.crs_wkt);
   std::vector<Vec3> positions;
   for (const auto& shape : found.shapes) {
     std::vector<Vec2> line;

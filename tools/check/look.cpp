@@ -11,9 +11,9 @@
 #include "geometry/plan2d.hpp"
 #include "io/raster_gdal.hpp"
 #include "record/object_hits.hpp"
-#include "scene/site_scene.hpp"
 #include "setup/run_settings.hpp"
 #include "setup/set_up_gdal.hpp"
+#include "setup/site_scene.hpp"
 #include "setup/sliding_sets.hpp"
 #include "setup/source_cut_gdal.hpp"
 #include "site/joint_plan.hpp"
@@ -363,7 +363,6 @@ bool can_be_probed(const Look& look) { return look.work.site.solver.law == "talu
 void probe_look(Tool& tool, double duration, Look& look) {
   Site site = look.work.site;
   site.solver.time_step_s = probe_step_s;
-  site.solver.min_time_step_s = site.solver.max_time_step_s = not_given;
   const ScenePlan plan = plan_of(site, look.inputs.parts, look.files.independent, false);
   check_start(tool, site, look.inputs, {look.files.bed, look.files.blocks, look.files.settle},
               plan.block_contacts);

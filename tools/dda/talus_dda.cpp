@@ -40,15 +40,7 @@ void declare(Tool& tool, SiteOptions& site, DdaOptions& o) {
               "threads that share a step; 0, the default: all that the machine or the Slurm task "
               "gives, one inside make -j; the run has the same bytes with any number")
       ->check(CLI::Range(0, 1024));
-  site.option(tool, "--law", "solver.law", "contact law, talus or paper");
-  site.option(tool, "--duration-s", "solver.duration_s", "time simulated");
-  site.option(tool, "--time-step-s", "solver.time_step_s", "time step");
-  site.option(tool, "--accuracy", "solver.accuracy",
-              "estimated error of a moving block's displacement, as a share of it");
   site.option(tool, "--seed", "solver.seed", "seed of scatter and jitter");
-  site.option(tool, "--frame-interval-s", "output.frame_interval_s", "time between frames");
-  site.option(tool, "--checkpoint-interval-s", "output.checkpoint_interval_s",
-              "wall time between checkpoints");
   tool.footer(
       "Example:\n  talus-dda site.toml --trn bed.tif --blocks blocks.h5 -o run.h5\n"
       "A run that was stopped leaves run.h5.part: a readable run, and where --resume goes on.");

@@ -50,7 +50,6 @@ void declare(Tool& tool, Options& o) {
       ->check(CLI::NonNegativeNumber);
   tool.option("--bulking", o.result.bulking, "volume of piled blocks over that of their rock")
       ->check(CLI::Range(1.0, 3.0));
-  tool.option("--seed", o.result.seed, "of the bootstrap over runs");
   tool.footer(
       "Example:\n  talus-fence site.toml run_*.h5 --trn slope.tif -o fence.gpkg --json fence.json\n"
       "  talus-fence site.toml with.h5 --without without.h5 --trn slope.tif -o fence.gpkg");
@@ -70,7 +69,7 @@ void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResul
   if (const int n = n_unsettled(runs.with, i); n > 0)
     tool.warn(name + ": " + std::to_string(n) +
               " of the blocks that it stopped were still moving when their run ended; give "
-              "talus-dda a longer --duration-s");
+              "talus-dda a longer [solver] duration_s");
   if (result.basis == DesignBasis::first_touches && result.at_basis.n > 0)
     tool.warn(name + ": " + basis_note(result, fence.settings.name, fell_one_by_one(runs.with)));
   if (result.design.verdict == DesignVerdict::too_few)
@@ -95,7 +94,7 @@ MapTags output_tags(Tool& tool, const RunInputs& inputs, const FenceRuns& runs,
 void write_change(Tool& tool, RunInputs& inputs, const std::string& path, const FenceRuns& runs,
                   const MapTags& tags, const std::string& remark) {
   const MapLayer layer = change_layer(runs.ground_with, runs.ground_without, runs.grid.cell_size);
-  write_map(tool, map_frame(inputs, runs.grid, {.png = true, .pdf = true}, layer.cell), path, layer,
+  write_map(tool, map_frame(inputs, runs.grid, {"png,pdf"}, layer.cell), path, layer,
             change_style(layer, remark), tags);
 }
 

@@ -33,11 +33,6 @@ std::function<std::string(const std::string&)> number_between(double low, double
   };
 }
 
-std::string check_creation_option(const std::string& word) {
-  if (word.find('=') != std::string::npos) return {};
-  return word + " has no value, expected NAME=VALUE, e.g. COMPRESS=ZSTD";
-}
-
 std::vector<std::string> arguments_of(int argc, char** argv, const CLI::App& app) {
   std::vector<std::string> words(argv + 1, argv + argc);
   for (std::string& word : words) {

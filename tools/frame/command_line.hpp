@@ -35,9 +35,6 @@ auto from_command_line(const Read& read) {
 [[nodiscard]] std::function<std::string(const std::string&)> number_between(double low, double high,
                                                                             bool or_nan = false);
 
-/// For CLI::Option::check(): a creation option of GDAL.
-[[nodiscard]] std::string check_creation_option(const std::string& word);
-
 /// The words behind the program's name, last one first as CLI11 takes them. Long options of `app`
 /// may be spelt with one dash and underscores, as GDAL does (-t_srs, -overwrite).
 [[nodiscard]] std::vector<std::string> arguments_of(int argc, char** argv, const CLI::App& app);

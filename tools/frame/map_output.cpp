@@ -65,9 +65,7 @@ std::vector<bool> uncertain_cells(const MapFrame& frame, const MapLayer* certain
   return uncertain;
 }
 
-PageSize size_of(const PageOptions& pages) {
-  return pages.size == "a3" ? PageSize::a3 : PageSize::a4;
-}
+PageSize size_of(const PageOptions& pages) { return pages.has("a3") ? PageSize::a3 : PageSize::a4; }
 
 MapView view_of(const PageLayout& layout, const PassageGrid& grid, const CellWindow& w) {
   const Vec2 north_west = grid.corner + grid.cell_size * Vec2(w.col_begin, -w.row_begin),
@@ -124,7 +122,7 @@ CellWindow window_of_map(const std::string& path, const PassageGrid& grid, const
                          w.col_begin >= 0 && w.col_begin < w.col_end && w.col_end <= n_cols;
   if (!words || !is_inside)
     throw InputError(where, path + " does not say which cells its picture shows",
-                     "name a map that talus-maps --png or --pdf wrote");
+                     "name a map that talus-maps --pages wrote");
   if (n_rows != grid.n_rows || n_cols != grid.n_cols)
     throw InputError(where,
                      path + " has " + std::to_string(n_rows) + " x " + std::to_string(n_cols) +
@@ -134,11 +132,18 @@ CellWindow window_of_map(const std::string& path, const PassageGrid& grid, const
   return w;
 }
 
-void add_page_options(Tool& tool, PageOptions& pages) {
-  tool.flag("--png", pages.png, "a page of each map beside it, as a picture");
-  tool.flag("--pdf", pages.pdf, "the same page as PDF");
-  tool.option("--page", pages.size, "size of the pages: a4 or a3")
-      ->check(CLI::IsMember({"a4", "a3"}));
+void add_pages_option(Tool& tool, PageOptions& pages) {
+  tool.option("--pages", pages.words,
+              "a page of each map beside it: png, pdf or png,pdf; of the size A3 with ,a3")
+      ->check([](const std::string& words) -> std::string {
+        const PageOptions given{words};
+        std::string rest = "," + words;
+        for (const char* word : {",png", ",pdf", ",a3"})
+          if (const std::size_t at = rest.find(word); at != std::string::npos)
+            rest.erase(at, std::string(word).size());
+        if (rest.empty() && (given.has("png") || given.has("pdf"))) return {};
+        return words + " is no list of pages, expected png, pdf or png,pdf, with ,a3 for that size";
+      });
 }
 
 MapFrame map_frame(RunInputs& runs, const PassageGrid& grid, const PageOptions& pages,
@@ -152,7 +157,7 @@ MapFrame map_frame(RunInputs& runs, const PassageGrid& grid, const PageOptions& 
   frame.known = known_cells(trn, grid);
   frame.pages = pages;
   frame.drawn = window ? *window : window_around(grid, touched);
-  if (!pages.any()) return frame;
+  if (pages.words.empty()) return frame;
   require_page_memory();
   require_font();
   const PageLayout layout = layout_of(size_of(pages));
@@ -164,28 +169,29 @@ MapFrame map_frame(RunInputs& runs, const PassageGrid& grid, const PageOptions& 
 
 std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path,
                       const MapLayer& layer, const RasterStyle& style, MapTags tags,
-                      const std::vector<std::string>& creation_options, const MapLayer* certain) {
+                      const MapLayer* certain) {
   MapRaster raster = raster_of(frame, layer);
   const std::size_t shown = static_cast<std::size_t>(style.band) - 1;
   tags.emplace_back("SHOWN_BAND", layer.bands[shown].name);
-  if (frame.pages.any()) tags.emplace_back("PICTURE_CELLS", window_text(frame.drawn, frame.grid));
+  if (!frame.pages.words.empty())
+    tags.emplace_back("PICTURE_CELLS", window_text(frame.drawn, frame.grid));
   if (layer.is_codes && layer.bands.size() == 1)  // what a GeoTIFF may have
     for (const StyleClass& c : style.classes)
       raster.colours.emplace_back(static_cast<int>(c.upper), c.colour);
   raster.tags = std::move(tags);
-  write_map_raster(tool.stage(path), raster, creation_options);
+  write_map_raster(tool.stage(path), raster);
   const auto beside = [&path](const char* extension) {
     return std::filesystem::path(path).replace_extension(extension).string();
   };
   tool.write_text(beside(".qml"), raster_qml(style));
-  if (!frame.pages.any()) return layer.bands[shown].name;
+  if (frame.pages.words.empty()) return layer.bands[shown].name;
   MapPage page = page_of(frame, style, raster.tags);
   page.nodata = raster.nodata_value();
   page.value = std::move(raster.bands[shown].value);
   page.uncertain = uncertain_cells(frame, certain);
-  if (frame.pages.png)
+  if (frame.pages.has("png"))
     tool.write_text(beside(".png"), map_page_png(page, frame.ground, frame.places));
-  if (frame.pages.pdf)
+  if (frame.pages.has("pdf"))
     tool.write_text(beside(".pdf"), map_page_pdf(page, frame.ground, frame.places));
   return layer.bands[shown].name;
 }

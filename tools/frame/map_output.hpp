@@ -19,14 +19,15 @@ namespace talus {
 
 using MapTags = std::vector<std::pair<std::string, std::string>>;
 
-/// Which pages are drawn.
+/// Which pages are drawn: "png,pdf,a3"; empty: none.
 struct PageOptions {
-  bool png = false, pdf = false;
-  std::string size = "a4";
-  [[nodiscard]] bool any() const { return png || pdf; }
+  std::string words;
+  [[nodiscard]] bool has(const std::string& word) const {
+    return ("," + words + ",").find("," + word + ",") != std::string::npos;
+  }
 };
-/// Declares --png, --pdf and --page on a tool.
-void add_page_options(Tool& tool, PageOptions& pages);
+/// Declares --pages on a tool.
+void add_pages_option(Tool& tool, PageOptions& pages);
 
 /// Rows and columns of a grid, the last ones excluded.
 struct CellWindow {
@@ -65,7 +66,6 @@ struct MapFrame {
 /// null: nowhere.
 std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path,
                       const MapLayer& layer, const RasterStyle& style, MapTags tags,
-                      const std::vector<std::string>& creation_options = {},
                       const MapLayer* certain = nullptr);
 
 }  // namespace talus

@@ -305,7 +305,7 @@ void RunInputs::warn_of_ends() const {
   if (moving > 0)
     tool_.warn(std::to_string(moving) + " of " + std::to_string(released) +
                " blocks were still moving when their runs ended: deposits leave them out; give "
-               "talus-dda a longer --duration-s ([solver] duration_s)");
+               "talus-dda a longer [solver] duration_s");
 }
 
 std::string RunInputs::run_set() const {

@@ -19,6 +19,7 @@
 #include "store/runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/exit_code.hpp"
+#include "tools/frame/gone_options.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/output_checks.hpp"
 #include "tools/frame/progress_line.hpp"
@@ -127,7 +128,13 @@ struct Tool::Impl {
     const std::string file = file_of(path);
     if (role != by_content_role && by_content.contains(absolute_path(file))) return;
     if (!is_virtual(file) && !fs::exists(file_behind(file)))
-      throw InputError({file}, "there is no such file", "check the path given for " + role);
+      throw InputError(
+          {file}, "there is no such file",
+          "check the path given for " + role +
+              (file.find_first_of("\n\t\b\r\f") != std::string::npos
+                   ? "; \\n and \\t in double quotes are a line break and a tab: write "
+                     "/, or put it in single quotes"
+                   : ""));
     record.inputs.push_back(artifact_of(role, file));
     for (const std::string& member : sidecars_of(file))
       if (fs::exists(member)) record.inputs.push_back(artifact_of(role, member));
@@ -511,6 +518,20 @@ void Tool::leave_out_of_run_id(const std::vector<std::string>& names) {
   impl_->id_parts.left_out.insert(names.begin(), names.end());
 }
 
+namespace {
+
+// Whether a file is named that the tool has no place for.
+bool names_extra_file(const CLI::ParseError& error, int argc, char** argv) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return false;
+  const std::string finding = error.what();
+  return std::any_of(argv + 1, argv + argc, [&finding](const char* word) {
+    std::error_code failed;
+    return finding.find(word) != std::string::npos && std::filesystem::exists(word, failed);
+  });
+}
+
+}  // namespace
+
 int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   occupy_standard_files();
   Impl& impl = *impl_;
@@ -528,7 +549,13 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     impl.options.messages = word_after("--messages", argc, argv);
     impl.options.label.clear();
     impl.say(error_level, error.what());
-    impl.say(hint_level, impl.name + " --help");
+    const std::string instead = written_instead(impl.name, argc, argv);
+    impl.say(hint_level, !instead.empty() ? instead
+                         : names_extra_file(error, argc, argv)
+                             ? "one file is read: gdalbuildvrt makes one raster of tiles, "
+                               "ogrmerge.py one file of layers; " +
+                                   impl.name + " --help"
+                             : impl.name + " --help");
     return usage_wrong;
   }
   impl.options.label = printable(impl.options.label);

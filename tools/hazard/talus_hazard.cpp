@@ -26,7 +26,6 @@ struct Options {
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   PageOptions pages;
   const CLI::Option* memory = nullptr;  // --memory-mb, of every tool
-  std::vector<std::string> creation_options;
 
   // Rows that may be held: a list that grows holds up to three times what stands in it.
   [[nodiscard]] std::uint64_t most_rows() const {
@@ -42,13 +41,11 @@ void declare(Tool& tool, Options& o) {
   tool.option("--cell-size-m", o.cell_size_m,
               "cell of the maps, a whole multiple of the recorded one [m]; nan: as recorded")
       ->check(number_between(0, 1e6, true));
-  add_page_options(tool, o.pages);
+  add_pages_option(tool, o.pages);
   tool.json_output(o.json, "the result (JSON)");
   o.memory = tool.app().get_option("--memory-mb");
-  tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE")
-      ->check(check_creation_option);
   tool.footer(
-      "Example:\n  talus-hazard site.toml run_1.h5 run_2.h5 --trn bed.tif -o hazard --png\n"
+      "Example:\n  talus-hazard site.toml run_1.h5 run_2.h5 --trn bed.tif -o hazard --pages png\n"
       "  talus-hazard site.toml runs --trn bed.tif -o hazard");
 }
 
@@ -186,7 +183,7 @@ Json write_layers(Tool& tool, const Options& o, const MapFrame& frame, const Rec
     const std::string path = (fs::path(o.folder) / (layer.name + ".tif")).string();
     const std::string shown =
         write_map(tool, frame, path, layer, hazard_style(layer, recipe, remark, notes), tags,
-                  o.creation_options, layer.name == "class" ? certainty : nullptr);
+                  layer.name == "class" ? certainty : nullptr);
     Json bands = Json::array();
     for (const MapBand& band : layer.bands) bands.push_back(band.name);
     written.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});

@@ -34,7 +34,6 @@ struct Options {
   talus::PageOptions pages;
   double half_width = 0.05;
   const CLI::Option* memory = nullptr;  // --memory-mb, of every tool
-  std::vector<std::string> creation_options;
 
   // Rows that may be held: each twice while they are sorted.
   [[nodiscard]] std::uint64_t most_rows() const {
@@ -53,10 +52,7 @@ void declare(Tool& tool, Options& o) {
   tool.option("--min-passages", o.settings.min_passages,
               "passages that a percentile needs; 0: 5, 29, 59, 299 for p50, p90, p95, p99")
       ->check(CLI::Range(0, 1000000000));
-  tool.option("--resamples", o.settings.n_resamples, "resamples of the bootstrap over runs")
-      ->check(CLI::Range(20, 10000));
-  tool.option("--seed", o.settings.seed, "of the bootstrap");
-  talus::add_page_options(tool, o.pages);
+  talus::add_pages_option(tool, o.pages);
   tool.input("--window-of", o.window_of, "map of the same cells: pages show what its pages show");
   o.memory = tool.app().get_option("--memory-mb");
   tool.option("--half-width", o.half_width,
@@ -65,9 +61,7 @@ void declare(Tool& tool, Options& o) {
   tool.inputs(
       "--compare", o.compared,
       "runs, parts or their folder to compare with: compare.tif holds what these have more");
-  tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE")
-      ->check(talus::check_creation_option);
-  tool.footer("Example:\n  talus-maps runs --trn slope.tif -o maps --png");
+  tool.footer("Example:\n  talus-maps runs --trn slope.tif -o maps --pages png");
 }
 
 /// What the runs give to the maps.
@@ -264,8 +258,8 @@ WrittenMaps write_layers(Tool& tool, const Options& o, const talus::MapFrame& fr
   for (const MapLayer& layer : layers) {
     progress(static_cast<double>(written.files.size()) / static_cast<double>(layers.size()));
     const std::string path = file_of_layer(o, layer.name);
-    const std::string shown = talus::write_map(
-        tool, frame, path, layer, talus::map_style(layer, remark), tags, o.creation_options);
+    const std::string shown =
+        talus::write_map(tool, frame, path, layer, talus::map_style(layer, remark), tags);
     written.shows_maximum = written.shows_maximum || shown == layer.name + "_max";
     Json bands = Json::array();
     for (const auto& band : layer.bands) bands.push_back(band.name);
@@ -299,7 +293,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
     const std::string path = file_of_layer(o, "compare");
     talus::write_map(tool, frame, path, *comparison,
                      talus::change_style(*comparison, remark, {0.01, 0.02, 0.05, 0.1, 0.2, 0.5}),
-                     comparison_tags(runs, members.size(), tags), o.creation_options);
+                     comparison_tags(runs, members.size(), tags));
     written.files.push_back({{"file", path}, {"shown_band", comparison->bands[0].name}});
   }
   if (written.shows_maximum && n_rows > 0)

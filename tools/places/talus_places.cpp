@@ -28,10 +28,7 @@ PlaceRings rings_of(Tool& tool, const Site& site, const Trn& trn, const PlaceSet
   } else {
     const std::string path = resolved(site, place.polygon_file);
     tool.read_also(section, path);
-    const VectorShapes found = read_layer(
-        tool, section,
-        {path, place.polygon_layer, place.polygon_where, VectorKind::areas, section + ".polygon_"},
-        trn.crs_wkt);
+    const VectorShapes found = read_layer(tool, section, {path, VectorKind::areas}, trn.crs_wkt);
     rings = found.shapes;
     for (std::vector<Vec3>& ring : rings)
       for (Vec3& point : ring) point -= trn.origin;

@@ -12,7 +12,6 @@
 #include "setup/vector_inputs_gdal.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
-#include "tools/frame/layer_options.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/run_inputs.hpp"
 #include "tools/profile/output.hpp"
@@ -25,8 +24,7 @@ namespace fs = std::filesystem;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 struct Options {
-  std::string line, line_file, out, csv, bins, stations, charts, json;
-  LayerChoice choice;
+  std::string line, line_file, out, tables, json;
   double step_m = none, bin_m = none;
 };
 
@@ -34,13 +32,12 @@ void declare(Tool& tool, Options& o) {
   tool.option("--line", o.line,
               "the line: \"x,y x,y ...\" in map coordinates of the terrain, blanks between points");
   tool.input("--line-file", o.line_file, "the line: a vector file that holds one");
-  add_layer_options(tool, "--line-", "--line-file", o.choice);
   tool.output("-o,--out", o.out, "crossings, parts of the line, stations (GeoPackage)")->required();
-  tool.output("--csv", o.csv, "across: a row a block that crosses the line (CSV)");
-  tool.output("--bins", o.bins, "across: a row a part of the line (CSV)");
-  tool.output("--stations", o.stations, "along: ground and passing blocks at stations (CSV)");
-  tool.output_folder("--charts", o.charts,
-                     "folder for charts (SVG): ground, count, energy, speed, height");
+  tool.output_folder(
+      "--tables", o.tables,
+      "folder for tables and charts: crossings.csv, a row a block; bins.csv, a row a "
+      "part of the line; stations.csv, ground and passing blocks along it; ground, "
+      "count, energy, speed and height (SVG)");
   tool.json_output(o.json, "the result (JSON)");
   tool.option("--step-m", o.step_m, "between stations [m]; nan: the cells of the terrain")
       ->check(number_between(1e-3, 1e6, true));
@@ -48,7 +45,7 @@ void declare(Tool& tool, Options& o) {
       ->check(number_between(1e-3, 1e6, true));
   tool.footer(
       "Example:\n  talus-profile run_*.h5 --trn bed.tif --line-file road.geojson -o profile.gpkg "
-      "--csv crossings.csv --stations profile.csv --charts charts");
+      "--tables profile");
 }
 
 Where where_of_line(const Options& o) {
@@ -84,12 +81,11 @@ std::vector<Vec3> read_line(Tool& tool, const Options& o, const Trn& trn) {
     return points;
   }
   read_members(tool, "line-file", o.line_file);
-  const VectorShapes found = read_layer(
-      tool, "line-file",
-      {o.line_file, o.choice.layer, o.choice.where, VectorKind::lines, "--line-"}, trn.crs_wkt);
+  const VectorShapes found =
+      read_layer(tool, "line-file", {o.line_file, VectorKind::lines}, trn.crs_wkt);
   if (found.shapes.size() != 1)
     throw InputError({o.line_file}, "holds " + counted(found.n_parts, "line") + ", expected one",
-                     "choose one with --line-where, e.g. \"fid = 1\", or draw it as one");
+                     "choose one, e.g. --line-file \"FILE|subset=fid = 1\", or draw it as one");
   return found.shapes[0];
 }
 
@@ -197,12 +193,15 @@ void run_tool(Tool& tool, const Options& o, RunInputs& runs) {
   std::vector<VectorLayer> layers = profile_layers(profile);
   mark_layers(layers, remark);
   write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
-  if (!o.csv.empty()) tool.write_text(o.csv, crossing_csv(profile));
-  if (!o.bins.empty()) tool.write_text(o.bins, bin_csv(profile));
-  if (!o.stations.empty()) tool.write_text(o.stations, station_csv(profile));
-  if (!o.charts.empty())
-    for (const auto& [name, svg] : profile_charts(profile))
-      tool.write_text((fs::path(o.charts) / (name + ".svg")).string(), svg);
+  if (!o.tables.empty()) {
+    const auto write = [&](const std::string& name, const std::string& content) {
+      tool.write_text((fs::path(o.tables) / name).string(), content);
+    };
+    write("crossings.csv", crossing_csv(profile));
+    write("bins.csv", bin_csv(profile));
+    write("stations.csv", station_csv(profile));
+    for (const auto& [name, svg] : profile_charts(profile)) write(name + ".svg", svg);
+  }
   Json result = {
       {"run_id", tool.run_id()}, {"tags", Json::object()}, {"n_runs", n_runs(profile.sums)}};
   for (const auto& [key, value] : tags) result["tags"][key] = value;

@@ -403,7 +403,7 @@ std::vector<std::vector<Vec3>> trails_in(const ResultFolder& folder, const Vec3&
       }))
     return {};
   std::vector<std::vector<Vec3>> trails =
-      read_vectors({path, "paths", "", VectorKind::lines}, "").shapes;
+      read_vectors({path + "|layername=paths", VectorKind::lines}, "").shapes;
   for (std::vector<Vec3>& trail : trails)
     for (Vec3& p : trail) p -= origin;
   return trails;

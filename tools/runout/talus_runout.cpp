@@ -3,6 +3,7 @@
 // docs/tools/talus-runout.md
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "base/text.hpp"
 #include "io/geopackage_gdal.hpp"
@@ -12,7 +13,7 @@
 #include "post/runout/mobility.hpp"
 #include "post/runout/runout_sensitivity.hpp"
 #include "post/runout/runout_text.hpp"
-#include "scene/site_scene.hpp"
+#include "setup/site_scene.hpp"
 #include "site/uncertainty.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
@@ -30,7 +31,7 @@ namespace {
 using namespace talus;  // NOLINT: a program of its own
 
 struct Options {
-  std::string out, json, csv, run_table, svg, curves, thickness, mobility, sensitivity;
+  std::string out, json, tables, thickness, mobility;
   double tolerance_m = 0.5, friction_deg = std::nan("");
   bool confined = false;
 };
@@ -38,12 +39,12 @@ struct Options {
 void declare(Tool& tool, Options& o) {
   tool.output("-o,--out", o.out, "deposit, paths, streamlines, envelope (GeoPackage)")->required();
   tool.json_output(o.json, "run-out of the event, runs and relations (JSON)");
-  tool.output("--csv", o.csv, "one row a block (CSV)");
-  tool.output("--run-table", o.run_table, "one row a run: what moved, H, L, angle of reach (CSV)");
-  tool.output("--curves", o.curves, "speed, energy and centre of mass over time (CSV)");
-  tool.output("--svg", o.svg, "where the event lies among the mobility relations (SVG)");
-  tool.output("--sensitivity", o.sensitivity,
-              "what results owe to each quantity that the runs drew (CSV)");
+  tool.output_folder(
+      "--tables", o.tables,
+      "folder for runout.csv, a row a block; runs.csv, a row a run; sensitivity.csv, "
+      "what results owe to each quantity that was drawn; curves.csv, speed, energy "
+      "and centre of mass over time; runout.svg, where the event lies among the "
+      "mobility relations");
   tool.output("--thickness", o.thickness, "mean thickness of the deposit (GeoTIFF)");
   tool.input("--mobility", o.mobility, "relations to compare with (CSV) [share/mobility.csv]");
   tool.option("--path-tolerance-m", o.tolerance_m,
@@ -187,12 +188,17 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   mark_layers(layers, remark);
   write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
   const std::vector<MobilityEvent> events = events_of(all.runs, o.confined);
-  if (!o.csv.empty()) tool.write_text(o.csv, block_csv(all.runs));
-  if (!o.run_table.empty()) tool.write_text(o.run_table, run_csv(all.runs));
   const std::vector<SensitivityRow> sensitivity = sensitivity_of(all.runs);
-  if (!o.sensitivity.empty()) tool.write_text(o.sensitivity, sensitivity_csv(sensitivity));
-  if (!o.curves.empty()) tool.write_text(o.curves, curve_csv(all.runs, trn.origin));
-  if (!o.svg.empty()) tool.write_text(o.svg, mobility_svg(relations, events));
+  if (!o.tables.empty()) {
+    const auto write = [&](const char* name, const std::string& content) {
+      tool.write_text((std::filesystem::path(o.tables) / name).string(), content);
+    };
+    write("runout.csv", block_csv(all.runs));
+    write("runs.csv", run_csv(all.runs));
+    write("sensitivity.csv", sensitivity_csv(sensitivity));
+    write("curves.csv", curve_csv(all.runs, trn.origin));
+    write("runout.svg", mobility_svg(relations, events));
+  }
   if (!o.thickness.empty()) write_thickness(tool, o, all, inputs, tags, remark);
 
   Json runs = Json::array(), tag_list;

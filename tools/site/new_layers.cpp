@@ -35,7 +35,7 @@ VectorLayer empty_layer(const SiteLayer& layer) {
 
 // Even-odd rings as a polygon each: a ring in a ring, which is a hole, cannot be told here.
 void add_polygons(Tool& tool, const std::string& path, const std::string& crs, VectorLayer& layer) {
-  const VectorShapes found = read_vectors({path, "", "", VectorKind::areas, "--source-"}, crs);
+  const VectorShapes found = read_vectors({path, VectorKind::areas}, crs);
   if (static_cast<int>(found.shapes.size()) != found.n_parts && found.n_united == 0)
     throw InputError({path}, "has a polygon with a hole, which is not copied",
                      "copy it into the layer source yourself, or take out the hole");

@@ -87,19 +87,8 @@ std::string digests_of(const std::string& path, FileDigests& digests) {
 // Of a layer that stands for sections its features count, as the key names them: another fence is
 // no other source. A GIS also changes bytes of the file when it only looks at it.
 std::string digest_of_layer(const Site& site, const EffectiveValue& value) {
-  const std::string prefix = value.key.substr(0, value.key.size() - std::string("file").size());
-  std::string layer, where;
-  for (const EffectiveValue& other : effective_values(site)) {
-    if (other.section != value.section) continue;
-    if (other.key == prefix + "layer") layer = unquoted(other.value);
-    if (other.key == prefix + "where") where = unquoted(other.value);
-  }
-  return " " + digest_of_features(resolved(site, site.layers_file), layer, where);
-}
-
-bool is_of_layers(const Site& site, const EffectiveValue& value) {
-  return !site.layers_file.empty() && value.key.ends_with("file") &&
-         unquoted(value.value) == site.layers_file;
+  const SourcePath named = parse_source_path(resolved(site, unquoted(value.value)));
+  return " " + digest_of_features(named.source, named.layer, named.subset);
 }
 
 // What a stage reads, a line a value; files by their content.
@@ -110,8 +99,9 @@ std::string settings_of(const Site& site, const std::string& stage, FileDigests&
     out += value.section + "." + value.key + " = " + value.value;
     const std::string file = file_named(site, value);
     if (!file.empty())
-      out += "  # sha256" +
-             (is_of_layers(site, value) ? digest_of_layer(site, value) : digests_of(file, digests));
+      out += "  # sha256" + (names_layers_file(site, unquoted(value.value))
+                                 ? digest_of_layer(site, value)
+                                 : digests_of(file, digests));
     out += "\n";
   }
   return out;
@@ -174,46 +164,20 @@ std::string joined(const std::vector<double>& numbers) {
   return out;
 }
 
-// A rule names the file of the contours alone; what else their name says becomes an option.
-std::string layer_of(const Site& site, const SourcePath& contours) {
-  const std::string& by_key = site.terrain.layer;
-  if (!contours.layer_id.empty())
-    throw InputError(where_of(site, "terrain.contours"),
-                     "contours asks for a layer by its number, " + contours.layer_id,
-                     "name it: layer = \"...\"");
-  if (contours.layer.empty() || by_key.empty() || by_key == contours.layer)
-    return contours.layer.empty() ? by_key : contours.layer;
-  throw InputError(where_of(site, "terrain.layer"),
-                   "layer is " + by_key + ", contours asks for the layer " + contours.layer,
-                   "name the layer once");
-}
-
-std::string filter_of(const Site& site, const SourcePath& contours) {
-  const std::string &a = contours.subset, &b = site.terrain.where;
-  return a.empty() || b.empty() ? a + b : "(" + a + ") AND (" + b + ")";
-}
-
 std::string tin_flags(const Site& site) {
   const TerrainSettings& t = site.terrain;
   std::string out;
   const auto add = [&out, &site](const char* option, const std::string& value) {
     if (!value.empty()) out += std::string(" ") + option + " " + shell_word(value, site);
   };
-  const SourcePath contours = parse_source_path(resolved(site, t.contours));
-  add("--layer", layer_of(site, contours));
-  add("--where", filter_of(site, contours));
   add("--elevation-field", t.elevation_field);
   add("--breaklines", resolved(site, t.breaklines));
-  add("--breaklines-layer", t.breaklines_layer);
-  add("--breaklines-where", t.breaklines_where);
-  add("--breaklines-elevation-field", t.breaklines_elevation_field);
+  if (!t.breaklines_elevation_field.empty())
+    add("--elevation-field", "breaklines=" + t.breaklines_elevation_field);
   add("--spots", resolved(site, t.spots));
-  add("--spots-layer", t.spots_layer);
-  add("--spots-where", t.spots_where);
-  add("--spots-elevation-field", t.spots_elevation_field);
+  if (!t.spots_elevation_field.empty())
+    add("--elevation-field", "spots=" + t.spots_elevation_field);
   add("--boundary", resolved(site, t.boundary));
-  add("--boundary-layer", t.boundary_layer);
-  add("--boundary-where", t.boundary_where);
   add("--flat", t.flat);
   return out;
 }
@@ -226,11 +190,19 @@ std::string trn_flags(const Site& site) {
   return out;
 }
 
-// A member of an archive that is named by itself stands in the rule by GDAL's name for it.
+// A rule names the file of the contours alone. A member of an archive that is named by itself
+// stands in it by GDAL's name for it.
 std::string contours_file(const Site& site) {
   const SourcePath contours = parse_source_path(resolved(site, site.terrain.contours));
   const bool is_member = contours.inside.find('/') == 0;
   return is_member || is_virtual(contours.source) ? contours.source : contours.file;
+}
+
+// What stands behind the file in the recipe, as a word of the shell: its layers and filter.
+std::string contours_part(const Site& site) {
+  const std::string inside = part_named(resolved(site, site.terrain.contours));
+  const std::size_t bar = inside.find('|');
+  return bar == std::string::npos ? "" : shell_word(inside.substr(bar), site);
 }
 
 std::string make_variables(const Site& site) {
@@ -257,6 +229,7 @@ std::string make_variables(const Site& site) {
     out += std::string(name) + " :=" + (value.empty() || value[0] == ' ' ? "" : " ") + value + "\n";
   };
   line("SITE_CONTOURS", make_word(contours_file(site), site));
+  line("SITE_CONTOURS_PART", contours_part(site));
   line("SITE_DEM", make_word(resolved(site, site.terrain.dem), site));
   line("SITE_TIN_FLAGS", tin_flags(site));
   line("SITE_TRN_FLAGS", trn_flags(site));

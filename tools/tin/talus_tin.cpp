@@ -18,13 +18,11 @@
 #include "terrain/point_tin.hpp"
 #include "terrain/tin_mesh.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/layer_options.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/tin/doubts.hpp"
 
 namespace {
 
-using talus::add_layer_options;
 using talus::ContourMap;
 using talus::InputError;
 using talus::Json;
@@ -35,6 +33,7 @@ using talus::UsageError;
 
 struct Options {
   talus::ContourSources sources;
+  std::vector<std::string> fields, units;  // "elev", "spots=hoehe"; "0.3048", "spots=0.3048"
   std::string out, crs, t_srs, vertical_crs, t_vertical, report, hold_out;
   std::string flat = "fill";
   double fill_spacing_m = 0;
@@ -61,40 +60,57 @@ std::string check_every(const std::string& word) {
   return word + " is no step, expected a whole number of 2 or more";
 }
 
+// What an option says of one input: "spots=0.3048", or "0.3048" of the contours.
+struct OfInput {
+  talus::LayerChoice* input;
+  std::string value;
+};
+
+OfInput of_input(talus::ContourSources& s, const std::string& words) {
+  for (const auto& [name, input] :
+       {std::pair{"contours=", &s.contours}, std::pair{"labels=", &s.labels},
+        std::pair{"breaklines=", &s.breaklines}, std::pair{"spots=", &s.spots},
+        std::pair{"boundary=", &s.boundary}})
+    if (words.starts_with(name)) return {input, words.substr(std::string(name).size())};
+  return {&s.contours, words};
+}
+
+void take_fields_and_units(Options& o) {
+  for (const std::string& words : o.fields) {
+    const OfInput field = of_input(o.sources, words);
+    field.input->elevation_field = field.value;
+  }
+  for (const std::string& words : o.units) {
+    const OfInput unit = of_input(o.sources, words);
+    static_cast<void>(talus::parse_double(unit.value, unit.input->unit_m));  // was checked
+  }
+}
+
 void declare(Tool& tool, Options& o) {
   talus::ContourSources& s = o.sources;
   tool.input("contours", s.contours.path, "contour lines (any vector source that GDAL reads)");
   tool.output("-o,--out", o.out, "TIN to write (binary PLY)")->required();
-  add_layer_options(tool, "--", "the contours", s.contours);
-  tool.option("--elevation-field", s.contours.elevation_field,
-              "field with the elevation; Z: the geometries' own; empty: found by itself");
   tool.input("--labels", s.labels.path,
              "texts beside the contours that say their heights (e.g. the same DXF drawing)");
-  add_layer_options(tool, "--labels-", "the labels", s.labels);
-  tool.option("--labels-field", s.labels.elevation_field, "field with their text; empty: Text");
-  tool.option("--unit-m", s.contours.unit_m,
-              "metres in one unit of the contours, in plan and height; 0: metres, or refused where "
-              "a drawing says another unit")
-      ->check(check_positive);
   tool.option("--elevation-unit-m", s.elevation_unit_m,
               "metres in one unit of all elevations; 0: as their height system says, else metres")
       ->check(check_positive);
   tool.input("--breaklines", s.breaklines.path, "lines with heights where the slope breaks");
-  add_layer_options(tool, "--breaklines-", "the breaklines", s.breaklines);
-  tool.option("--breaklines-elevation-field", s.breaklines.elevation_field,
-              "field with their elevation, or Z; empty: found by itself");
-  tool.option("--breaklines-unit-m", s.breaklines.unit_m, "as --unit-m, for them")
-      ->check(check_positive);
   tool.input("--spots", s.spots.path, "spot heights (points)");
-  add_layer_options(tool, "--spots-", "the spot heights", s.spots);
-  tool.option("--spots-elevation-field", s.spots.elevation_field,
-              "field with their elevation, or Z; empty: found by itself");
-  tool.option("--spots-unit-m", s.spots.unit_m, "as --unit-m, for them")->check(check_positive);
   tool.input("--boundary", s.boundary.path,
              "polygons or closed lines: triangles with their centre outside go");
-  add_layer_options(tool, "--boundary-", "the boundary", s.boundary);
-  tool.option("--boundary-unit-m", s.boundary.unit_m, "as --unit-m, for them")
-      ->check(check_positive);
+  tool.app()
+      .add_option("--elevation-field", o.fields,
+                  "field with the elevation of the contours, Z: the geometries' own; INPUT=FIELD: "
+                  "of labels, breaklines or spots")
+      ->allow_extra_args(false);
+  tool.app()
+      .add_option(
+          "--unit-m", o.units,
+          "metres in one unit of the contours, in plan and height; INPUT=METRES: of labels, "
+          "breaklines, spots or boundary")
+      ->allow_extra_args(false)
+      ->check([&s](const std::string& words) { return check_positive(of_input(s, words).value); });
   tool.option("--crs", o.crs,
               "CRS of contours that have none, or one that cannot be true; none: local metres");
   tool.option("--t-srs", o.t_srs, "reproject to this CRS, e.g. EPSG:32632 (heights stay)");
@@ -230,7 +246,19 @@ Json as_json(const talus::CleaningCounts& c) {
           {"touches_at_one_height", c.touches},
           {"crossings_at_one_height", c.crossings},
           {"lines_of_one_point", c.single_points},
-          {"breaklines_and_spots_on_contours", c.breakline_meetings}};
+          {"breaklines_and_spots_on_contours", c.breakline_meetings},
+          {"breaklines_and_spots_apart", c.measured_apart}};
+}
+
+// One of two measured heights of a place is taken: a bridge, or a mistake.
+void warn_of_measured(Tool& tool, const talus::CleaningCounts& c, const talus::Vec3& origin) {
+  if (c.measured_apart == 0) return;
+  tool.warn("breaklines and spot heights meet at different heights in " +
+            talus::counted(static_cast<std::int64_t>(c.measured_apart), "place") + ", by up to " +
+            text(c.measured_apart_m, 3) + " m at x " +
+            text(c.measured_apart_at.x() + origin.x(), 10) + ", y " +
+            text(c.measured_apart_at.y() + origin.y(), 10) +
+            ": one of them is taken; leave out what crosses on a bridge");
 }
 
 Json as_json(const ContourMap& map, const talus::ContourReading& reading) {
@@ -284,6 +312,7 @@ talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Jso
       map.contours.n_lines() + map.breaklines.n_lines() + static_cast<int>(map.spots.size());
   talus::forget_lines(map);
   report["cleaning"] = as_json(clean.counts);
+  warn_of_measured(tool, clean.counts, map.origin);
   const talus::MeasuredPoints measured{clean.n_contour_points,
                                        static_cast<int>(clean.points.size())};
   talus::Triangulation triangulation(std::move(clean.points), clean.segments, map.source);
@@ -428,6 +457,7 @@ int main(int argc, char** argv) {
   declare(tool, o);
   return tool.run(argc, argv, [&] {
     check_together(o);
+    take_fields_and_units(o);
     read_members_of_sources(tool, o);
     talus::Tin tin;
     const Json report = o.of_points ? build_of_points(tool, o, tin) : build(tool, o, tin);

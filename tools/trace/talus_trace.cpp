@@ -39,7 +39,7 @@ void declare(Tool& tool, Options& o) {
   tool.output("--csv", o.csv, "one row a source cell and object (CSV)");
   tool.json_output(o.json, "the result (JSON)");
   tool.output_folder("--rasters", o.rasters, "folder for a raster of source cells an object");
-  add_page_options(tool, o.pages);
+  add_pages_option(tool, o.pages);
   tool.option("--source-cell-m", o.source_cell_m,
               "cells that blocks are put together by where they were released [m]; nan: the "
               "terrain's")

@@ -25,7 +25,6 @@
 #include "terrain/trn_quality.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/doubts_layer.hpp"
-#include "tools/frame/layer_options.hpp"
 #include "tools/frame/options.hpp"
 
 namespace {
@@ -49,7 +48,6 @@ struct Options {
   bool accept_ballpark = false;
   talus::LayerChoice reference_points, faces;
   double cell_size_m = 0;
-  std::vector<std::string> creation_options;
   MapWindow window = everywhere;
   std::string doubts;
   bool accept_doubts = false;
@@ -64,12 +62,14 @@ std::string parse_window(const std::string& words, MapWindow& window) {
     const std::size_t end = i < 3 ? words.find(',', begin) : words.size();
     if (end == std::string::npos ||
         !talus::parse_double(words.substr(begin, end - begin), number[i]))
-      return words + " is no window, expected XMIN,YMIN,XMAX,YMAX";
+      return words + " is not a window, expected XMIN,YMIN,XMAX,YMAX";
     begin = end + 1;
   }
   window = {number[0], number[1], number[2], number[3]};
   if (window.x_min < window.x_max && window.y_min < window.y_max) return {};
-  return "the window " + words + " has no area, expected XMIN < XMAX and YMIN < YMAX";
+  return "the window " + words +
+         " has no area, expected XMIN < XMAX and YMIN < YMAX "
+         "(QGIS writes extents as xmin,xmax,ymin,ymax)";
 }
 
 std::string check_positive(const std::string& word) {
@@ -81,7 +81,6 @@ std::string check_positive(const std::string& word) {
 void declare(Tool& tool, Options& o) {
   tool.input("source", o.source, "TIN (PLY, LandXML, 3DFACE in DXF), or an elevation raster");
   tool.output("-o,--out", o.out, "terrain to write (GeoTIFF)")->required();
-  talus::add_layer_options(tool, "--", "a drawing of faces", o.faces);
   tool.option("--unit-m", o.faces.unit_m,
               "metres in one unit of a drawing of faces, in plan and height; 0: metres, or refused "
               "where it says another unit")
@@ -104,18 +103,13 @@ void declare(Tool& tool, Options& o) {
   tool.input("--reference", o.reference, "better known DEM to hold the terrain against");
   tool.input("--reference-points", o.reference_points.path,
              "points with a height to hold the terrain against (any vector source)");
-  talus::add_layer_options(tool, "--reference-points-", "the points", o.reference_points);
-  tool.option("--reference-points-elevation-field", o.reference_points.elevation_field,
-              "field with their elevation, or Z; empty: found by itself");
+  tool.option("--elevation-field", o.reference_points.elevation_field,
+              "field with the elevation of --reference-points, or Z; empty: found by itself");
   tool.output("--report", o.report, "errors, slopes, coverage (JSON)");
   tool.output("--doubts", o.doubts,
               "places to look at, also of ground that is refused (GeoPackage)");
   tool.flag("--accept-doubts", o.accept_doubts, "take ground that cannot be, and say so");
   tool.output("--hillshade", o.hillshade, "picture of the terrain (PNG)");
-  tool.app()
-      .add_option("--co", o.creation_options, "creation option of the GeoTIFF, NAME=VALUE")
-      ->allow_extra_args(false)
-      ->check(talus::check_creation_option);
   tool.footer(
       "Example:\n  talus-trn slope.ply -o slope.tif --cell-size-m 5 --report slope.json\n"
       "  talus-trn dem.tif -o slope.tif --window 248400,351100,249200,351700");
@@ -155,6 +149,16 @@ GridFrame frame_like(const Options& o, const std::string& crs_wkt) {
 }
 
 void check_frame(const GridFrame& frame, const MapWindow& data, const Options& o) {
+  if (const auto other = talus::other_order_within(o.window, data)) {
+    const std::string words = text(other->x_min, 12) + "," + text(other->y_min, 12) + "," +
+                              text(other->x_max, 12) + "," + text(other->y_max, 12);
+    throw InputError({o.source},
+                     "--window " + o.window_text + " reaches beyond the data, " +
+                         window_as_text(data) +
+                         ", as XMIN,YMIN,XMAX,YMAX; in another order of "
+                         "its numbers it lies in them",
+                     "--window " + words + " (QGIS writes extents as xmin,xmax,ymin,ymax)");
+  }
   const MapWindow common =
       talus::intersection(frame.empty() ? o.window : talus::extent(frame), data);
   if (common.x_min > common.x_max || common.y_min > common.y_max)
@@ -298,9 +302,8 @@ Ground ground_of_dem(Tool& tool, const Options& o) {
   });
   options.accept_ballpark = o.accept_ballpark;
   options.window = o.window;
-  if (!o.faces.layer.empty() || !o.faces.where.empty() || o.faces.unit_m != 0)
-    throw talus::UsageError({"", 0, o.source}, "--layer, --where and --unit-m are for drawings",
-                            "leave them away");
+  if (o.faces.unit_m != 0)
+    throw talus::UsageError({"", 0, o.source}, "--unit-m is for faces (DXF, LandXML)", "omit it");
   const DemFile dem(o.source, options);
   say(tool, dem.reading());
   Ground ground;
@@ -472,6 +475,8 @@ const char* name_of(talus::GroundDoubtKind kind) {
       return "level area";
     case talus::GroundDoubtKind::rim:
       return "rim";
+    case talus::GroundDoubtKind::seam:
+      return "seam";
     default:
       return "step";
   }
@@ -505,6 +510,11 @@ std::string sentence_on(talus::GroundDoubtKind kind, std::int64_t n, const talus
     case talus::GroundDoubtKind::rim:
       return talus::counted(n, "node") + " at the rim of what is known more than " + apart +
              " m off the next, the first " + place_of(first) + ": is it blended with nodata?";
+    case talus::GroundDoubtKind::seam:
+      return talus::counted(n, "seam") + ", a step of one height along a straight line of nodes, " +
+             "the first " + text(std::abs(first.expected_low - first.place.z()), 3) +
+             " m through " + place_of(first) +
+             ": do two tiles, sources or height systems meet there?";
     default:
       return talus::counted(n, "step") + " of more than " +
              text(talus::impossible_step(trn.cell_size), 4) +
@@ -538,8 +548,9 @@ Json doubts_of(Tool& tool, const Options& o, Ground& ground) {
   if (const std::string places = places_to_tell(rows); !places.empty())
     ground.accepted += (ground.accepted.empty() ? "" : "; ") + places;
   Json json = Json::object();
-  for (const GroundDoubtKind kind : {GroundDoubtKind::below_land, GroundDoubtKind::level,
-                                     GroundDoubtKind::rim, GroundDoubtKind::step}) {
+  for (const GroundDoubtKind kind :
+       {GroundDoubtKind::below_land, GroundDoubtKind::level, GroundDoubtKind::rim,
+        GroundDoubtKind::step, GroundDoubtKind::seam}) {
     std::int64_t n = 0;
     const talus::DoubtRow* first = nullptr;
     for (std::size_t i = 0; i < doubts.size(); ++i)
@@ -596,8 +607,7 @@ int main(int argc, char** argv) {
     talus::check_trn(ground.trn, o.source);
     tool.content_read("terrain", talus::trn_digest(ground.trn));
     const Json report = report_on(tool, o, ground);
-    talus::write_trn(tool.stage(o.out), ground.trn,
-                     {{{"RUN_ID", tool.run_id()}}, o.creation_options, ground.accepted});
+    talus::write_trn(tool.stage(o.out), ground.trn, {{{"RUN_ID", tool.run_id()}}, ground.accepted});
     if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), ground.trn);
     if (!o.report.empty()) tool.write_text(o.report, talus::json_text(report, 2) + "\n");
     tool.result(report, summary_of(report));

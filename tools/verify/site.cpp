@@ -75,7 +75,6 @@ EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Ca
   Site changed = site;
   changed.solver.law = c.is_paper ? "paper" : "talus";
   changed.solver.time_step_s = c.dt;
-  changed.solver.min_time_step_s = changed.solver.max_time_step_s = not_given;
   changed.solver.normal_stiffness_n_m = c.normal_stiffness;
   changed.solver.strain = c.strains ? "on" : "off";
   if (changed.solver.start_jitter_m_s == 0) changed.solver.start_jitter_m_s = 1e-3;
@@ -93,18 +92,14 @@ EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Ca
   return result;
 }
 
-// What replaces keys of the site file, and which of its keys the study did without.
-std::string fragment_of(const Candidate& c, const Site& site, const SiteStudyOptions& o) {
+// What replaces keys of the site file.
+std::string fragment_of(const Candidate& c, const SiteStudyOptions& o) {
   std::string toml = "# Cheapest settings whose " + o.quantity + " stays within " + o.tolerance +
                      " of the refined answer (talus-verify, commit " + build_commit + ").\n";
   toml +=
       "# In place of these keys of the site file's [solver]:\n[solver]\nlaw = \"talus\"\n"
       "time_step_s = " +
       text(c.dt) + "\nstrain = \"" + (c.strains ? "on" : "off") + "\"\n";
-  for (const auto& [key, value] : {std::pair{"min_time_step_s", site.solver.min_time_step_s},
-                                   std::pair{"max_time_step_s", site.solver.max_time_step_s}})
-    if (!std::isnan(value))
-      toml += "# " + std::string(key) + " of the site file was left out: take it out\n";
   return toml + (std::isnan(c.normal_stiffness)
                      ? "# normal_stiffness_n_m is left to law talus: do not give it\n"
                      : "normal_stiffness_n_m = " + text(c.normal_stiffness) + "\n");
@@ -160,7 +155,7 @@ std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string&
   Chart chart = work_precision_chart("error of " + o.quantity + " [m]", rows, {});
   add_band(chart, reference.band[q]);
   tool.write_text(out + "/site.svg", chart_file(chart));
-  tool.write_text(out + "/solver.toml", fragment_of(list[best], site, o));
+  tool.write_text(out + "/solver.toml", fragment_of(list[best], o));
   if (results[best].n_broken > 0)
     tool.warn(
         "no setting within the tolerance has runs that all keep their limits of health: look at "

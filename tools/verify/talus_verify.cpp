@@ -26,15 +26,14 @@ struct Options {
   std::vector<std::string> cases;
   std::string out, page, peers;
   SiteStudyOptions site;
-  bool quick = false, full = false, list = false, stability = false, leaving_out = false;
+  bool full = false, list = false, stability = false, leaving_out = false;
 };
 
 void declare(Tool& tool, Options& o) {
   tool.app().add_option("cases", o.cases, "names of cases; all when none is given");
   tool.output_folder("-o,--out", o.out, "folder for the tables, the diagrams and the page");
   tool.output("--page", o.page, "write the page there; its diagrams stay in the folder");
-  CLI::Option* quick = tool.flag("--quick", o.quick, "few settings; what is done by default");
-  tool.flag("--full", o.full, "the whole study")->excludes(quick);
+  tool.flag("--full", o.full, "the whole study; without it few settings");
   CLI::Option* site = tool.input("--site", o.site.site,
                                  "site file: find the cheapest settings for this scene instead");
   tool.input("--trn", o.site.files.trn, "with --site: terrain")->needs(site);
@@ -246,10 +245,10 @@ int main(int argc, char** argv) {
     if (o.out.empty())
       throw UsageError({"", 0, "--out"}, "no folder is named", "give -o DIR, or --list");
     if (!o.site.site.empty()) {
-      if (!o.cases.empty() || o.quick || o.full || o.stability || o.leaving_out ||
-          !o.peers.empty() || !o.page.empty())
+      if (!o.cases.empty() || o.full || o.stability || o.leaving_out || !o.peers.empty() ||
+          !o.page.empty())
         throw UsageError({"", 0, "--site"}, "looks at the scene of a site file alone",
-                         "leave out --quick, --full, --stability, --leaving-out, --peers, --page "
+                         "leave out --full, --stability, --leaving-out, --peers, --page "
                          "and the names of cases");
       if (o.site.files.trn.empty() || o.site.files.blocks.empty())
         throw UsageError({"", 0, "--site"}, "needs a terrain and blocks",

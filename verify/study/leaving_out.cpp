@@ -10,7 +10,7 @@
 #include "base/text.hpp"
 #include "run/runner.hpp"
 #include "scene/fence.hpp"
-#include "scene/site_scene.hpp"
+#include "setup/site_scene.hpp"
 #include "verify/cases/block_cases.hpp"
 #include "verify/cases/cases.hpp"
 

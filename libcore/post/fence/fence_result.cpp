@@ -116,7 +116,7 @@ FenceResult fence_result(const FenceCase& fence_case, std::size_t index, const F
   DesignInput input = design_input(settings.design, group, design_arrivals);
   input.first_touches = r.basis == DesignBasis::first_touches;
   const auto summary = [&](const std::vector<FenceArrival>& arrivals, const FenceRunGroup& of) {
-    return summarise(arrivals, n_runs(of), settings.seed, units_of(of.members));
+    return summarise(arrivals, n_runs(of), units_of(of.members));
   };
   r.whole = summary(r.arrivals, group);
   r.at_basis = summary(design_arrivals, design_group);

@@ -14,9 +14,8 @@
 namespace talus {
 
 struct FenceResultSettings {
-  DesignInput design;      ///< block_volume NaN: 95th percentile of the blocks that arrive
-  double bulking = 1.3;    ///< volume of piled blocks over that of their rock [-]
-  std::uint64_t seed = 1;  ///< of the bootstrap over runs
+  DesignInput design;    ///< block_volume NaN: 95th percentile of the blocks that arrive
+  double bulking = 1.3;  ///< volume of piled blocks over that of their rock [-]
 };
 
 /// Where the arrivals of the design check come from. Design values are those of a line that stops

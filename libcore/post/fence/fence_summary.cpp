@@ -55,7 +55,7 @@ void find_busiest_second(const std::vector<FenceArrival>& of_run, FencePartSumma
 
 }  // namespace
 
-FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, std::uint64_t seed,
+FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs,
                            const std::vector<int>& unit) {
   FencePartSummary summary;
   std::vector<FenceArrival> sorted = given;
@@ -86,7 +86,7 @@ FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, s
   }
   summary.runs_hit_twice = static_cast<double>(twice.size()) / n_runs;
   const int n_units = unit.empty() ? n_runs : *std::max_element(unit.begin(), unit.end()) + 1;
-  PercentileBounds bounds(n_units, fence_resamples, seed, unit);
+  PercentileBounds bounds(n_units, fence_resamples, 1, unit);
   const auto of = [&](double (*quantity)(const FenceArrival&)) {
     return summary_of(sorted, summary.n_eff, bounds, quantity);
   };

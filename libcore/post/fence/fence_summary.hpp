@@ -39,9 +39,9 @@ struct FencePartSummary {
   double window_energy = 0;             ///< largest sum of energies within one second, any run [J]
   int window_hits = 0;                  ///< of that second
 };
-/// `n_runs`: all of them, also those without an arrival. Bounds: percentile_bounds.hpp; `seed` is
-/// that of its bootstrap, `unit` that of units_of().
+/// `n_runs`: all of them, also those without an arrival. Bounds: percentile_bounds.hpp; `unit` is
+/// that of units_of().
 [[nodiscard]] FencePartSummary summarise(const std::vector<FenceArrival>& arrivals, int n_runs,
-                                         std::uint64_t seed, const std::vector<int>& unit = {});
+                                         const std::vector<int>& unit = {});
 
 }  // namespace talus

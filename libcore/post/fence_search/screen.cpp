@@ -219,7 +219,7 @@ FenceDemand fence_demand(const SearchRuns& runs, const SearchLine& line, const P
   input.mean_block_size = runs.mean_block_size;
   input.block_volume = input.deflection = input.distance_to_object = none;
   set_design_block(input, arrivals);
-  const FencePartSummary part = summarise(arrivals, runs.n_runs, 1, runs.unit);
+  const FencePartSummary part = summarise(arrivals, runs.n_runs, runs.unit);
   Fence as_built;
   as_built.height = 1;
   as_built.capacity = 1;

@@ -193,7 +193,7 @@ MapLayer quantity_layer(const std::string& name, const CellRows& cells, MapQuant
   const QuantityText& text = text_of(quantity);
   MapLayer layer = empty_quantity_layer(name, text, cells);
   constexpr std::size_t n_p = percentile_levels.size();
-  PercentileBounds bounds(n_units(released), settings.n_resamples, settings.seed, released.unit);
+  PercentileBounds bounds(n_units(released), 200, 1, released.unit);
   CellSample sample;
   for (std::size_t i = 0; i < cells.cell.size(); ++i) {
     sample.fill(rows_of(cells, i), text.member);

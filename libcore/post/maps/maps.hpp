@@ -32,9 +32,7 @@ struct Released {
 [[nodiscard]] ShareBasis share_basis_of(const Released& released);
 
 struct MapSettings {
-  int min_passages = 0;    ///< for any percentile; 0: Wilks (5, 29, 59, 299 for p50 to p99)
-  int n_resamples = 200;   ///< of the runs
-  std::uint64_t seed = 1;  ///< of the bootstrap
+  int min_passages = 0;  ///< for any percentile; 0: Wilks (5, 29, 59, 299 for p50 to p99)
 };
 
 /// One quantity over the touched cells; NaN = nodata.

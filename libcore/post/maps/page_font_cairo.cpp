@@ -19,8 +19,8 @@ void require_font(const std::string& family) {
   g_free(families);
   if (!is_there)
     throw InputError({}, "the font " + family + ", which maps are lettered with, is not installed",
-                     "install it (Debian: apt-get install fonts-dejavu-core), or leave out --png "
-                     "and --pdf");
+                     "install it (Debian: apt-get install fonts-dejavu-core), or leave out "
+                     "--pages");
 }
 
 void require_page_memory() {

@@ -12,7 +12,6 @@ namespace talus {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint64_t bootstrap_seed = 1;
 
 Envelope envelope_of(std::vector<WeightedValue> values) {
   std::erase_if(values, [](const WeightedValue& v) { return std::isnan(v.value); });
@@ -102,7 +101,7 @@ AcrossSummary across_summary(const LineSums& sums, const ShareBasis& basis, doub
   }
   const double released =
       std::accumulate(sums.released.weight.begin(), sums.released.weight.end(), 0.0);
-  out.blocks = summarise(arrivals, n_runs(sums), bootstrap_seed, sums.released.unit);
+  out.blocks = summarise(arrivals, n_runs(sums), sums.released.unit);
   out.n_runs_hit = static_cast<int>(parts.size());
   out.share_of_runs = std::min(1.0, out.share_of_runs);
   out.interval_of_runs = run_share_interval(basis, parts);

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "base/make_room.hpp"
-#include "scene/fence.hpp"
-#include "scene/stems.hpp"
+#include "contact/scales.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/breakage.hpp"
 #include "step/crushing.hpp"
@@ -14,6 +13,7 @@
 #include "step/island/island_soil.hpp"
 #include "step/island/stages.hpp"
 #include "step/substep.hpp"
+#include "step/substep_end.hpp"
 
 namespace talus {
 namespace {
@@ -34,44 +34,25 @@ struct SubstepAcceptance {
   StepReport& report;
   bool is_eased = false;  // its forces were not found at first
 
-  // Energy that contacts took, by kind; push_bodies() adds that of bodies that give way.
-  void account(size_t r) {
-    const KeptContact& contact = system.contacts[r];
-    const ConstIslandRow row = row_of(system, r);
-    const Vec3 normal = row.normal(), impulse = row.impulse();
-    const double p_n = normal.dot(impulse);
-    const Vec3 p_t = impulse - p_n * normal;
-    const Vec3 path = path_of_impulse(members, free, system, hits, r);
-    const double loss = -p_n * normal.dot(path);  // < 0: others drove its bodies apart
-    if (!gives_way(system, r))
-      (contact.hit >= 0 && loss > 0 ? state.ledger.impact : state.ledger.contact) += loss;
-    state.ledger.friction -= p_t.dot(path);
-    if (state.load.empty()) return;
-    add_load(scene, contact.a, normal, p_n, impulse, state);
-    add_load(scene, contact.b, normal, p_n, -impulse, state);
-  }
-
   // Normal energy that the contact of a hit took; below zero where others drove its bodies apart.
   [[nodiscard]] double hit_loss_of(size_t r) const {
-    if (system.contacts[r].hit < 0 || system.contacts[r].waits || gives_way(system, r) ||
+    if (!system.contacts[r].is_hit() || system.contacts[r].waits || gives_way(system, r) ||
         row_of(system, r).state() == ContactState::open)
       return 0;
-    const ConstIslandRow row = row_of(system, r);
-    const Vec3 path = path_of_impulse(members, free, system, hits, r);
-    return -row.normal().dot(row.impulse()) * row.normal().dot(path);
+    return end_of_contact(members, free, system, hits, r).loss();
   }
 
   // Calls take(block a, block b, loss) for every contact that was hit, and where hits were stopped.
   template <class Take>
   void for_each_hit_loss(const Take& take) const {
-    for (const HitImpulse& hit : hits.impulses) take(hit.a, hit.b, hit.loss);
+    for (const ImpactContact& hit : hits.impulses) take(hit.a, hit.b, hit.loss);
     for (size_t r = 0; r < system.contacts.size(); ++r)
       take(system.contacts[r].a, system.contacts[r].b, hit_loss_of(r));
   }
 
   // Hits load their blocks too.
   void add_hit_loads() {
-    for (const HitImpulse& hit : hits.impulses) {
+    for (const ImpactContact& hit : hits.impulses) {
       const double p_n = std::max(0.0, hit.normal.dot(hit.impulse));
       add_load(scene, hit.a, hit.normal, p_n, hit.impulse, state);
       add_load(scene, hit.b, hit.normal, p_n, -hit.impulse, state);
@@ -87,8 +68,7 @@ struct SubstepAcceptance {
     if (contact.b >= 0) mass = std::min(mass, members.of(contact.b).mass);
     const double weight = mass * scene.gravity.norm();
     const double by_load = weight > 0 ? 2 - normal_force / (law::heavy * weight) : 0;
-    const double by_depth =
-        contact.offset / (law::relaxes_anyway * thickness_of(members, contact)) - 1;
+    const double by_depth = contact.offset / (law::sunk * thickness_of(members, contact)) - 1;
     return std::clamp(std::max(by_load, by_depth), 0.0, 1.0);
   }
 
@@ -111,9 +91,9 @@ struct SubstepAcceptance {
     const KeptContact& contact = system.contacts[r];
     const ConstIslandRow row = row_of(system, r);
     const Vec3 normal = row.normal(), impulse = row.impulse();
-    const bool was_hit = contact.hit >= 0;
+    const bool was_hit = contact.is_hit();
     if (was_hit &&
-        (gives_way(system, r) || overlap <= law::remembered_hit * thickness_of(members, contact)))
+        (gives_way(system, r) || overlap <= law::shallow * thickness_of(members, contact)))
       return;
     const double p_n = normal.dot(impulse);
     std::vector<ContactMemory>& memories = state.memory[contact.a];
@@ -161,13 +141,13 @@ struct SubstepAcceptance {
         note_overlap(thinner_of(members, contact), overlap, thickness_of(members, contact), deep,
                      report);
       if (is_open) {
-        if (contact.hit >= 0 || contact.bond_area > 0) remember_contact(r, path, overlap);
+        if (contact.is_hit() || contact.bond_area > 0) remember_contact(r, path, overlap);
         continue;
       }
       const BodyPair& pair = system.island.pairs[contact.pair];
       end.pressed[pair.a] = 1;
       if (pair.b >= 0) end.pressed[pair.b] = 1;
-      account(r);
+      book(scene, end_of_contact(members, free, system, hits, r), state);
       ++report.n_closed;
       report.sum_penetration += std::max(overlap, 0.0);
       // what blocks give each other they keep: only the ground may go on to bear one alone
@@ -181,7 +161,6 @@ struct SubstepAcceptance {
 
   // The path of a member: in one piece, or from hit to hit and on from the last.
   void add_path(size_t k, const Motion& motion) {
-    constexpr double rounding = 1e-12;
     const int b = members.blocks[k];
     const double t = free.t, h = free.h;
     const FlyingMember& flying = hits.members[k];
@@ -190,11 +169,11 @@ struct SubstepAcceptance {
       return;
     }
     for (const PathToHit& path : hits.paths)
-      if (path.member == k && path.end > path.begin + rounding * h)
+      if (path.member == k && path.end > path.begin + last_figures * h)
         add_segment(b, false, t + path.begin, path.end - path.begin, path.start, path.stop,
                     segments);
     const double last = flying.clock, rest = h - last;
-    if (!(rest > rounding * h)) return;
+    if (!(rest > last_figures * h)) return;
     Motion after = flying.motion;
     after.velocity = motion.velocity - rest * free.substeps[k].free_acceleration;
     after.angular_momentum = motion.angular_momentum;
@@ -219,57 +198,33 @@ struct SubstepAcceptance {
       set_rates(scene, b, members.numbers[k], s, motion, state);
     else
       forget_rates(scene, b, state);
-    const Vec3 external = s.free_acceleration - scene.gravity;
-    if (!external.isZero(0))
-      state.ledger.base +=
-          members.numbers[k].mass * external.dot(motion.pose.position - s.start.pose.position);
-    state.motion[members.block(k)] =
-        end_drag(scene, members, free, system, k, motion, state.motion[members.block(k)], state);
+    end_block(scene, b, members.numbers[k], s, motion, is_pressed(system, k), free.t + free.h,
+              state, report);
     if (!is_finite(motion)) stop_at(s.start, members.block(k), state, report);
-    state.local_time[members.block(k)] = free.t + free.h;
-    ++report.substeps;
   }
 
   void move_all() {
     for (size_t k = 0; k < members.size(); ++k) move(k);
-    for (const Hit& hit : hits.hits)
-      for (const int b : {system.contacts[hit.contact].a, system.contacts[hit.contact].b})
+    for (const size_t r : hits.contacts_hit)
+      for (const int b : {system.contacts[r].a, system.contacts[r].b})
         if (b >= 0) forget_rates(scene, b, state);
     for (const int k : hits.hit_members.items) forget_rates(scene, members.blocks[k], state);
     state.ledger.impact += hits.dissipated;
     state.ledger.friction += hits.by_friction;
     state.ledger.rolling += hits.by_rolling;
-    report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, free.h) : free.h;
   }
 
-  // First touches, and what the touched panels left to their blocks.
-  void note_touched_panels() {
-    if (scene.fixed.panels.empty()) return;
+  // First touches of panels and stems, and what they left to their blocks. Stems are touched where
+  // a substep begins, see first_touch().
+  void note_touched() {
+    if (scene.fixed.panels.empty() && scene.forest.stems.empty()) return;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
-      if (contact.fixed < 0 || panel_number(scene, contact.fixed) < 0) continue;
-      if (contact.hit < 0 && (contact.waits || row_of(system, r).state() == ContactState::open))
-        continue;
-      const size_t k = members.at(contact.a);
-      const Motion& before = free.substeps[k].start;
-      const Hit* hit = hit_of(system, hits, r);
-      note_hit(scene, contact.a, contact.fixed, before.pose.position + contact.arm,
-               hit != nullptr ? free.t + hit->time : free.t, before, state.motion[members.block(k)],
-               state.fence);
-    }
-  }
-
-  // The same for stems. They are touched where a substep begins, see first_touch().
-  void note_touched_stems() {
-    if (scene.forest.stems.empty()) return;
-    for (size_t r = 0; r < system.contacts.size(); ++r) {
-      const KeptContact& contact = system.contacts[r];
-      if (contact.fixed < n_fixed(scene) || row_of(system, r).state() == ContactState::open)
-        continue;
-      const size_t k = members.at(contact.a);
-      const Motion& before = free.substeps[k].start;
-      note_stem_touch(scene, contact.a, contact.fixed, before.pose.position + contact.arm, free.t,
-                      before, state.motion[members.block(k)], state);
+      const bool presses = !contact.waits && row_of(system, r).state() != ContactState::open;
+      if (contact.fixed < 0 || !(presses || contact.is_hit())) continue;
+      const Motion& before = free.substeps[members.at(contact.a)].start;
+      note_touch(scene, contact.a, contact.fixed, before.pose.position + contact.arm,
+                 free.t + std::max(0.0, contact.hit_time), before, state);
     }
   }
 };
@@ -314,11 +269,8 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
   acceptance.remember();
   end_soil(scene, members, free, system, hits, state);
   acceptance.move_all();
-  acceptance.note_touched_panels();
-  acceptance.note_touched_stems();
-  note_work(scene, end.pushes, state.fence);
-  note_stem_work(scene, end.pushes, state);
-  push_bodies(scene, end.pushes, free.t + free.h, state);
+  acceptance.note_touched();
+  take_pushes(scene, end.pushes, free.t + free.h, state);
 }
 
 }  // namespace talus

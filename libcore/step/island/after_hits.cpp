@@ -13,7 +13,7 @@ namespace {
 
 using std::size_t;
 
-using law::shortest_rest, law::stopping_stiffness, law::waits_within;
+using law::shortest_rest, law::stopping_stiffness, law::shallow;
 
 // Where member k is at the end of the substep without contact forces.
 PlacedMotion free_end(const FreeMotions& free, size_t k) {
@@ -66,10 +66,7 @@ void stop(const IslandMembers& members, const FreeMotions& free, size_t r, doubl
   KeptContact& contact = system.contacts[r];
   const IslandRow row = row_of(system, r);
   contact.waits = false;
-  if (contact.hit < 0) {
-    contact.hit = static_cast<int>(hits.hits.size());
-    hits.hits.push_back({r, free.h - rest, std::min(contact.approach, 0.0)});
-  }
+  note_hit(r, free.h - rest, system, hits);
   const Mobility W = relative_mobility(members, free, system, r);
   row.begin_open(stopping_stiffness / W.normal, stopping_stiffness / W.tangent);
   set_drift(drift_of(free, system, r), std::max(0.0, gap) / rest, Vec3::Zero(), row);
@@ -250,10 +247,6 @@ void take_hits(const HitLooks& looks, FreeMotions& free, IslandSystem& system, S
   const size_t n = looks.members.size();
   hits.pair_time.assign(system.island.pairs.size(), free.h / 2);
   hits.thrown.assign(n, Vec6::Zero());
-  for (size_t i = 0; i < hits.hits.size(); ++i) {
-    int& hit = system.contacts[hits.hits[i].contact].hit;
-    if (hit < 0) hit = static_cast<int>(i);
-  }
   for (const int k : hits.hit_members.items)
     take_member(looks, static_cast<size_t>(k), free, system, hits);
   if (!hits.hit_members.items.empty()) find_pressed(system, n, hits.is_pressed);
@@ -291,7 +284,7 @@ int close_waiting(const IslandMembers& members, const FreeMotions& free, IslandS
     const double speed =
         normal.dot(relative(system, r, [&](size_t k) { return system.island.velocity[k]; }));
     if (speed < -members.of(contact.a).located_speed &&
-        (members.locates_hits || gap_end > -waits_within * thickness_of(members, contact)))
+        (members.locates_hits || gap_end > -shallow * thickness_of(members, contact)))
       return false;  // hit in the next substep
     stop(members, free, r, contact.gap_start, free.h, system, hits);
     return true;

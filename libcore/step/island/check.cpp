@@ -3,22 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/scales.hpp"
 #include "motion/rotation.hpp"
-#include "scene/stems.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/accuracy.hpp"
 #include "step/island/stages.hpp"
 #include "step/island/stems.hpp"
 #include "step/substep.hpp"
+#include "step/substep_end.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-using law::after_hit, law::deep_end, law::deepened, law::most_deep_cuts, law::most_halvings,
-    law::most_used_up_cuts, law::pair_touch_ratio;
+using law::after_hit, law::deep_end, law::sunk, law::most_rounds_in_substep, law::most_halvings,
+    law::most_repetitions;
 
 /// Checks a substep; a struct so that its parts share what they all read.
 struct SubstepCheck {
@@ -39,14 +40,13 @@ struct SubstepCheck {
   // does.
   [[nodiscard]] double end_of_deepening_hit() const {
     double first = free.h;
-    for (const Hit& hit : hits.hits) {
-      const KeptContact& contact = system.contacts[hit.contact];
+    for (const size_t r : hits.contacts_hit) {
+      const KeptContact& contact = system.contacts[r];
       const double gap_end =
-          contact.gap_start +
-          row_of(system, hit.contact).normal().dot(path_of_contact(system, end, hit.contact));
+          contact.gap_start + row_of(system, r).normal().dot(path_of_contact(system, end, r));
       const double thickness = thickness_of(members, contact);
-      if (gap_end < std::min(-deep_end * thickness, contact.gap_start - deepened * thickness))
-        first = std::min(first, hit.time + after_hit * free.h);
+      if (gap_end < std::min(-deep_end * thickness, contact.gap_start - sunk * thickness))
+        first = std::min(first, contact.hit_time + after_hit * free.h);
     }
     return first;
   }
@@ -84,10 +84,10 @@ struct SubstepCheck {
     for (size_t k = 0; k < members.size(); ++k) {
       if (!ends_in_ground(k)) continue;
       double first = h;
-      for (const Hit& hit : hits.hits) {
-        const KeptContact& contact = system.contacts[hit.contact];
+      for (const size_t r : hits.contacts_hit) {
+        const KeptContact& contact = system.contacts[r];
         if (contact.a == members.blocks[k] || contact.b == members.blocks[k])
-          first = std::min(first, hit.time);
+          first = std::min(first, contact.hit_time);
       }
       return first < h ? std::min(first + after_hit * h, h) : h / 2;
     }
@@ -125,7 +125,7 @@ struct SubstepCheck {
     if (!system.has_bonds) return false;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
-      if (contact.bond_area == 0 || contact.hit >= 0) continue;
+      if (contact.bond_area == 0 || contact.is_hit()) continue;
       const ConstIslandRow row = row_of(system, r);
       const Vec3 normal = row.normal();
       BondFace& face = face_of(contact.bond, contact.a, normal, end.bond_faces);
@@ -146,35 +146,20 @@ struct SubstepCheck {
 
   // --- what gives way --------------------------------------------------------------------------
 
-  // How far a fixed body had been pushed when it was searched for a block.
-  [[nodiscard]] Vec3 pushed_before(int block, int fixed) const {
-    if (is_stem(scene, fixed))
-      return met_by_stem(scene, state, world_of(scene, block), stem_of(scene, fixed)).shift;
-    return search.poses[hull_of_fixed(scene, fixed)].position - scene.fixed.pose[fixed].position;
-  }
-
   // What the blocks do to the fixed bodies that give way.
   void find_pushes() const {
     end.pushes.clear();
     if (!anything_yields(scene)) return;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       if (!gives_way(system, r)) continue;
-      const KeptContact& contact = system.contacts[r];
       const ConstIslandRow row = row_of(system, r);
-      const Vec3 normal = row.normal();
-      const Yielding& yielding = *giving_way(scene, contact.fixed, normal);
-      YieldPush push;
-      push.along = yield_direction(yielding, normal);
-      const double p_n = row.normal_impulse(), cosine = normal.dot(push.along);
-      push.block = contact.a;
-      push.yielding = yielding_number(scene, contact.fixed);
-      push.work = -p_n * normal.dot(path_of_impulse(members, free, system, hits, r));
-      push.power = -p_n / free.h * contact.speed_start;
-      const double gap_end = contact.gap_start + normal.dot(path_of_contact(system, end, r));
-      if (p_n >= (1 - 1e-12) * row.normal_limit() || follows_block(scene, members, system, r))
-        push.shift = std::min(0.0, gap_end) * cosine;
-      push.to = push.shift + push.along.dot(pushed_before(contact.a, contact.fixed));
-      add_push(push, end.pushes);
+      const KeptContact& contact = system.contacts[r];
+      push(scene, state, end_of_contact(members, free, system, hits, r), free.h,
+           contact.speed_start,
+           row.normal_impulse() >= (1 - last_figures) * row.normal_limit() ||
+               follows_block(scene, members, system, r),
+           contact.gap_start + row.normal().dot(path_of_contact(system, end, r)), search.poses,
+           end.pushes);
     }
   }
 
@@ -220,7 +205,7 @@ struct SubstepCheck {
     if (!converged && tries.halvings < most_halvings)
       return SubstepVerdict::again(unconverged, h / 2);
     set_displacements(free.h, system, hits, end.displacement);
-    if (tries.deep_cuts < most_deep_cuts)
+    if (tries.deep_cuts < most_rounds_in_substep)
       if (const double first = std::min(end_of_deepening_hit(), end_of_throw_into_ground());
           first < h)
         return SubstepVerdict::again(SubstepCut::deep, first);
@@ -234,7 +219,7 @@ struct SubstepCheck {
     find_pushes();
     const double used_up = std::min(time_to_first_break(scene, state.yielding, end.pushes, h),
                                     time_to_stop(scene, members, system, h));
-    if (used_up < h && tries.used_up_cuts < most_used_up_cuts)
+    if (used_up < h && tries.used_up_cuts < most_repetitions)
       return SubstepVerdict::again(yielding_used_up, used_up);
     return SubstepVerdict::accept();
   }
@@ -265,6 +250,21 @@ Vec3 path_of_impulse(const IslandMembers& members, const FreeMotions& free,
   path -= rest * free.substeps[members.at(contact.a)].free_acceleration;
   if (contact.b >= 0) path += rest * free.substeps[members.at(contact.b)].free_acceleration;
   return path;
+}
+
+ContactEnd end_of_contact(const IslandMembers& members, const FreeMotions& free,
+                          const IslandSystem& system, const SubstepHits& hits, size_t r) {
+  const KeptContact& contact = system.contacts[r];
+  const ConstIslandRow row = row_of(system, r);
+  return {contact.a,
+          contact.b,
+          contact.fixed,
+          row.normal(),
+          row.impulse(),
+          row.normal_impulse(),
+          path_of_impulse(members, free, system, hits, r),
+          contact.is_hit(),
+          gives_way(system, r)};
 }
 
 // The free motion, corrected (theory 1.8, 1.10).

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/make_room.hpp"
+#include "contact/scales.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/island/island_soil.hpp"
@@ -13,8 +14,6 @@ namespace talus {
 namespace {
 
 using std::size_t;
-
-using law::pair_touch_ratio;
 
 // Sets what the motion of the points says of a contact: they move by `moved` relative to each other
 // within the substep without contact forces, and with `slip` at its start.
@@ -204,12 +203,11 @@ struct ContactMaker {
                     ca};
     meeting.numbers.radius = std::min(ca.radius, cb.radius);
     meeting.numbers.thickness = std::min(ca.thickness, cb.thickness);
-    meeting.numbers.touch = pair_touch_ratio * meeting.numbers.radius;
+    meeting.numbers.touch = negligible * meeting.numbers.radius;
     const double to_lighter = ca.mass / std::min(ca.mass, cb.mass);
     const bool rest = ca.rests && cb.rests;
     const auto stiffness = [&](const BlockNumbers& c) {
-      return c.rests && !rest ? c.stiffness * (law::stiffest_in_island / law::stiffest_at_rest)
-                              : c.stiffness;
+      return c.rests && !rest ? c.stiffness * (1 / law::stiffest_at_rest) : c.stiffness;
     };
     meeting.numbers.stiffness = std::max(stiffness(ca), stiffness(cb)) * to_lighter;
     meeting.numbers.least_stiffness =
@@ -230,7 +228,7 @@ struct ContactMaker {
     if (approach < -c.resting_speed) {
       if (row.gap_start > c.touch) return false;
       if (comes_back_fast(then, approach, free.h, c)) return false;
-      if (!same_features && then.gap_end - then.offset - row.gap_start > law::far_deeper * c.radius)
+      if (!same_features && then.gap_end - then.offset - row.gap_start > law::shallow * c.radius)
         return false;
     }
     inherit(then, memory, same_features, Mat3::Identity(), c, row);
@@ -284,7 +282,7 @@ struct ContactMaker {
     const PointPath path = path_of(k, point.point_b + point.gap * n);
     const Vec3 arm = (path.start + path.end) / 2;
     BlockNumbers c = members.numbers[k];
-    c.touch = pair_touch_ratio * c.radius;
+    c.touch = negligible * c.radius;
     const int fixed = fixed_of(scene, m.block_b);
     const GroundClass& faces = fixed_class(scene, fixed);
     ContactRow row;

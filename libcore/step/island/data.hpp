@@ -143,13 +143,6 @@ struct ContactMaking {  // clang-format off
   PairMemories memories;                    ///< of the manifold at hand
 };  // clang-format on
 
-/// A contact that is hit within the substep.
-struct Hit {
-  std::size_t contact = 0;  ///< index into IslandSystem::contacts
-  double time = 0;          ///< from the start of the substep [s]
-  double speed = 0;         ///< normal velocity just before, < 0 [m/s]
-};
-
 /// Where a member is at a time, and how it moves.
 struct PlacedMotion {
   Vec3 position = Vec3::Zero();  ///< of its centroid [m]
@@ -197,31 +190,15 @@ struct PathToHit {
   Motion start, stop;         ///< just after `begin`, just before `end`
 };
 
-/// A contact that touches when its pair is hit.
-struct TouchingContact {
-  ImpactContact of;  ///< bodies: members
-  ContactKey key;
-  double gap = 0;  ///< [m]
-  int pair = 0;    ///< of the island
-};
-
-/// What a contact of a hit did to its blocks.
-struct HitImpulse {
-  int a = 0, b = -1;            ///< blocks; b = -1: the ground or a fixed body
-  Vec3 normal = Vec3::Zero();   ///< from B to A
-  Vec3 impulse = Vec3::Zero();  ///< on A [N s]
-  double loss = 0;              ///< normal energy that it took; < 0: it gave back [J]
-};
-
 /// 6 find_hits: what is hit, when, and how the members move with that.
 struct SubstepHits {  // clang-format off
-  std::vector<Hit> hits;                    ///< in the order in which they were found
+  std::vector<std::size_t> contacts_hit;    ///< in the order in which they were found
   std::vector<FlyingMember> members;        ///<                                         (n_members)
   std::vector<PathToHit> paths;             ///< in order of time
   std::vector<double> pair_time;            ///< when contacts change velocities [s]     (n_pairs)
   std::vector<Vec6> displacement;           ///< by contact, hits aside                  (n_members)
   std::vector<Vec6> thrown;                 ///< displacement by hits                    (n_members)
-  std::vector<HitImpulse> impulses;         ///< where blocks may break or be crushed, else none
+  std::vector<ImpactContact> impulses;      ///< of blocks that may break or be crushed, else none
   std::vector<Vec3> bond_impulse;           ///< of contacts with bonds, by hits [N s]; empty: none
   double dissipated = 0;                    ///< by hits, but for friction [J]
   double by_friction = 0;                   ///< ... by friction and by what bore members [J]
@@ -238,7 +215,7 @@ struct SubstepHits {  // clang-format off
   std::vector<int> n_looks, n_pair_hits;    ///<                                         (n_pairs)
   std::vector<std::uint8_t> is_closed;      ///< 1: looked at no more                    (n_pairs)
   std::vector<std::uint8_t> is_pressed;     ///< 1: by something, before the hits        (n_members)
-  std::vector<TouchingContact> touching, batch;
+  std::vector<ImpactContact> touching, batch;  ///< bodies: members
   std::vector<int> group;                   ///< of members hit at one time              (n_members)
   std::vector<int> local;                   ///< body of a member in the impact at hand  (n_members)
   std::vector<ImpactBody> bodies;
@@ -351,12 +328,6 @@ template <class Of>
 /// Change of a member's velocity by contact.
 [[nodiscard]] inline Vec6 change(const Island& island, std::size_t k) {
   return island.velocity[k] - island.free_velocity[k];
-}
-
-[[nodiscard]] inline const Hit* hit_of(const IslandSystem& system, const SubstepHits& hits,
-                                       std::size_t r) {
-  const int hit = system.contacts[r].hit;
-  return hit < 0 ? nullptr : &hits.hits[hit];
 }
 
 /// Displacement of the points of contact `r` over the substep.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/scales.hpp"
 #include "motion/rotation.hpp"
 #include "scene/fence.hpp"
 #include "solver/law_numbers.hpp"
@@ -16,8 +17,7 @@ namespace {
 
 using std::size_t;
 
-using law::hit_window, law::most_looks_for_time, law::most_pair_looks, law::one_time, law::parts,
-    law::support_drives, law::walk_on;
+using law::hit_window, law::most_looks_for_time, law::support_drives, law::walk_on;
 
 // When a gap of `g` > 0 that closes at `v` and is `gap_end` after `h` is zero, its speed taken as
 // linear.
@@ -181,7 +181,7 @@ bool HitLooks::is_pressed(size_t k) const {
 
 void HitLooks::look_ahead(size_t p, double from, double not_before) const {
   if (hits.is_closed[p] != 0) return;
-  if (++hits.n_looks[p] > most_pair_looks) {
+  if (++hits.n_looks[p] > 2 * law::most_hits) {
     hits.is_closed[p] = 1;
     return;
   }
@@ -249,7 +249,7 @@ void HitLooks::take_due(std::vector<PairLook>& due) const {
     }
     if (!due.empty()) {
       const double after = next.time - due.front().time;
-      if (after > one_time * free.h && after * next.speed > hit_window * size_of(p)) return;
+      if (after > rounding * free.h && after * next.speed > hit_window * size_of(p)) return;
     }
     PairLook look = pop();
     if (!due.empty()) look.time = due.front().time;
@@ -267,17 +267,17 @@ double slip_of(const ImpactContact& contact, const PlacedMotion& body) {
 
 }  // namespace
 
-TouchingContact& HitLooks::add_touching(size_t p, const Vec3& normal, const Vec3& point, double gap,
-                                        const ContactKey& key, const GroundClass& faces) const {
+ImpactContact& HitLooks::add_touching(size_t p, const Vec3& normal, const Vec3& point, double gap,
+                                      const ContactKey& key, const GroundClass& faces) const {
   const BodyPair& pair = system.island.pairs[p];
-  TouchingContact touching;
-  touching.of.a = pair.a;
-  touching.of.b = pair.b;
-  touching.of.normal = normal;
-  touching.of.point = point;
-  touching.of.friction = faces.friction;
-  touching.of.restitution = faces.restitution;
-  touching.of.resting_speed = members.numbers[static_cast<size_t>(pair.a)].resting_speed;
+  ImpactContact touching;
+  touching.a = pair.a;
+  touching.b = pair.b;
+  touching.normal = normal;
+  touching.point = point;
+  touching.friction = faces.friction;
+  touching.restitution = faces.restitution;
+  touching.resting_speed = members.numbers[static_cast<size_t>(pair.a)].resting_speed;
   touching.key = key;
   touching.gap = gap;
   touching.pair = static_cast<int>(p);
@@ -295,14 +295,14 @@ void HitLooks::find_touching_ground(size_t p, double time) const {
                       &near_ground[members.block(k)]);
   for (const Contact& found : making.found) {
     const GroundClass& ground = scene.ground.classes[found.ground_class];
-    TouchingContact& touching = add_touching(
+    ImpactContact& touching = add_touching(
         p, found.normal, talus::place(m.pose, found.point_a) - found.gap / 2 * found.normal,
         found.gap, found.key, ground);
     const int b = members.blocks[k];
-    touching.of.fall = fall_on(ground, c.mass);
-    touching.of.arm = arm_on(scene, ground, b);
-    vary_friction(ground, slide_of(state, b, free.t + time), slip_of(touching.of, place(k, m)), 0,
-                  touching.of.friction);
+    touching.fall = fall_on(ground, c.mass);
+    touching.arm = arm_on(scene, ground, b);
+    vary_friction(ground, slide_of(state, b, free.t + time), slip_of(touching, place(k, m)), 0,
+                  touching.friction);
   }
 }
 
@@ -361,13 +361,11 @@ void HitLooks::look_at(const PairLook& look) const {
   constexpr double none = std::numeric_limits<double>::infinity();
   const double resting = hit_speed(ka, look.time);
   double least = none, approach_of_least = 0;
-  for (TouchingContact& touching : hits.touching) {
-    ImpactContact& c = touching.of;
+  for (ImpactContact& c : hits.touching) {
     Vec3 u = velocity_of(a, c.point - a.position);
     if (b != nullptr) u -= velocity_of(*b, c.point - b->position);
     c.approach = c.normal.dot(u);
-    if (c.approach < -resting && touching.gap <= least)
-      least = touching.gap, approach_of_least = c.approach;
+    if (c.approach < -resting && c.gap <= least) least = c.gap, approach_of_least = c.approach;
   }
   if (least == none) return look_on();
   PairLook again = look;
@@ -391,10 +389,10 @@ void HitLooks::look_at(const PairLook& look) const {
   }
   double fastest = 0;
   const double below = std::max(least, 0.0) + open;
-  for (const TouchingContact& touching : hits.touching)
-    if (touching.gap <= below) fastest = std::max(fastest, -touching.of.approach);
-  for (const TouchingContact& touching : hits.touching)
-    if (touching.gap <= below && touching.of.approach <= parts * fastest)
+  for (const ImpactContact& touching : hits.touching)
+    if (touching.gap <= below) fastest = std::max(fastest, -touching.approach);
+  for (const ImpactContact& touching : hits.touching)
+    if (touching.gap <= below && touching.approach <= rounding * fastest)
       hits.batch.push_back(touching);
 }
 

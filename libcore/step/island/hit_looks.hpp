@@ -48,8 +48,8 @@ struct HitLooks {
   [[nodiscard]] bool is_pressed(std::size_t k) const;
   [[nodiscard]] double size_of(std::size_t p) const;
   void find_touching(std::size_t p, double time) const;
-  TouchingContact& add_touching(std::size_t p, const Vec3& normal, const Vec3& point, double gap,
-                                const ContactKey& key, const GroundClass& faces) const;
+  ImpactContact& add_touching(std::size_t p, const Vec3& normal, const Vec3& point, double gap,
+                              const ContactKey& key, const GroundClass& faces) const;
   void find_touching_ground(std::size_t p, double time) const;
   void find_touching_bodies(std::size_t p, double time) const;
 };
@@ -63,6 +63,14 @@ struct RowMotion {
 };
 [[nodiscard]] RowMotion row_motion(const FreeMotions& free, const IslandSystem& system,
                                    std::size_t r, const PlacedMotion& a, const PlacedMotion* b);
+
+/// Contact `r` is hit at `time`, and was not before.
+inline void note_hit(std::size_t r, double time, IslandSystem& system, SubstepHits& hits) {
+  KeptContact& contact = system.contacts[r];
+  if (contact.is_hit()) return;
+  contact.hit_time = time;
+  hits.contacts_hit.push_back(r);
+}
 
 /// Makes the hits found part of the motion without contact.
 void take_hits(const HitLooks& looks, FreeMotions& free, IslandSystem& system, SubstepHits& hits);

@@ -12,14 +12,14 @@ namespace {
 
 using std::size_t;
 
-using law::most_hit_rounds, law::most_pair_hits;
+using law::most_hits, law::most_pair_hits;
 
 /// Finds the hits of a substep; a struct so that its parts share what they all fill.
 struct HitPhase {
   const HitLooks& looks;
   const IslandMembers& members;
   const FreeMotions& free;
-  const IslandSystem& system;
+  IslandSystem& system;
   SubstepHits& hits;
   double last_time = -1;
   int rounds = 0;
@@ -66,7 +66,7 @@ struct HitPhase {
         const int p = hits.pairs[at];
         const BodyPair& pair = system.island.pairs[p];
         const bool seen = std::any_of(hits.batch.begin(), hits.batch.end(),
-                                      [&](const auto& c) { return c.pair == p && c.of.is_bond; });
+                                      [&](const auto& c) { return c.pair == p && c.is_bond; });
         if (seen) continue;
         for (const size_t r : contacts_of(system, static_cast<size_t>(p))) {
           const KeptContact& contact = system.contacts[r];
@@ -75,12 +75,12 @@ struct HitPhase {
           const PlacedMotion* b =
               pair.b < 0 ? nullptr : &looks.member_at(static_cast<size_t>(pair.b), time).placed;
           const RowMotion at_hit = row_motion(free, system, r, a, b);
-          TouchingContact bond;
-          bond.of.a = pair.a;
-          bond.of.b = pair.b;
-          bond.of.normal = row_of(system, r).normal();
-          bond.of.point = (at_hit.point_a + at_hit.point_b) / 2;
-          bond.of.is_bond = true;
+          ImpactContact bond;
+          bond.a = pair.a;
+          bond.b = pair.b;
+          bond.normal = row_of(system, r).normal();
+          bond.point = (at_hit.point_a + at_hit.point_b) / 2;
+          bond.is_bond = true;
           bond.key = contact.key;
           bond.pair = p;
           hits.batch.push_back(bond);
@@ -98,7 +98,7 @@ struct HitPhase {
   }
 
   // The row of a contact that touches: of the same features, else the first of its pair.
-  [[nodiscard]] size_t row_of_touching(const TouchingContact& touching) const {
+  [[nodiscard]] size_t row_of_touching(const ImpactContact& touching) const {
     const IndexRange rows = contacts_of(system, static_cast<size_t>(touching.pair));
     for (const size_t r : rows) {
       const ContactKey& key = system.contacts[r].key;
@@ -109,13 +109,13 @@ struct HitPhase {
     return rows.first;
   }
 
-  void note_hits(double time) const {
+  void note_hits(double time) {
     int last = -1;
-    for (const TouchingContact& touching : hits.batch) {
+    for (const ImpactContact& touching : hits.batch) {
       const size_t r = row_of_touching(touching);
-      if (touching.of.is_bond) continue;
-      if (touching.of.approach < -touching.of.resting_speed) ++hits.n_hits;
-      hits.hits.push_back({r, time, touching.of.approach});
+      if (touching.is_bond) continue;
+      if (touching.approach < -touching.resting_speed) ++hits.n_hits;
+      note_hit(r, time, system, hits);
       if (touching.pair == last) continue;
       last = touching.pair;
       if (++hits.n_pair_hits[last] >= most_pair_hits) hits.is_closed[last] = 1;
@@ -171,16 +171,14 @@ struct HitPhase {
     size_t i = 0;
     const size_t begin = hits.impulses.size();
     double sum = 0;
-    for (const TouchingContact& touching : hits.batch) {
-      if (group_of(touching.of.a) != group) continue;
+    for (const ImpactContact& touching : hits.batch) {
+      if (group_of(touching.a) != group) continue;
       const ImpactContact& c = hits.contacts[i++];
       if (c.is_bond) continue;
       const double after = speed_of(c, c.a) - (c.b < 0 ? 0 : speed_of(c, c.b));
-      HitImpulse out;
-      out.a = members.blocks[touching.of.a];
-      if (touching.of.b >= 0) out.b = members.blocks[touching.of.b];
-      out.normal = c.normal;
-      out.impulse = c.impulse;
+      ImpactContact out = c;
+      out.a = members.blocks[touching.a];
+      if (touching.b >= 0) out.b = members.blocks[touching.b];
       out.loss = -c.normal.dot(c.impulse) * (c.approach + after) / 2;
       sum += out.loss;
       hits.impulses.push_back(out);
@@ -200,9 +198,9 @@ struct HitPhase {
       hits.before.push_back(looks.member_at(k, time).motion);
       hits.bodies.push_back(body_of(k, hits.before.back()));
     }
-    for (const TouchingContact& touching : hits.batch) {
-      if (group_of(touching.of.a) != group) continue;
-      ImpactContact contact = touching.of;
+    for (const ImpactContact& touching : hits.batch) {
+      if (group_of(touching.a) != group) continue;
+      ImpactContact contact = touching;
       contact.a = hits.local[contact.a];
       if (contact.b >= 0) contact.b = hits.local[contact.b];
       if (stops) contact.restitution = 0;
@@ -211,8 +209,8 @@ struct HitPhase {
     const Impact impact = solve_impact(hits.bodies, hits.contacts, hits.impact);
     hits.passes += impact.passes;
     if (!impact.converged && !(impact.dissipated >= 0)) {
-      for (const TouchingContact& touching : hits.batch)
-        if (group_of(touching.of.a) == group) hits.is_closed[touching.pair] = 1;
+      for (const ImpactContact& touching : hits.batch)
+        if (group_of(touching.a) == group) hits.is_closed[touching.pair] = 1;
       return;
     }
     hits.converged = hits.converged && impact.converged;
@@ -229,9 +227,9 @@ struct HitPhase {
       note_impulses(group, impact.dissipated - impact.by_friction - impact.by_rolling);
     if (!system.has_bonds) return;
     i = 0;
-    for (const TouchingContact& touching : hits.batch) {
-      if (group_of(touching.of.a) != group) continue;
-      if (touching.of.is_bond)
+    for (const ImpactContact& touching : hits.batch) {
+      if (group_of(touching.a) != group) continue;
+      if (touching.is_bond)
         hits.bond_impulse[row_of_touching(touching)] += hits.contacts[i].impulse;
       ++i;
     }
@@ -244,16 +242,16 @@ struct HitPhase {
     if (!is_same) hit_since = 0;
     last_time = std::max(time, last_time);
     hits.changed.clear();
-    for (const TouchingContact& touching : hits.batch) {
-      note_member(touching.of.a);
-      if (touching.of.b >= 0) note_member(touching.of.b), join(touching.of.a, touching.of.b);
+    for (const ImpactContact& touching : hits.batch) {
+      note_member(touching.a);
+      if (touching.b >= 0) note_member(touching.b), join(touching.a, touching.b);
     }
     if (system.has_bonds) add_bonds(time);
     hit_since = std::max(hit_since, hits.changed.size());
-    const bool stops = rounds >= most_hit_rounds + 2 * static_cast<int>(hit_since);
+    const bool stops = rounds >= most_hits + 2 * static_cast<int>(hit_since);
     note_hits(time);
     if (stops)
-      for (const TouchingContact& touching : hits.batch) hits.is_closed[touching.pair] = 1;
+      for (const ImpactContact& touching : hits.batch) hits.is_closed[touching.pair] = 1;
     std::sort(hits.changed.begin(), hits.changed.end());
     for (const size_t k : hits.changed)
       if (group_of(static_cast<int>(k)) == static_cast<int>(k))
@@ -278,7 +276,7 @@ struct HitPhase {
 
   void run() {
     looks.begin();
-    hits.hits.clear();
+    hits.contacts_hit.clear();
     hits.paths.clear();
     hits.impulses.clear();
     hits.dissipated = hits.by_friction = hits.by_rolling = 0;

@@ -1,6 +1,7 @@
 // Stage 7 of an island's step, the contact impulses, and how stages 6 and 7 follow on each other.
 #include <algorithm>
 
+#include "contact/scales.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/island/island_soil.hpp"
 #include "step/island/stages.hpp"
@@ -10,8 +11,8 @@ namespace {
 
 using std::size_t;
 
-using law::island_tolerance, law::linear_tolerance, law::motion_tolerance, law::most_closing_rounds,
-    law::rest_tolerance, law::small_tolerance;
+using law::island_tolerance, law::relative_tolerance, law::most_rounds_in_substep,
+    law::small_tolerance;
 
 double fastest(const FreeMotions& free) {
   double speed = 0;
@@ -31,11 +32,11 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
   settings.tolerance = small_tolerance * by_gravity;
   settings.direct_bodies = members.is_small ? static_cast<int>(members.size()) : 0;
   if (!members.is_small) {
-    settings.tolerance = std::clamp(motion_tolerance * fastest(free), rest_tolerance * by_gravity,
+    settings.tolerance = std::clamp(relative_tolerance * fastest(free), negligible * by_gravity,
                                     island_tolerance * by_gravity);
     // a pile at rest is solved to far below what gravity does: good directions spare it steps
-    settings.linear_tolerance = std::clamp(settings.tolerance / by_gravity,
-                                           law::linear_tolerance_at_rest, linear_tolerance);
+    settings.linear_tolerance =
+        std::clamp(settings.tolerance / by_gravity, law::relative_tolerance, island_tolerance);
   }
   settings.tolerance *= scene.settings.tolerance_factor;
   const IslandResult solved = solve_island(system.island, settings, solver);
@@ -53,7 +54,7 @@ bool stiffen_to_load(const IslandMembers& members, double h, IslandSystem& syste
   for (size_t r = 0; r < system.contacts.size(); ++r) {
     const KeptContact& contact = system.contacts[r];
     const IslandRow row = row_of(system, r);
-    if (contact.hit >= 0 || contact.waits || contact.bond_area != 0 || gives_way(system, r))
+    if (contact.is_hit() || contact.waits || contact.bond_area != 0 || gives_way(system, r))
       continue;
     const BlockNumbers& a = members.of(contact.a);
     double sag = a.sag, most = a.most_stiffness;
@@ -88,7 +89,7 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
     solve(scene, members, free, continues, system, hits, solver, solution);
     return solution.converged;
   };
-  for (int round = 0; round < most_closing_rounds; ++round) {
+  for (int round = 0; round < most_rounds_in_substep; ++round) {
     if (!solve_on(round > 0)) return;
     // at the start nobody knows what contacts bear
     const int settlings = round == 0 && free.t == 0 ? law::most_settlings : 0;

@@ -46,21 +46,6 @@ double pressed_time(const FreeMotions& free, const SubstepHits& hits, size_t k) 
   return free.h - (hits.hit_members.contains(static_cast<int>(k)) ? hits.members[k].clock : 0);
 }
 
-bool is_pressed(const IslandSystem& system, size_t k) {
-  const int pair = system.ground_pair[k];
-  if (pair < 0) return false;
-  for (const size_t r : contacts_of(system, static_cast<size_t>(pair)))
-    if (!system.contacts[r].waits && row_of(system, r).state() != ContactState::open) return true;
-  return false;
-}
-
-bool remembers_ground(const State& state, size_t b) {
-  const std::vector<ContactMemory>& memory = state.memory[b];
-  return std::any_of(memory.begin(), memory.end(), [](const ContactMemory& contact) {
-    return contact.key.body_b == ground_name && contact.normal_force > 0;
-  });
-}
-
 // The contact of member k with the ground that presses most; the number of contacts: none.
 size_t pressed_most(const IslandSystem& system, size_t k) {
   size_t found = system.contacts.size();
@@ -86,11 +71,12 @@ void slide_member(const Scene& scene, const IslandMembers& members, const FreeMo
 
 }  // namespace
 
-Motion begin_drag(const Scene& scene, const State& state, size_t b, double h) {
-  const Motion& motion = state.motion[b];
-  if (!any_drags(scene)) return motion;
-  return after_drag(scene, static_cast<int>(b), motion, first_half(motion, h),
-                    remembers_ground(state, b), h / 2);
+bool is_pressed(const IslandSystem& system, size_t k) {
+  const int pair = system.ground_pair[k];
+  if (pair < 0) return false;
+  for (const size_t r : contacts_of(system, static_cast<size_t>(pair)))
+    if (!system.contacts[r].waits && row_of(system, r).state() != ContactState::open) return true;
+  return false;
 }
 
 bool renew_friction(const Scene& scene, const State& state, const IslandMembers& members,
@@ -129,26 +115,6 @@ void end_soil(const Scene& scene, const IslandMembers& members, const FreeMotion
   if (state.slid.empty()) return;
   for (size_t k = 0; k < members.size(); ++k)
     slide_member(scene, members, free, system, hits, k, state);
-}
-
-Motion end_drag(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
-                const IslandSystem& system, size_t k, const Motion& end, const Motion& before,
-                State& state) {
-  if (!any_drags(scene)) return end;
-  return end_drag(scene, members.blocks[k], before, free.substeps[k].start, end,
-                  is_pressed(system, k), free.h, state);
-}
-
-Motion end_drag(const Scene& scene, int b, const Motion& before, const Motion& start,
-                const Motion& end, bool is_pressed, double h, State& state) {
-  if (!any_drags(scene)) return end;
-  const auto energy = [&](const Motion& m) {
-    return kinetic_energy(scene, static_cast<size_t>(b), m);
-  };
-  state.ledger.drag += energy(before) - energy(start);
-  const Motion dragged = after_drag(scene, b, end, second_half(before, h, end), is_pressed, h / 2);
-  state.ledger.drag += energy(end) - energy(dragged);
-  return dragged;
 }
 
 }  // namespace talus

@@ -10,9 +10,6 @@
 
 namespace talus {
 
-/// Stage 4: motion that block b begins the substep with, after drag.
-[[nodiscard]] Motion begin_drag(const Scene& scene, const State& state, std::size_t b, double h);
-
 /// Stage 7: friction of the contacts that slip, over the substep as it was solved; whether there
 /// is any that varies.
 bool renew_friction(const Scene& scene, const State& state, const IslandMembers& members,
@@ -21,14 +18,7 @@ bool renew_friction(const Scene& scene, const State& state, const IslandMembers&
 /// Stage 9: work of couples, and the ways that members have slid.
 void end_soil(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
               const IslandSystem& system, const SubstepHits& hits, State& state);
-/// ... and motion of member k, which began the step with `before`, after drag.
-[[nodiscard]] Motion end_drag(const Scene& scene, const IslandMembers& members,
-                              const FreeMotions& free, const IslandSystem& system, std::size_t k,
-                              const Motion& end, const Motion& before, State& state);
-
-/// The same for block b that began the substep of `h` with `start`, its motion before drag being
-/// `before`; `is_pressed`: on the ground.
-[[nodiscard]] Motion end_drag(const Scene& scene, int b, const Motion& before, const Motion& start,
-                              const Motion& end, bool is_pressed, double h, State& state);
+/// ... and whether the ground presses member k at the end.
+[[nodiscard]] bool is_pressed(const IslandSystem& system, std::size_t k);
 
 }  // namespace talus

@@ -11,8 +11,8 @@ namespace {
 
 using std::size_t;
 
-using law::bears_little, law::most_sag, law::most_sag_in_small_island, law::slow, law::small_island,
-    law::small_tree, law::stiffest_by_load, law::stiffest_in_island, law::stiffest_at_rest;
+using law::bears_little, law::most_sag, law::most_sag_in_small_island, law::slow, law::few_blocks,
+    law::small_tree, law::stiffest_by_load, law::stiffest_at_rest;
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void see_size(const Scene& scene, const State& state, const PairSearch& search,
   }
   const bool is_column = n <= small_tree && static_cast<size_t>(n_pairs) < n &&
                          speed * speed < law::column_falls * scene.gravity.norm() * thickness;
-  members.is_small = n <= small_island || is_column;
+  members.is_small = n <= few_blocks || is_column;
 }
 
 // What a contact gives must not grow with what lies above it, with the step, or with small blocks:
@@ -90,7 +90,7 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
     c.slow = slow * g * dt;
     c.rests = members.is_small || !moves(members.blocks[k]);
     const bool is_stiff = members.is_small || (c.rests && state.time > 0 && !is_soft);
-    const double per_mass = (is_stiff ? stiffest_at_rest : stiffest_in_island) / (dt * dt);
+    const double per_mass = (is_stiff ? stiffest_at_rest : 1) / (dt * dt);
     c.stiffness = per_mass * members.bearing[k];
     c.least_stiffness = is_first ? no_normal_limit : bears_little * per_mass * c.mass;
     c.most_stiffness = is_soft ? 0 : stiffest / (dt * dt) * c.mass;
@@ -100,7 +100,7 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
 
 void locate_hits(const Scene& scene, const State& state, const SubstepTries& tries,
                  IslandMembers& members) {
-  members.locates_hits = members.size() <= small_island && tries.hits < law::most_events;
+  members.locates_hits = members.size() <= few_blocks && tries.hits < law::most_hits;
   for (size_t k = 0; k < members.size(); ++k) {
     BlockNumbers& c = members.numbers[k];
     c.located_speed = c.resting_speed;

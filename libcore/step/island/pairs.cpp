@@ -20,7 +20,7 @@ namespace {
 
 using std::size_t;
 
-using law::most_substeps, law::most_travel, law::most_turn;
+using law::most_substeps, law::most_turn;
 
 Vec3 spin_of(const Motion& m, const Vec3& inertia) {
   return angular_velocity(m.pose.attitude, m.angular_momentum, inertia);
@@ -92,7 +92,7 @@ void search_marked(const Scene& scene, double h, State& state, PairSearch& searc
   settings.closing = mass_reach(scene, h) + scene.gravity.norm() * h * h;
   search.in_mass.clear();
   for (const MassShare& share : state.mass) search.in_mass.push_back(share.is_in_mass ? 1 : 0);
-  settings.graze_m = scene.gravity.norm() * h * h / law::stiffest_in_island;
+  settings.graze_m = scene.gravity.norm() * h * h;
   const std::span<const Pose> poses = search.poses;
   const bool none_placed = state.placed.turned.size() != poses.size();
   const OwnShifts own(scene, state);
@@ -286,7 +286,7 @@ double longest_substep(const Scene& scene, const State& state, const PairSearch&
     }
     if (!is_fixed(scene, m.block_b))
       thickness = std::min(thickness, members.of(m.block_b).thickness);
-    const double enough = most_travel * thickness;
+    const double enough = law::deep_share * thickness;
     part =
         std::max(part, travel_ahead(scene.blocks.hulls, state.placed, search, m, enough) / enough);
   }

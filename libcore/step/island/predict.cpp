@@ -1,5 +1,4 @@
 // Stage 4 of an island's step: each member without contact.
-#include "step/island/island_soil.hpp"
 #include "step/island/stages.hpp"
 #include "step/substep.hpp"
 
@@ -40,23 +39,19 @@ void clear_bodies(Island& island) {
 
 void predict_free(const Scene& scene, const State& state, const IslandMembers& members, double t,
                   double h, Workers* workers, FreeMotions& free) {
-  constexpr size_t members_a_thread = 64;
   free.t = t;
   free.h = h;
   free.substeps.resize(members.size());
   free.turns.resize(members.size());
-  in_chunks(workers, members.size(), members_a_thread, 2 * members_a_thread,
-            [&](size_t begin, size_t end) {
-              for (size_t k = begin; k < end; ++k) {
-                const BlockNumbers& c = members.numbers[k];
-                Substep& s = free.substeps[k];
-                s = predict(scene, members.blocks[k], c,
-                            begin_drag(scene, state, members.block(k), h), t, h);
-                free.turns[k] = {s.R * s.R_start.transpose(), s.R_start * s.spin_start,
-                                 s.R * s.spin_free,
-                                 s.R * c.per_inertia.asDiagonal() * s.R.transpose()};
-              }
-            });
+  in_chunks(workers, members.size(), [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) {
+      const BlockNumbers& c = members.numbers[k];
+      Substep& s = free.substeps[k];
+      s = predict(scene, members.blocks[k], c, begin_drag(scene, state, members.block(k), h), t, h);
+      free.turns[k] = {s.R * s.R_start.transpose(), s.R_start * s.spin_start, s.R * s.spin_free,
+                       s.R * c.per_inertia.asDiagonal() * s.R.transpose()};
+    }
+  });
 }
 
 void predict(const Scene& scene, const State& state, const IslandMembers& members, double t,

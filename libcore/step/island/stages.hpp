@@ -13,6 +13,7 @@
 #include "scene/state.hpp"
 #include "step/island/data.hpp"
 #include "step/report.hpp"
+#include "step/substep_end.hpp"
 #include "step/work.hpp"
 
 namespace talus {
@@ -49,7 +50,7 @@ void see_size(const Scene& scene, const State& state, const PairSearch& search,
 void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
                       std::span<const int> manifolds, int eased, IslandMembers& members);
 /// Fills IslandMembers::locates_hits and the members' located speed. Hits end a substep in islands
-/// of at most law::small_island blocks, but for those between blocks that nothing presses, until
+/// of at most law::few_blocks blocks, but for those between blocks that nothing presses, until
 /// the step has had too many.
 void locate_hits(const Scene& scene, const State& state, const SubstepTries& tries,
                  IslandMembers& members);
@@ -125,6 +126,10 @@ void set_displacements(double h, const IslandSystem& system, const SubstepHits& 
 [[nodiscard]] Vec3 path_of_impulse(const IslandMembers& members, const FreeMotions& free,
                                    const IslandSystem& system, const SubstepHits& hits,
                                    std::size_t r);
+/// Contact `r` at the end of the substep, where it presses.
+[[nodiscard]] ContactEnd end_of_contact(const IslandMembers& members, const FreeMotions& free,
+                                        const IslandSystem& system, const SubstepHits& hits,
+                                        std::size_t r);
 /// Motion of member k at the end of the substep.
 [[nodiscard]] Motion end_of(const IslandMembers& members, const FreeMotions& free,
                             const IslandSystem& system, const SubstepEnd& end, std::size_t k);

@@ -96,7 +96,7 @@ double part_by_stem(const Scene& scene, const PairSearch& search, const PairMani
     nearest = std::min(nearest, search.pairs.points[p].gap);
   if (nearest >= travel) return 0;
   return travel /
-         std::min(law::most_travel * thickness, side_of_stem * std::max(stem.radius, thin_stem));
+         std::min(law::deep_share * thickness, side_of_stem * std::max(stem.radius, thin_stem));
 }
 
 bool follows_block(const Scene& scene, const IslandMembers& members, const IslandSystem& system,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "contact/scales.hpp"
 #include "motion/rotation.hpp"
 #include "scene/bonds.hpp"
 #include "scene/stems.hpp"
@@ -196,7 +197,7 @@ struct UntouchedCheck {
     const Heights b =
         is_fixed_b ? heights_of_fixed(m, sight) : heights_of(m.block_b, m.part_b, sight);
     return heights_of(m.block_a, m.part_a, sight).low - b.high >
-           law::pair_touch_ratio * scene.blocks.shapes.radius[m.block_a];
+           negligible * scene.blocks.shapes.radius[m.block_a];
   }
 
   // Whether the parts of a manifold keep apart over the whole step: along its normal, or along

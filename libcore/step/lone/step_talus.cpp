@@ -14,6 +14,7 @@
 #include "step/loads.hpp"
 #include "step/lone/lone_soil.hpp"
 #include "step/lone/lone_substep.hpp"
+#include "step/substep_end.hpp"
 
 namespace talus {
 namespace {
@@ -57,7 +58,8 @@ struct Advance {
   bool breaks_bonds = false;  // of the substep under way; what is left is in work.unbonded
   double last_h = 0;          // of the substep before [s]
   double longest_h = 0;       // the next one is not tried longer, because of its error [s]
-  int most_tries = law::most_tries;  // of a substep; fewer once no forces were found in the step
+  int most_tries =
+      law::most_repetitions;  // of a substep; fewer once no forces were found in the step
 
   [[nodiscard]] size_t i() const { return static_cast<size_t>(b); }
   Motion& motion() { return state.motion[i()]; }
@@ -68,32 +70,7 @@ struct Advance {
   void finish(const Substep& s, const Motion& end, double t, double t_next) {
     add_segment(b, state.memory[i()].empty(), t, s.h, s.start, end, work.segments);
     set_support(scene, b, (end.velocity - s.free.velocity) / s.h, state);
-    const Vec3 external = s.free_acceleration - scene.gravity;
-    if (!external.isZero(0))
-      state.ledger.base += c.mass * external.dot(end.pose.position - s.start.pose.position);
-    if (any_drags(scene)) {
-      drag(s, end);
-    } else {
-      motion() = end;
-    }
-    state.local_time[i()] = t_next;
-    report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, s.h) : s.h;
-    ++report.substeps;
-  }
-
-  // Drag acts for half of the substep at its start, and for half at its end; that of the ground
-  // where something presses the block then.
-  Motion dragged(const Motion& from, const HalfWay& half, double h) {
-    return after_drag(scene, b, from, half, !state.memory[i()].empty(), h / 2);
-  }
-  Motion dragged_at_start(double h) {
-    return any_drags(scene) ? dragged(motion(), first_half(motion(), h), h) : motion();
-  }
-  void drag(const Substep& s, const Motion& end) {
-    const auto energy = [this](const Motion& m) { return kinetic_energy(scene, i(), m); };
-    state.ledger.drag += energy(motion()) - energy(s.start);
-    motion() = dragged(end, second_half(motion(), s.h, end), s.h);
-    state.ledger.drag += energy(end) - energy(motion());
+    end_block(scene, b, c, s, end, !state.memory[i()].empty(), t_next, state, report);
   }
 
   // True when the block is hit where it is. The gap of edges over a substep is not quite linear:
@@ -204,7 +181,7 @@ struct Advance {
   // Substep of h from t; h is shortened to the first impact or when the forces do not converge.
   template <int Dof>
   Attempt attempt(double t, double& h, bool last) {
-    Substep s = predict(scene, b, c, dragged_at_start(h), t, h);
+    Substep s = predict(scene, b, c, begin_drag(scene, state, i(), h), t, h);
     if constexpr (Dof == 12) {
       s.is_straining = true;
       s.straining = strain_tensor(state.strain_rate[i()]);
@@ -280,7 +257,7 @@ struct Advance {
   // Whether a vertex or an edge has gone through a ridge in a substep, so that the contacts at its
   // end say nothing of that. No use to ask where hardly anything moved.
   [[nodiscard]] bool goes_through_ridge(const Substep& s) {
-    if (s.h * top_speed() < law::short_move * c.thickness) return false;
+    if (s.h * top_speed() < law::shallow * c.thickness) return false;
     for (const ContactRow& row : work.rows)
       if (came_through_ridge(scene, c, s, work.contacts[row.contact], row)) return true;
     return depth_past_ridge(scene.ground, scene.blocks.shapes, b, work.world_vertices,
@@ -473,7 +450,7 @@ struct Advance {
     int events = 0, flights = 0;
     bool was_hit = false;
     const auto count_event = [&] {
-      if (++events > law::most_events) c.resting_speed *= 2;
+      if (++events > law::most_hits) c.resting_speed *= 2;
     };
     last_h = t_end - state.time;
     longest_h = no_normal_limit;

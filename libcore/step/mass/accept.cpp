@@ -5,17 +5,15 @@
 
 #include "base/make_room.hpp"
 #include "motion/free_rotation.hpp"
-#include "scene/fence.hpp"
 #include "scene/stems.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/breakage.hpp"
-#include "step/crushing.hpp"
 #include "step/deep_blocks.hpp"
-#include "step/island/island_soil.hpp"
 #include "step/mass/stages.hpp"
 #include "step/soil.hpp"
 #include "step/substep.hpp"
+#include "step/substep_end.hpp"
 
 namespace talus {
 namespace {
@@ -81,6 +79,12 @@ struct MassEnd {
     return pressed.along_face().norm() >= (1 - rounding) * cap;
   }
 
+  [[nodiscard]] ContactEnd end_of(const MassContact& contact, const MassPair& pair,
+                                  const PressedRow& row) const {
+    return {contact.a, contact.b,       contact.fixed,  row.normal,    row.impulse,
+            row.p_n,   path(pair, row), contact.is_hit, contact.yields};
+  }
+
   // Calls visit(row number, pair, row in doubles) for all rows that press.
   template <class Visit>
   void for_each_pressed(const Visit& visit) const {
@@ -126,26 +130,12 @@ void find_pushes(const MassEnd& end, const State& state, const PairSearch& searc
   const Scene& scene = end.scene;
   pushes.clear();
   if (!anything_yields(scene)) return;
-  const auto pushed_before = [&](int block, int fixed) -> Vec3 {
-    if (is_stem(scene, fixed))
-      return met_by_stem(scene, state, world_of(scene, block), stem_of(scene, fixed)).shift;
-    return search.poses[hull_of_fixed(scene, fixed)].position - scene.fixed.pose[fixed].position;
-  };
   end.for_each_pressed([&](size_t r, const MassPair& pair, const PressedRow& row) {
     const MassContact& contact = end.w.contacts[r];
     if (!contact.yields) return;
-    const Yielding& yielding = *giving_way(scene, contact.fixed, row.normal);
-    YieldPush push;
-    push.along = yield_direction(yielding, row.normal);
-    push.block = contact.a;
-    push.yielding = yielding_number(scene, contact.fixed);
-    push.work = -row.p_n * row.normal.dot(end.path(pair, row));
-    push.power = -row.p_n / end.free.h * contact.speed_start;
-    if (end.is_limited(end.w.system.rows[r], row.p_n) || is_stem(scene, contact.fixed))
-      push.shift =
-          std::min(0.0, end.gap_end(pair, row, contact.gap_free)) * row.normal.dot(push.along);
-    push.to = push.shift + push.along.dot(pushed_before(contact.a, contact.fixed));
-    add_push(push, pushes);
+    push(scene, state, end.end_of(contact, pair, row), end.free.h, contact.speed_start,
+         end.is_limited(end.w.system.rows[r], row.p_n) || is_stem(scene, contact.fixed),
+         end.gap_end(pair, row, contact.gap_free), search.poses, pushes);
   });
 }
 
@@ -158,27 +148,12 @@ struct MassAcceptance : MassEnd {
 
   [[nodiscard]] double thickness_of(int b) const { return members.of(b).thickness; }
 
-  // Energy that a contact took, by kind; push_bodies() adds that of bodies that give way.
-  void account(const MassContact& contact, const MassPair& pair, const PressedRow& row) {
-    const Vec3 path = this->path(pair, row);
-    const double loss = -row.p_n * row.normal.dot(path);  // < 0: it drove its bodies apart
-    if (!contact.yields)
-      (contact.is_hit && loss > 0 ? state.ledger.impact : state.ledger.contact) += loss;
-    state.ledger.friction -= row.along_face().dot(path);
-    report.n_impacts += contact.is_hit;
-    if (!state.load.empty()) {
-      add_load(scene, contact.a, row.normal, row.p_n, row.impulse, state);
-      add_load(scene, contact.b, row.normal, row.p_n, -row.impulse, state);
-    }
-  }
-
   void add_losses_of_hits() {
     add_hit_losses(
         [&](const auto& take) {
           for_each_pressed([&](size_t r, const MassPair& pair, const PressedRow& row) {
             const MassContact& contact = w.contacts[r];
-            if (contact.is_hit)
-              take(contact.a, contact.b, -row.p_n * row.normal.dot(path(pair, row)));
+            if (contact.is_hit) take(contact.a, contact.b, end_of(contact, pair, row).loss());
           });
         },
         state);
@@ -216,7 +191,8 @@ struct MassAcceptance : MassEnd {
       note_overlap(thin, -gap, thickness_of(thin), deep, report);
       ++report.n_closed;
       report.sum_penetration += std::max(-gap, 0.0);
-      account(contact, pair, row);
+      book(scene, end_of(contact, pair, row), state);
+      report.n_impacts += contact.is_hit;
       remember(r, row, gap);
     });
     if (!state.hit_loss.empty()) add_losses_of_hits();
@@ -246,7 +222,7 @@ struct MassAcceptance : MassEnd {
              free.t, free.h, state);
   }
 
-  [[nodiscard]] Motion end_of(size_t k) const {
+  [[nodiscard]] Motion end_of_member(size_t k) const {
     const Substep& s = free.substeps[k];
     const MassChange& change = w.changes[k];
     Motion out = s.free;
@@ -264,22 +240,16 @@ struct MassAcceptance : MassEnd {
     const Substep& s = free.substeps[k];
     const int b = members.blocks[k];
     const MassChange& change = w.changes[k];
-    const Motion motion = end_of(k);
+    const Motion motion = end_of_member(k);
     add_segment(b, false, free.t, free.h, s.start, motion, segments);
     set_support(scene, b, change.by_ground / (members.numbers[k].mass * free.h), state);
     if (change.pressed && !change.was_hit)
       set_rates(scene, b, members.numbers[k], s, motion, state);
     else
       forget_rates(scene, b, state);
-    const Vec3 external = s.free_acceleration - scene.gravity;
-    if (!external.isZero(0))
-      state.ledger.base +=
-          members.numbers[k].mass * external.dot(motion.pose.position - s.start.pose.position);
-    state.motion[members.block(k)] = end_drag(scene, b, state.motion[members.block(k)], s.start,
-                                              motion, change.on_ground, free.h, state);
+    end_block(scene, b, members.numbers[k], s, motion, change.on_ground, free.t + free.h, state,
+              report);
     if (!is_finite(motion)) stop_at(s.start, members.block(k), state, report);
-    state.local_time[members.block(k)] = free.t + free.h;
-    ++report.substeps;
   }
 
   // First touches of panels and stems, and what they left to their blocks.
@@ -289,13 +259,8 @@ struct MassAcceptance : MassEnd {
       const MassContact& contact = w.contacts[r];
       if (contact.fixed < 0) return;
       const size_t k = members.at(contact.a);
-      const Motion& before = free.substeps[k].start;
-      const Motion& after = state.motion[members.block(k)];
-      const Vec3 at = w.members[k].middle + row.arm_a;
-      if (is_stem(scene, contact.fixed))
-        note_stem_touch(scene, contact.a, contact.fixed, at, free.t, before, after, state);
-      else if (panel_number(scene, contact.fixed) >= 0)
-        note_hit(scene, contact.a, contact.fixed, at, free.t, before, after, state.fence);
+      note_touch(scene, contact.a, contact.fixed, w.members[k].middle + row.arm_a, free.t,
+                 free.substeps[k].start, state);
     });
   }
 
@@ -305,11 +270,8 @@ struct MassAcceptance : MassEnd {
     if (!state.slid.empty())
       for (size_t k = 0; k < members.size(); ++k) slide(k);
     for (size_t k = 0; k < members.size(); ++k) move(k);
-    report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, free.h) : free.h;
     note_touched();
-    note_work(scene, w.pushes, state.fence);
-    note_stem_work(scene, w.pushes, state);
-    push_bodies(scene, w.pushes, free.t + free.h, state);
+    take_pushes(scene, w.pushes, free.t + free.h, state);
   }
 };
 

@@ -19,9 +19,6 @@ namespace {
 
 using std::size_t;
 
-constexpr size_t least_shared = 256;  // members; of fewer a thread has too little to do
-constexpr size_t most_parts = 32;     // of members, and of manifolds
-
 void set_floats(const Vec3& from, float (&to)[3]) {
   for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
 }
@@ -141,9 +138,9 @@ struct MassMaker {
       if (stiffness > law::same_law * then->stiffness)
         left += (1 - then->stiffness / stiffness) * std::max(0.0, -(motion.gap + left));
     }
-    const double deep = std::clamp(left / (law::relaxes_anyway * faces.thickness) - 1, 0.0, 1.0);
+    const double deep = std::clamp(left / (law::sunk * faces.thickness) - 1, 0.0, 1.0);
     const double relaxed = offset_relaxed(scene.gravity.norm(), free.h);
-    return std::max(0.0, left - relaxed - deep * (free.h * mass::fastest_push - relaxed));
+    return std::max(0.0, left - relaxed - deep * (free.h * law::fastest_relaxing - relaxed));
   }
 
   // Velocity below which the row presses, less that of its point.
@@ -397,17 +394,6 @@ void append(const std::vector<T>& from, std::vector<T>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-// The only part is all there is.
-void take_part(MassPart& part, MassScratch& w) {
-  w.system.rows.swap(part.rows);
-  w.system.pairs.swap(part.pairs);
-  w.system.turns.swap(part.turns);
-  w.system.arms.swap(part.arms);
-  w.contacts.swap(part.contacts);
-  w.ground_pair.swap(part.ground_pair);
-  w.fell_through = part.fell_through;
-}
-
 // Puts the parts behind each other.
 void join_parts(std::span<const MassPart> parts, MassScratch& w) {
   MassSystem& s = w.system;
@@ -460,7 +446,7 @@ double longest_mass_substep(const Scene& scene, const PairSearch& search,
     } else {
       travel += search.step[a].norm();
     }
-    part = std::max(part, travel / (mass::most_travel * thickness));
+    part = std::max(part, travel / (2 * law::deep_share * thickness));
   }
   const double shortest = std::min(h, scene.settings.dt / law::most_substeps);
   return part > 1 ? std::max(h / std::ceil(part), shortest) : h;
@@ -480,36 +466,22 @@ bool make_mass_contacts(const Scene& scene, const State& state, const PairSearch
   const auto maker = [&](MassPart& part) {
     return MassMaker{scene, state, search, manifolds, members, free, near_ground, w, part};
   };
-  if (workers == nullptr || n < least_shared) {
-    w.parts.resize(std::max(w.parts.size(), size_t{1}));
-    MassPart& all = w.parts[0];
-    MassMaker make = maker(all);
-    make.begin();
-    make.add_members(0, n);
-    outsider = all.outsider;
-    if (outsider >= 0) return false;
-    make.add_pairs(0, n_pairs);
-    take_part(all, w);
-    return true;
-  }
-  const size_t a_part = n / most_parts + 1, pairs_a_part = n_pairs / most_parts + 1;
-  const size_t of_members = (n + a_part - 1) / a_part,
-               of_pairs = (n_pairs + pairs_a_part - 1) / pairs_a_part;
+  const size_t of_members = talus::n_parts(workers, n), of_pairs = talus::n_parts(workers, n_pairs);
   w.parts.resize(std::max(w.parts.size(), of_members + of_pairs));
   const auto parts = std::span(w.parts).first(of_members + of_pairs);
-  workers->run(static_cast<std::uint32_t>(of_members), [&](std::uint32_t i) {
+  in_parts(workers, n, [&](size_t i, size_t begin, size_t end) {
     MassMaker make = maker(parts[i]);
     make.begin();
-    make.add_members(i * a_part, std::min((i + 1) * a_part, n));
+    make.add_members(begin, end);
   });
   for (const MassPart& part : parts.first(of_members)) {
     outsider = part.outsider;
     if (outsider >= 0) return false;
   }
-  workers->run(static_cast<std::uint32_t>(of_pairs), [&](std::uint32_t i) {
+  in_parts(workers, n_pairs, [&](size_t i, size_t begin, size_t end) {
     MassMaker make = maker(parts[of_members + i]);
     make.begin();
-    make.add_pairs(i * pairs_a_part, std::min((i + 1) * pairs_a_part, n_pairs));
+    make.add_pairs(begin, end);
   });
   join_parts(parts, w);
   return true;

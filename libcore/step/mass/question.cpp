@@ -51,7 +51,7 @@ void become_mass(const IslandMembers& members, const MassShare& share, State& st
 }  // namespace
 
 bool has_settled(const Scene& scene, double h, double change) {
-  return change <= mass::settled * scene.gravity.norm() * h;
+  return change <= law::least_speed * scene.gravity.norm() * h;
 }
 
 bool is_any_in_mass(const IslandMembers& members, const State& state) {
@@ -88,7 +88,8 @@ bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& stat
     });
   }
   if (2 * n_in_mass > static_cast<int>(members.size())) {
-    const bool is_calm = faster_than(members, state, by_gravity) <= mass::most_restless;
+    const bool is_calm =
+        faster_than(members, state, by_gravity) <= static_cast<int>(law::few_blocks);
     all.calm = is_calm ? all.calm + 1 : 0;
     // contacts that grow soft sag at first: that does not make it a mass again
     if (all.calm >= calm_steps(scene) || all.unsettled >= mass::patience)
@@ -121,7 +122,7 @@ int mass_sweeps(double accuracy) {
 }
 
 double mass_compliance(const Scene& scene, const MassShare& share) {
-  constexpr double in_island = 1 / (law::stiffest_in_island * law::recovery_steps);
+  const double in_island = 1 / law::recovery_steps;
   const double calm = static_cast<double>(share.calm) / calm_steps(scene);
   return mass::compliance * std::pow(in_island / mass::compliance, calm);
 }

@@ -49,7 +49,7 @@ void note_solution(const Scene& scene, const IslandMembers& members, double h,
 
 // --- 1 predict: as for the exact step (step/island/predict.cpp)
 // --- 2 make_mass_contacts (step/mass/contacts.cpp)
-/// Longest substep, up to `h`, in which no point goes by more than mass::most_travel of the
+/// Longest substep, up to `h`, in which no point goes by more than 2 law::deep_share of the
 /// thickness relative to a neighbour, or past the side of a stem.
 [[nodiscard]] double longest_mass_substep(const Scene& scene, const PairSearch& search,
                                           const IslandMembers& members,

@@ -15,8 +15,8 @@ namespace {
 MassSettings settings_of(const Scene& scene, const MassShare& share, double h, Workers* workers) {
   MassSettings settings;
   settings.sweeps = mass_sweeps(scene.settings.accuracy);
-  settings.most_sweeps = std::max(settings.sweeps, mass::most_sweeps);
-  settings.settled = mass::settled * scene.gravity.norm() * h;
+  settings.most_sweeps = std::max(settings.sweeps, 8 * mass::sweeps);
+  settings.settled = law::least_speed * scene.gravity.norm() * h;
   settings.compliance = mass_compliance(scene, share);
   settings.shear_ratio = scene.settings.shear_ratio;
   settings.workers = workers;
@@ -65,7 +65,7 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
     report.passes += w.solved.sweeps;
     const StageTimer timer(island.clock, IslandStage::accept);
     const double used_up = time_to_first_break(scene, state.yielding, w.pushes, h);
-    if (used_up < h && cuts < law::most_used_up_cuts) {
+    if (used_up < h && cuts < law::most_repetitions) {
       ++report.cuts[static_cast<std::size_t>(SubstepCut::yielding_used_up)];
       h = used_up;
       continue;
@@ -83,7 +83,7 @@ bool begins_as_mass(const Scene& scene, double h, State& state, Work& work) {
     return false;
   const int layers = layers_on_ground(w.system);
   MassSettings settings = settings_of(scene, {}, h, work.workers);
-  settings.sweeps = std::max(mass::most_sweeps, mass::sweeps_per_square_layer * layers * layers);
+  settings.sweeps = mass::sweeps * std::max(8, 2 * layers * layers);
   settings.most_sweeps = mass::most_first_sweeps;
   settings.from_rest = true;
   if (settings.sweeps > settings.most_sweeps) return false;

@@ -65,8 +65,8 @@ duration_s = 2
 END
 expect 0 talus-blocks box.toml --trn flat.tif -o box.h5 --no-db
 lacks "2e+04 frames of 1 block need about 13 MB" "set a longer frame_interval_s or a shorter duration_s" \
-  talus-dda box.toml --trn flat.tif --blocks box.h5 -o out.h5 --frame-interval-s 1e-4
-expect 0 talus-dda box.toml --trn flat.tif --blocks box.h5 -o run.h5 --frame-interval-s 0.1 --memory-mb 5 --no-db
+  talus-dda box.toml --trn flat.tif --blocks box.h5 -o out.h5 --set output.frame_interval_s=1e-4
+expect 0 talus-dda box.toml --trn flat.tif --blocks box.h5 -o run.h5 --set output.frame_interval_s=0.1 --memory-mb 5 --no-db
 
 # points of contours
 expect 1 talus-tin "$designed/contours.gpkg" -o out.ply --elevation-field elevation_m --memory-mb 1 --no-db

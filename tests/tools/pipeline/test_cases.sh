@@ -59,10 +59,10 @@ for case in far near; do
       fail "maps/$case is not that of case $case"
   done
 done
-expect 1 talus-maps slope/out/runs/far --trn slope/out/bed.tif -o maps_x --cell-size-m 16 --png \
+expect 1 talus-maps slope/out/runs/far --trn slope/out/bed.tif -o maps_x --cell-size-m 16 --pages png \
   --window-of slope/out/maps/reach.tif --no-db
 says "give both the same --cell-size-m"
-expect 1 talus-maps slope/out/runs/far --trn slope/out/bed.tif -o maps_x --png \
+expect 1 talus-maps slope/out/runs/far --trn slope/out/bed.tif -o maps_x --pages png \
   --window-of slope/out/trn.tif --no-db
 says "does not say which cells its picture shows"
 PATH=/usr/bin:$PATH python3 - <<'PY' || fail "maps do not weigh the cases"

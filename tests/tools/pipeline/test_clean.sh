@@ -1,7 +1,7 @@
 # `make clean` removes what the pipeline made, all of it, and nothing else.
 . "$source_dir/tests/tools/pipeline/common.sh"
 site slope
-made slope -j2 RUNS=2 DDA_FLAGS='--checkpoint-interval-s 0.01'
+made slope -j2 RUNS=2 DDA_FLAGS='--set output.checkpoint_interval_s=0.01'
 echo mine >slope/out/notes.txt
 echo mine >slope/out/maps/drawing.txt
 echo mine >slope/out/runs/run_of_mine.h5

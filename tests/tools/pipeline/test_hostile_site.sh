@@ -12,7 +12,7 @@ refused() {
 }
 refused terrain contours '"a;touch hurt.gpkg"' "cannot stand in a makefile"
 refused terrain contours '"$(shell touch hurt)"' "cannot stand in a makefile"
-refused terrain layer '"a\nall: ; touch hurt"' "line break or control character"
+refused terrain contours '"contours.gpkg|layername=a\nall: ; touch hurt"' "line break or control character"
 refused 'hazard.class."x;touch hurt"' frequency_per_a 0.01 "cannot stand in a makefile"
 refused 'hazard.class."$(shell touch hurt)"' frequency_per_a 0.01 "cannot stand in a makefile"
 refused 'fence."x\u001b[2J"' line '[[0, 0], [1, 1]]' 'the name x\x1b[2J'
@@ -33,11 +33,11 @@ mv odd/contours.gpkg "odd/Höhen linien #1.gpkg"
 sed -i -e "s/^name = .*/name = \"\$(shell touch hurt)'\"/" -e 's/^contours = .*/contours = "Höhen linien #1.gpkg"/' odd/site.toml
 made odd terrain
 [ -s odd/out/trn.tif ] || fail "no terrain"
-printf '[terrain]\nlayer = "$(shell touch hurt)'"'"';touch hurt"\n' >layer.toml
+printf '[terrain]\ncontours = "odd/Höhen linien #1.gpkg|layername=$(shell touch hurt)'"'"';touch hurt"\n' >layer.toml
 expect 0 talus-site layer.toml -o stages --no-db
-printf 'include stages/site.mk\nall: ; @echo $(SITE_TIN_FLAGS)\n' >Makefile
+printf 'include stages/site.mk\nall: ; @echo $(SITE_CONTOURS_PART)\n' >Makefile
 expect 0 make
-prints '--layer $(shell touch hurt)'"'"';touch hurt'
+prints '|layername=$(shell touch hurt)'"'"';touch hurt'
 nothing_left hurt odd/hurt
 
 # a fence is named as its user likes, and its runs without fences are made

@@ -18,7 +18,7 @@ same whole killed
 # A run that has not come to its first step has nothing to keep: on a busy machine it gets longer.
 site asked
 for pause in 1 4 16 64; do
-  make -C asked BIN= WITHOUT=no runs DDA_FLAGS='--time-step-s 0.00002' >log 2>&1 &
+  make -C asked BIN= WITHOUT=no runs DDA_FLAGS='--set solver.time_step_s=0.00002' >log 2>&1 &
   process=$!
   n=0
   until grep -q '^batch: runs' log; do

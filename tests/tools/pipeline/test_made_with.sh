@@ -41,9 +41,9 @@ begun_again 1 "a third one"
 # options, those of cases, and what is made before the runs
 runs RUNS=2 DDA_FLAGS='--set ground.slope.friction_deg=31'
 begun_again 2 "another option"
-runs RUNS=2 CASES='a b' CASE_a='--accuracy 0.02' CASE_b=
+runs RUNS=2 CASES='a b' CASE_a='--set solver.accuracy=0.02' CASE_b=
 begun_again 4 "cases"
-runs RUNS=2 CASES='a b' CASE_a='--accuracy 0.03' CASE_b=
+runs RUNS=2 CASES='a b' CASE_a='--set solver.accuracy=0.03' CASE_b=
 begun_again 2 "an option of one case"
 made slope WITHOUT=no RUNS=1 runs
 begun_again 1 "without the option"

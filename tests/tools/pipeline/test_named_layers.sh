@@ -12,25 +12,22 @@ site named
   mv contours.gpkg contours_now.gpkg
 )
 layers() { sed "s#^contours = .*#contours = \"$1\"\n$2#" plain/site.toml >named/site.toml; }
-flags() { sed -n 's/^SITE_TIN_FLAGS := //p' named/stages/site.mk; }
+part() { sed -n 's/^SITE_CONTOURS_PART := //p' named/stages/site.mk; }
 stages() { talus-site named/site.toml -o named/stages --overwrite --no-db; }
 
 # of the file, its layers and its filter, the rule names the file alone
 layers 'map.gpkg|layername=older|subset=elevation_m < 10' ''
 expect 0 stages
 grep -q '^SITE_CONTOURS := named/map.gpkg$' named/stages/site.mk || fail "$(grep CONTOURS named/stages/site.mk)"
-[ "$(flags)" = "--layer 'older' --where 'elevation_m < 10' --elevation-field 'elevation_m' --flat 'fill'" ] || fail "the options are $(flags)"
-layers 'map.gpkg|layername=older' 'layer = "low"'
+[ "$(part)" = "'|layername=older|subset=elevation_m < 10'" ] || fail "behind the file stands $(part)"
+layers map.gpkg 'layer = "low"'
 expect 1 stages
-says "layer is low, contours asks for the layer older"
-layers 'map.gpkg|layerid=1' ''
-expect 1 stages
-says "name it: layer ="
+says 'hint: write contours = "FILE|layername=LAYER"'
 layers 'none.gpkg|layername=older' ''
 expect 1 stages
 says "there is no file named/none.gpkg"
 
-layers map.gpkg 'layer = "low, high"'
+layers 'map.gpkg|layername=low, high' ''
 made named terrain
 gdalinfo -checksum plain/out/trn.tif | grep Checksum >expected
 gdalinfo -checksum named/out/trn.tif | grep Checksum >found
@@ -46,20 +43,18 @@ prints "talus-tin"
 
 # names and filters with signs of make and of the shell
 (cd named && ogr2ogr -q -update -nln "heights #2 50 % (\$x) 'new'" map.gpkg contours_now.gpkg)
-layers map.gpkg ''
 cat >more.toml <<'END'
-layer = "heights #2 50 % ($x) 'new'"
-where = "elevation_m < 1000 AND '#a,b)' <> '$(x)'"
+contours = "map.gpkg|layername=heights #2 50 % ($x) 'new'|subset=elevation_m < 1000 AND '#a,b)' <> '$(x)'"
 END
-sed -i '/^contours/r more.toml' named/site.toml
+sed -e '/^contours/r more.toml' -e '/^contours/d' plain/site.toml >named/site.toml
 made named terrain
 gdalinfo -checksum named/out/trn.tif | grep Checksum >found
 cmp -s expected found || fail "a layer with signs of make gives another terrain"
-sed -i -e '/^layer/d' -e '/^where/d' named/site.toml
-for flags in "--layer high --where \"'#,)(' <> 'a' AND elevation_m > 3\"" \
-  "--layer high --where \"'#,)(' <> 'b' AND elevation_m > 3\"" "--layer 'heights #2 50 % (\$\$x) '\\''new'\\'''"; do
-  made named TIN_FLAGS="$flags" terrain
+layers map.gpkg ''
+for part in "high|subset='#,)(' <> 'a' AND elevation_m > 3" "high|subset='#,)(' <> 'b' AND elevation_m > 3" \
+  "heights #2 50 % (\$\$x) 'new'"; do
+  made named CONTOURS="map.gpkg|layername=$part" terrain
   prints "tin: contours"
-  made named TIN_FLAGS="$flags" -n terrain
-  if grep -q '^talus-' out; then fail "nothing changed, and make would start a tool with TIN_FLAGS=$flags"; fi
+  made named CONTOURS="map.gpkg|layername=$part" -n terrain
+  if grep -q '^talus-' out; then fail "nothing changed, and make would start a tool with the layer $part"; fi
 done

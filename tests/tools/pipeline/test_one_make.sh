@@ -6,14 +6,15 @@ made slope RUNS=2 prepare
 mkdir beside
 cp slope/site.toml slope/contours.gpkg slope/Makefile beside
 ln -s ../slope/out beside/out
-long='--time-step-s 0.00001'
+long='--set solver.time_step_s=0.00001'
 
-# begin ARGUMENTS: a make that goes on for long, as $process, whose run has begun, as $run_of_make
+# begin ARGUMENTS: a make that goes on for long, as $process, whose run (not what asks for its plan) has begun,
+# as $run_of_make
 begin() {
   setsid make -C slope BIN= WITHOUT=no RUNS=2 "$@" >log 2>&1 &
   process=$!
   n=0
-  until run_of_make=$(pgrep -P "$(pgrep -d, -g "$process" talus-batch || echo 0)" talus-dda); do
+  until run_of_make=$(pgrep -f -P "$(pgrep -d, -g "$process" talus-batch || echo 0)" -- "talus-dda .* --label "); do
     n=$((n + 1))
     [ $n -lt 600 ] || { cat log >&2; fail "make does not come to its run"; }
     sleep 0.1
@@ -56,7 +57,7 @@ done
 begin DDA_FLAGS="$long" SHARD=1 SHARDS=2 runs-shard
 expect 2 make -C slope BIN= RUNS=2 runs
 says "another make works in out"
-expect 0 make -C slope BIN= WITHOUT=no RUNS=2 SHARD=2 SHARDS=2 DDA_FLAGS='--duration-s 0.1' runs-shard
+expect 0 make -C slope BIN= WITHOUT=no RUNS=2 SHARD=2 SHARDS=2 DDA_FLAGS='--set solver.duration_s=0.1' runs-shard
 finished
 
 # A lock that is a link would lead elsewhere.

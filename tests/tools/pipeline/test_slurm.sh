@@ -13,7 +13,7 @@ for seed in 4 6; do
   case " \$* " in *" --plan "*) ;; *" --seed \$seed "*) [ ! -d "$PWD/hold" ] || held=\$seed ;; esac
 done
 [ -n "\${held:-}" ] || exec "${bin%%:*}/talus-dda" "\$@"
-"${bin%%:*}/talus-dda" "\$@" --checkpoint-interval-s 0.02 &
+"${bin%%:*}/talus-dda" "\$@" --set output.checkpoint_interval_s=0.02 &
 process=\$!
 until [ -s out/runs/run_\$held.h5.part ]; do sleep 0.02; done
 kill -STOP \$process

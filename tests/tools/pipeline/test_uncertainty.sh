@@ -76,7 +76,7 @@ expect 1 talus-maps slope/out/runs --trn slope/out/rock/bed_1.tif -o maps --no-d
 says "runs of several rock masses are evaluated on the terrain that they were cut from"
 
 # without a sample nothing is drawn, and it is said
-expect 0 talus-dda slope/site.toml --trn slope/out/bed.tif --blocks slope/out/blocks.h5 -o plain.h5 --no-db --duration-s 0.05
+expect 0 talus-dda slope/site.toml --trn slope/out/bed.tif --blocks slope/out/blocks.h5 -o plain.h5 --no-db --set solver.duration_s=0.05
 says "2 quantities of [uncertainty] not drawn"
 expect 1 talus-dda slope/site.toml --trn slope/out/bed.tif --blocks slope/out/blocks.h5 -o other.h5 --no-db \
   --sample 3 --set uncertainty.friction.std=60

@@ -25,14 +25,14 @@ made_again 2 --runs 5
 [ "$(outcomes)" = done,done,done,done,done ] || fail "outcomes: $(outcomes)"
 
 # a broken limit: the result stays, and is not made again
-expect 3 batch --runs 2 -- --duration-s 2 --set solver.max_penetration_m=1e-9
+expect 3 batch --runs 2 -- --set solver.duration_s=2 --set solver.max_penetration_m=1e-9
 says "2 of 2 runs failed:"
 says "run_1: largest penetration"
 [ "$(outcomes)" = "failed its checks,failed its checks" ] || fail "outcomes: $(outcomes)"
 touch mark
-expect 3 batch --runs 2 -- --duration-s 2 --set solver.max_penetration_m=1e-9
+expect 3 batch --runs 2 -- --set solver.duration_s=2 --set solver.max_penetration_m=1e-9
 [ -z "$(find results/runs -name '*.h5' -newer mark)" ] || fail "a run that failed its checks was made again"
-expect 3 batch --runs 2 --status -- --duration-s 2 --set solver.max_penetration_m=1e-9
+expect 3 batch --runs 2 --status -- --set solver.duration_s=2 --set solver.max_penetration_m=1e-9
 says "2 of 2 runs failed:"
 
 # none has a result, or the site cannot be used

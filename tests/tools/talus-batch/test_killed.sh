@@ -46,7 +46,7 @@ echo "$n_killed kills"
 
 # a run goes on where it was
 rm results/runs/run_1.h5
-talus-batch site.toml --results results --no-db --runs 1 -- --time-step-s 0.0000001 2>log &
+talus-batch site.toml --results results --no-db --runs 1 -- --set solver.time_step_s=0.0000001 2>log &
 process=$!
 n=0
 until [ -s results/runs/run_1.h5.part ] || [ $n -eq 100 ]; do
@@ -58,7 +58,7 @@ code=0
 wait $process || code=$?
 [ $code -eq 130 ] || fail "an interrupted batch ends with $code: $(cat log)"
 [ -s results/runs/run_1.h5.part ] || fail "no checkpoint"
-talus-batch site.toml --results results --no-db --runs 1 -- --time-step-s 0.0000001 >log 2>&1 &
+talus-batch site.toml --results results --no-db --runs 1 -- --set solver.time_step_s=0.0000001 >log 2>&1 &
 process=$!
 n=0
 until grep -q 'run_1: goes on at' log || [ $n -eq 100 ]; do

@@ -25,9 +25,9 @@ ogr2ogr -q areas.gpkg study.geojson -nln study_area
 ogr2ogr -q -update areas.gpkg area.geojson -nln release
 expect 1 cut
 says "areas.gpkg: 2 layers hold polygons, expected one; the layers are: study_area, release"
-says "hint: choose with source.polygon_layer"
+says "hint: put \"|layername=study_area\" behind the file; several: \"|layername=study_area,release\""
 nothing_left blocks.h5
-expect 0 cut --set source.polygon_layer=release
+expect 0 cut --set 'source.polygon_file=areas.gpkg|layername=release'
 says "areas.gpkg: layer release, 1 polygon of 484 m2 in all"
 cp out release.json
 volume=$(value release.json prism_volume_m3)
@@ -99,8 +99,8 @@ says "points.gpkg: layer a, 1 point"
 ogr2ogr -q -update points.gpkg points.geojson -nln b
 expect 1 talus-blocks points.toml --trn trn.tif -o other.h5 --no-db
 says "2 layers hold points, expected one; the layers are: a, b"
-says "choose with blocks.a.release_layer"
-expect 0 talus-blocks points.toml --trn trn.tif -o other.h5 --no-db --set blocks.a.release_layer=b
+says "hint: put \"|layername=a\" behind the file"
+expect 0 talus-blocks points.toml --trn trn.tif -o other.h5 --no-db --set 'blocks.a.release_file=points.gpkg|layername=b'
 
 # --- every key that names a vector file takes what the reader takes -------------------------------
 is_release() { # is_release ARGUMENTS...: the mass is that of the release area
@@ -114,9 +114,10 @@ is_release --set 'source.polygon_file=areas.gpkg|layername=release'
 grep -q '"layer": "release"' out || fail "the layer is not in the result"
 collection named.geojson "$(printf %s "$study" | sed 's/"properties":{}/"properties":{"kind":"study"}/')" \
   "$(printf %s "$area" | sed 's/"properties":{}/"properties":{"kind":"release"}/')"
-is_release --set source.polygon_file=named.geojson --set "source.polygon_where=kind = 'release'"
-says "named.geojson: layer named where kind = 'release', 1 polygon of 484 m2 in all"
 is_release --set "source.polygon_file=named.geojson|subset=kind = 'release'"
+says "named.geojson: layer named where kind = 'release', 1 polygon of 484 m2 in all"
+expect 2 cut --set source.polygon_layer=release
+says 'hint: write polygon_file = "FILE|layername=LAYER"'
 ogr2ogr -q whole.shp area.geojson
 python3 - <<'PY'
 import zipfile
@@ -137,7 +138,7 @@ square() { # square LAYER XMIN YMIN XMAX YMAX
 } >areas.dxf
 expect 1 cut --set source.polygon_file=areas.dxf
 says "2 layers of the drawing hold polygons, expected one; they are: RELEASE (1), STUDY (1)"
-is_release --set source.polygon_file=areas.dxf --set source.polygon_layer=RELEASE
+is_release --set 'source.polygon_file=areas.dxf|layername=RELEASE'
 says "1 closed line taken as areas"
 # release points from a table
 printf 'name;Easting;Northing\na;500020,0;5200020,0\n' >points.csv

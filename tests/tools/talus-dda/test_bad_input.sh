@@ -16,25 +16,25 @@ refuses "friction_deg is 90, expected 0 to below 90" --set ground.ground.frictio
 refuses "friction_deg is 95, expected 0 to below 90" --set ground.ground.friction_deg=95
 refuses "cor is 1.5, expected 0 to 1" --set ground.ground.cor=1.5
 refuses "cor is -0.1, expected 0 to 1" --set ground.ground.cor=-0.1
-refuses "time_step_s is 0, expected above 0" --time-step-s 0
-refuses "time_step_s is -1" --time-step-s -1
-refuses "duration_s is 0" --duration-s 0
+refuses "time_step_s is 0, expected above 0" --set solver.time_step_s=0
+refuses "time_step_s is -1" --set solver.time_step_s=-1
+refuses "duration_s is 0" --set solver.duration_s=0
 refuses "density_kg_m3 is 0" --set material.rock.density_kg_m3=0
-refuses "law" --law newton
+refuses "law" --set solver.law=newton
 fault=1
 expect 2 run_dda -o run.h5 --no-such-option
 expect 2 run_dda
 says "no output is named"
 
 # times: a run is whole steps
-refuses "duration_s is 0.4, less than a time step of 1 s" --duration-s 0.4 --time-step-s 1
+refuses "duration_s is 0.4, less than a time step of 1 s" --set solver.duration_s=0.4 --set solver.time_step_s=1
 
 # work without end
 refuses "output.cell_size_m: cells of 0.001 m are 1.5e+10 cells on this terrain" --set output.cell_size_m=0.001
 refuses "posts every 1e-05 m are 8e+06 posts" --set fence.low.post_spacing_m=1e-5
 
 # what is said of settings that do not go together
-refuses "give [solver] normal_stiffness_n_m" --law paper --duration-s 1
+refuses "give [solver] normal_stiffness_n_m" --set solver.law=paper --set solver.duration_s=1
 fault=2
 refuses "did you mean ground.ground?" --set ground.grund.cor=1
 fault=1
@@ -56,7 +56,7 @@ printf '[fence.twice]\nline = [[500080, 5000010], [500080, 5000010], [500080, 50
 refuses "point 2 repeats the one before, (500080, 5000010)"
 cp kept.toml site.toml
 printf '[fence.low]\nheight_m = 3\n' >>site.toml
-refuses "a section or key stands in the file twice"
+refuses "a section or key is in the file twice"
 cp kept.toml site.toml
 
 # fence off the terrain
@@ -82,7 +82,7 @@ says "3 of 3 blocks start below the ground"
 says "by 0.75"
 says "is not the terrain that blocks.h5 was made for"
 says "--settle lifts"
-expect 0 talus-dda site.toml --trn raised.tif --blocks blocks.h5 -o settled.h5 --no-db --independent --settle --duration-s 1
+expect 0 talus-dda site.toml --trn raised.tif --blocks blocks.h5 -o settled.h5 --no-db --independent --settle --set solver.duration_s=1
 says "lifted onto it"
 says "warning: raised.tif is not the terrain that blocks.h5 was made for"
 
@@ -109,9 +109,9 @@ says "; take a smaller time_step_s, or give max_penetration_m"
 [ -s limit.h5 ] || fail "the file of a failed run was not kept"
 
 # Blocks that pass through each other are no result, unless asked for by name, and then said.
-expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o paper.h5 --no-db --law paper --set solver.normal_stiffness_n_m=5e10 --duration-s 0.1
-expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o together.h5 --no-db --duration-s 0.1
-expect 0 run_dda -o alone.h5 --duration-s 0.1
+expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o paper.h5 --no-db --set solver.law=paper --set solver.normal_stiffness_n_m=5e10 --set solver.duration_s=0.1
+expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o together.h5 --no-db --set solver.duration_s=0.1
+expect 0 run_dda -o alone.h5 --set solver.duration_s=0.1
 says "warning: 3 blocks move as if each were alone"
 exit 0
 

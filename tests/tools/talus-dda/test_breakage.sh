@@ -34,7 +34,7 @@ assert volume["n_released"] == 3 + json.load(open("broken.json"))["n_breaks"], v
 END
 
 # stopped and resumed
-slow="$breaking -q --time-step-s 0.0001 --duration-s 3 --checkpoint-interval-s 0.02"
+slow="$breaking -q --set solver.time_step_s=0.0001 --set solver.duration_s=3 --set output.checkpoint_interval_s=0.02"
 talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db -o stopped.h5 $slow &
 run_id=$!
 n=0

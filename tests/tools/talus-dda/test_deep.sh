@@ -3,7 +3,7 @@
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
 # law paper on springs so soft that the boxes sink
-soft="--law paper --time-step-s 0.001 --duration-s 0.6 --set solver.normal_stiffness_n_m=2e5"
+soft="--set solver.law=paper --set solver.time_step_s=0.001 --set solver.duration_s=0.6 --set solver.normal_stiffness_n_m=2e5"
 expect 3 run_dda -o deep.h5 $soft --json
 says "of the mass came in by more than a tenth of"
 says "was in the ground by"

@@ -22,7 +22,7 @@ cmp -s soft.h5 again.h5 || fail "two runs with a fence differ"
 
 # too weak: panels break, when and by which block is said, and blocks go on
 sed 's/active = false/capacity_kj = 20\nmax_deflection_m = 2/' site.toml >weak.toml
-expect 0 talus-dda weak.toml --trn slope.tif --blocks blocks.h5 -o weak.h5 --no-db --json --duration-s 12
+expect 0 talus-dda weak.toml --trn slope.tif --blocks blocks.h5 -o weak.h5 --no-db --json --set solver.duration_s=12
 cp out weak.json
 python3 - <<'PY' || fail 'fences of the result'
 import json
@@ -37,7 +37,7 @@ assert all(p['work_kj'] < 20 for p in weak['fences'] if not p['broken'])
 assert {p['broken_by_block'] for p in broken} == {0, 1, 2}
 assert weak['n_crossings'] == 3
 PY
-expect 0 talus-dda weak.toml --trn slope.tif --blocks blocks.h5 -o said.h5 --no-db --duration-s 12
+expect 0 talus-dda weak.toml --trn slope.tif --blocks blocks.h5 -o said.h5 --no-db --set solver.duration_s=12
 python3 - <<'PY' || fail 'the summary does not say which panels broke, when and by which block'
 import json
 broken = [p for p in json.load(open('weak.json'))['fences'] if p['broken']]
@@ -62,6 +62,6 @@ refused 'line = [[500060, 5000010], [500160, 5000010]]' 'fence.low'
 refused 'line = [[500060, 5000010], [500060, 5000090]]\nline_file = "low.gpkg"' 'has both line and line_file'
 refused 'line = [[500021, 5000030], [500021, 5000040]]' 'block 0 and panel 0 of fence low by'
 # with law paper it stops nothing
-expect 0 talus-dda rigid.toml --trn slope.tif --blocks blocks.h5 -o paper.h5 --no-db --law paper --independent \
-  --duration-s 0.001 --time-step-s 1e-4 --set solver.normal_stiffness_n_m=1e9
+expect 0 talus-dda rigid.toml --trn slope.tif --blocks blocks.h5 -o paper.h5 --no-db --set solver.law=paper --independent \
+  --set solver.duration_s=0.001 --set solver.time_step_s=1e-4 --set solver.normal_stiffness_n_m=1e9
 says 'fences stop nothing with law paper'

@@ -7,6 +7,6 @@ fi
 make_inputs
 printf '#include <errno.h>\nint flock(int fd, int op) { (void)fd; (void)op; errno = ENOLCK; return -1; }\n' >no_locks.c
 cc -shared -fPIC -o no_locks.so no_locks.c
-run_dda -o there.h5 -q --duration-s 0.1
-LD_PRELOAD=$work/no_locks.so expect 0 run_dda -o here.h5 -q --duration-s 0.1
+run_dda -o there.h5 -q --set solver.duration_s=0.1
+LD_PRELOAD=$work/no_locks.so expect 0 run_dda -o here.h5 -q --set solver.duration_s=0.1
 cmp there.h5 here.h5 || fail "another run"

@@ -133,7 +133,7 @@ stopped=
 for pause in 1 0.5 2 4; do
   rm -f stopped.h5 stopped.h5.part
   talus-dda weak.toml --trn slope.tif --blocks weak_blocks.h5 -o stopped.h5 --no-db --independent \
-    -q --checkpoint-interval-s 3600 &
+    -q --set output.checkpoint_interval_s=3600 &
   run_id=$!
   sleep $pause
   kill -TERM $run_id 2>/dev/null || true

@@ -2,7 +2,7 @@
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_terrain
 make_site
-dda() { talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --duration-s 0.1 "$@"; }
+dda() { talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --set solver.duration_s=0.1 "$@"; }
 place() {  # y of the second block
   sed "s/^position_m = .*/position_m = [[500120, 5000030], [500120, $1]]/; s/^spin.*//" site.toml >placed.toml
   sed -i 's/height_above_ground_m = 0.5/height_above_ground_m = 0.01/' placed.toml
@@ -32,7 +32,7 @@ position_m = [[500120, 5000030]]
 height_above_ground_m = $gap
 END
   talus-blocks stack.toml --trn slope.tif -o stack.h5 -q --no-db --overwrite
-  expect 0 talus-dda stack.toml --trn slope.tif --blocks stack.h5 -o stack_run.h5 --no-db --duration-s 0.5 --settle --overwrite
+  expect 0 talus-dda stack.toml --trn slope.tif --blocks stack.h5 -o stack_run.h5 --no-db --set solver.duration_s=0.5 --settle --overwrite
   says "moved apart, by 0.0"
 done
 

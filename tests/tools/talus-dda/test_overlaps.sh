@@ -32,8 +32,8 @@ make_blocks
 
 overlaps() { /usr/bin/python3 "$source_dir/tests/studies/overlaps.py" "$1" --blocks blocks.h5 --trn slope.tif; }
 # law paper on springs so soft that the boxes sink
-talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db -q --law paper --time-step-s 0.002 --duration-s 0.5 \
-  --frame-interval-s 0.002 --set solver.normal_stiffness_n_m=2e5 -o soft.h5 2>dda.err || true
+talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db -q --set solver.law=paper --set solver.time_step_s=0.002 --set solver.duration_s=0.5 \
+  --set output.frame_interval_s=0.002 --set solver.normal_stiffness_n_m=2e5 -o soft.h5 2>dda.err || true
 expect 0 overlaps soft.h5
 prints "in the bed"
 prints "in block"

@@ -1,7 +1,7 @@
 # A run that is killed or interrupted leaves a readable file, and goes on to the same bytes.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
-slow="--time-step-s 0.00005 --checkpoint-interval-s 0.02 -q"
+slow="--set solver.time_step_s=0.00005 --set output.checkpoint_interval_s=0.02 -q"
 
 expect 0 run_dda -o whole.h5 $slow
 
@@ -42,7 +42,7 @@ for signal in HUP TERM; do
   for pause in 1 4 16; do
     rm -f stopped.h5.part
     talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o stopped.h5 -q \
-      --time-step-s 0.00005 --checkpoint-interval-s 3600 &
+      --set solver.time_step_s=0.00005 --set output.checkpoint_interval_s=3600 &
     run_id=$!
     sleep $pause
     kill -$signal $run_id || fail "the run was over before SIG$signal"

@@ -11,7 +11,7 @@ prints '"left_domain": 0'
 nothing_left run.h5.part
 
 # what was warned of stays with the run, and goes on its maps
-expect 0 run_dda -o fast.h5 --duration-s 1 --set material.rock.density_kg_m3=120
+expect 0 run_dda -o fast.h5 --set solver.duration_s=1 --set material.rock.density_kg_m3=120
 says "warning: 3 blocks move as if each were alone"
 h5dump -d /warnings fast.h5 >kept
 grep -q "3 blocks move as if each were alone" kept || fail "the run file does not hold the warning"
@@ -21,7 +21,7 @@ grep -q "WARNINGS=.*3 blocks move as if each were alone" info || fail "the maps 
 grep -q "WARNINGS=.*$PWD" info && fail "a warning on a map holds a path"
 
 # the id that it bears finds it in the registry
-expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o registered.h5 --duration-s 0.1 --independent --db runs.sqlite --json
+expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o registered.h5 --set solver.duration_s=0.1 --independent --db runs.sqlite --json
 id=$(sed -n 's/.*"run_id": "\(.*\)".*/\1/p' out)
 expect 0 talus-runs show "$id"
 prints "registered.h5"
@@ -35,25 +35,25 @@ cmp run.h5 again.h5 || fail "two runs of the same inputs differ"
 expect 0 run_dda -o jitter.h5 -q --seed 2 --set solver.start_jitter_m_s=0.01
 cmp -s run.h5 jitter.h5 && fail "jitter changes nothing"
 
-expect 0 run_dda -o seeded.h5 --seed 3 --duration-s 0.1
+expect 0 run_dda -o seeded.h5 --seed 3 --set solver.duration_s=0.1
 says "the seed draws nothing"
 
 # an existing output stays
 expect 1 run_dda -o run.h5
 says "exists already"
-expect 0 run_dda -o run.h5 --overwrite -q --duration-s 1
+expect 0 run_dda -o run.h5 --overwrite -q --set solver.duration_s=1
 
 # the speed is known without passages; who looks at the summary sees what went wrong
-expect 0 run_dda -o still.h5 --set output.passages=false --duration-s 2
+expect 0 run_dda -o still.h5 --set output.passages=false --set solver.duration_s=2
 grep -q "largest speed [1-9]" out || fail "no speed without passages"
 grep -q "unconverged\|left the terrain" out && fail "trouble is said where there is none"
-expect 0 run_dda -o gone.h5 --duration-s 20 --set ground.ground.friction_deg=0
+expect 0 run_dda -o gone.h5 --set solver.duration_s=20 --set ground.ground.friction_deg=0
 grep -q "3 blocks left the terrain" out || fail "the summary does not say that blocks left the terrain"
-expect 3 run_dda -o lost.h5 --duration-s 20 --set ground.ground.friction_deg=0 --set solver.max_lost_share=0
+expect 3 run_dda -o lost.h5 --set solver.duration_s=20 --set ground.ground.friction_deg=0 --set solver.max_lost_share=0
 says "; take a larger terrain, or give max_lost_share"
 
 # ParaView
-expect 0 run_dda -o x.h5 --xdmf x.xmf -q --duration-s 1
+expect 0 run_dda -o x.h5 --xdmf x.xmf -q --set solver.duration_s=1
 [ "$(grep -c '<Time Value' x.xmf)" -eq 11 ] || fail "not one grid a frame in x.xmf"
 grep -q 'x.xdmf.h5:/frame_10/points' x.xmf || fail "x.xmf does not name its data"
 [ -s x.xdmf.h5 ] || fail "no data beside x.xmf"
@@ -65,10 +65,10 @@ cp blocks.h5 b.xdmf.h5
 expect 2 talus-dda site.toml --trn slope.tif --blocks b.xdmf.h5 --no-db -o y.h5 --xdmf b.xmf --overwrite
 says "b.xdmf.h5: is both an input and an output"
 rm x.xmf
-expect 1 run_dda -o y.h5 --xdmf x.xmf --duration-s 1e6
+expect 1 run_dda -o y.h5 --xdmf x.xmf --set solver.duration_s=1e6
 says "x.xdmf.h5: exists already"
 cp blocks.h5 z.h5.part
-expect 2 talus-dda site.toml --trn slope.tif --blocks z.h5.part --no-db -o z.h5 --overwrite --duration-s 0.1
+expect 2 talus-dda site.toml --trn slope.tif --blocks z.h5.part --no-db -o z.h5 --overwrite --set solver.duration_s=0.1
 says "z.h5.part: is both an input and an output"
 cmp blocks.h5 z.h5.part || fail "an input is gone"
 rm z.h5.part
@@ -80,7 +80,7 @@ prints "on   crossings: 1 fence"
 prints "off  base motion"
 expect 0 run_dda --plan --json
 prints '"item": "strains"'
-expect 0 run_dda --plan=full -o full.h5 --json --duration-s 1
+expect 0 run_dda --plan=full -o full.h5 --json --set solver.duration_s=1
 prints '"reason": "the full plan was asked for"'
 expect 1 run_dda --plan=half -o half.h5
 says "expected full or nothing"

@@ -79,7 +79,7 @@ n=0
 # id_of OPTIONS...: sets id
 id_of() {
   n=$((n + 1))
-  expect 0 run_dda -o "run_$n.h5" --duration-s 0.02 --json "$@"
+  expect 0 run_dda -o "run_$n.h5" --set solver.duration_s=0.02 --json "$@"
   id=$(h5dump -a /run_id "run_$n.h5" | sed -n 's/.*(0): "\(.*\)"/\1/p')
   [ ${#id} -eq 16 ] || fail "no id in run_$n.h5"
   rm "run_$n.h5"
@@ -105,7 +105,7 @@ other() {
 
 same "doing it again"
 same "--resume" --resume
-same "another interval of checkpoints" --checkpoint-interval-s 7
+same "another interval of checkpoints" --set output.checkpoint_interval_s=7
 same "another name for an option" --set solver.duration_s=0.02
 echo '# a remark' >>site.toml
 same "a remark in the site file"

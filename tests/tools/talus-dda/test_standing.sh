@@ -9,7 +9,7 @@ ground=$(grep -o 'ground\.[a-z]*' site.toml | head -1)
 run() {
   name=$1 friction=$2
   shift 2
-  expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o "$name.h5" --no-db --json --duration-s 5 \
+  expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o "$name.h5" --no-db --json --set solver.duration_s=5 \
     --set "$ground.friction_deg=$friction" "$@"
   mv out "$name.json"
 }

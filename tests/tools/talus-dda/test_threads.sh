@@ -37,7 +37,7 @@ done
 # killed in two threads, it goes on in three and in one
 for n in 3 1; do
   talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db -o killed.h5 --threads 2 \
-    --checkpoint-interval-s 0.02 -q &
+    --set output.checkpoint_interval_s=0.02 -q &
   run_id=$!
   waited=0
   while [ ! -s killed.h5.part ]; do

@@ -6,13 +6,13 @@ expect 0 run_dda -o ends.h5 --set output.frames=false
 [ "$(wc -c <ends.h5)" -lt "$(wc -c <whole.h5)" ] || fail 'it is no smaller'
 for run in whole ends; do
   expect 0 talus-maps $run.h5 --trn slope.tif -o $run --min-passages 2 --no-db
-  expect 0 talus-runout $run.h5 --trn slope.tif -o $run.gpkg --json $run.json --csv $run.csv --run-table $run.table --no-db
+  expect 0 talus-runout $run.h5 --trn slope.tif -o $run.gpkg --json $run.json --tables $run.tables --no-db
   expect 0 talus-fence site.toml $run.h5 --trn slope.tif -o $run.fence.gpkg --csv $run.fence --no-db
 done
 for file in whole/*.tif whole/*.qml; do
   cmp "$file" "ends/${file#whole/}" || fail "$file of a run without frames is another one"
 done
-cmp whole.csv ends.csv && cmp whole.table ends.table && cmp whole.fence ends.fence || fail 'run-out or fence of a run without frames is another one'
+cmp whole.tables/runout.csv ends.tables/runout.csv && cmp whole.tables/runs.csv ends.tables/runs.csv && cmp whole.fence ends.fence || fail 'run-out or fence of a run without frames is another one'
 python3 - <<'PY' || fail 'runout.json of a run without frames is another one'
 import json
 a, b = json.load(open('whole.json')), json.load(open('ends.json'))
@@ -32,11 +32,11 @@ for run in pieces pieces_ends; do
   expect 0 talus-reduce $run.h5 --trn slope.tif -o ${run}_part.h5
   for from in $run ${run}_part; do
     expect 0 talus-maps $from.h5 --trn slope.tif -o maps_$from --min-passages 2 --no-db
-    expect 0 talus-runout $from.h5 --trn slope.tif -o $from.gpkg --csv $from.csv --run-table $from.table --no-db
+    expect 0 talus-runout $from.h5 --trn slope.tif -o $from.gpkg --tables $from.tables --no-db
   done
 done
-[ "$(wc -l <pieces.csv)" -gt 4 ] || fail 'run-out has no pieces'
+[ "$(wc -l <pieces.tables/runout.csv)" -gt 4 ] || fail 'run-out has no pieces'
 for other in pieces_ends pieces_part pieces_ends_part; do
-  cmp pieces.csv $other.csv && cmp pieces.table $other.table || fail "run-out of pieces of $other.h5 is another one"
+  cmp pieces.tables/runout.csv $other.tables/runout.csv && cmp pieces.tables/runs.csv $other.tables/runs.csv || fail "run-out of pieces of $other.h5 is another one"
   for file in maps_pieces/*.tif; do cmp "$file" "maps_$other/${file#maps_pieces/}" || fail "$file of $other.h5 is another one"; done
 done

@@ -60,7 +60,7 @@ prints 'fence house-1'
 
 # runs of two classes count by how often these happen: 0.01 and 0.04 a year, only the rare one hits
 runs rare 1 12 --case rare
-runs often 1 6 --case often --duration-s 1
+runs often 1 6 --case often --set solver.duration_s=1
 sed 's/^\[fence_search/[hazard]\n[hazard.class.rare]\nfrequency_per_a = 0.01\n[hazard.class.often]\nfrequency_per_a = 0.04\n&/' \
   site.toml >classes.toml
 expect 0 talus-fence-search classes.toml rare_*.h5 often_*.h5 --trn slope.tif --no-db \

@@ -6,7 +6,7 @@ cat >>site.toml <<'TOML'
 [hazard.class.V1]
 frequency_per_a = 0.0136
 TOML
-expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o maps --png --pdf --json hazard.json
+expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o maps --pages png,pdf --json hazard.json
 prints 'maps of 12 runs of class V1'
 value() { gdallocationinfo -valonly -b "$2" "maps/$1.tif" "$3" 10; }
 # cells of 2 m: column 10 is passed by box 0 at 99 to 129 kJ, column 5 at the start by less than 30
@@ -33,8 +33,8 @@ ogrinfo -q maps/hazard.gpkg | grep -q classes_smoothed || fail 'no smoothed clas
 
 expect 0 talus-reduce run_1.h5 run_4.h5 run_7.h5 --trn slope.tif -o third.h5
 expect 0 talus-reduce run_0.h5 run_2.h5 run_3.h5 run_5.h5 run_6.h5 run_8.h5 --trn slope.tif -o half.h5
-expect 0 talus-hazard site.toml run_9.h5 half.h5 run_11.h5 third.h5 run_10.h5 --trn slope.tif -o parts --png --pdf
-expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o tiles --png --pdf --memory-mb 0.004
+expect 0 talus-hazard site.toml run_9.h5 half.h5 run_11.h5 third.h5 run_10.h5 --trn slope.tif -o parts --pages png,pdf
+expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o tiles --pages png,pdf --memory-mb 0.004
 for file in maps/*.tif maps/*.png maps/*.pdf maps/*.qml; do
   cmp "$file" "parts/${file#maps/}" || fail "$file depends on how the runs are read"
 done

@@ -22,9 +22,9 @@ says 'let talus-dda finish it (--resume)'
 nothing_left maps/reach.tif
 
 # One that failed its health is taken, and every map, legend and picture says so.
-expect 0 talus-maps failed/run_0.h5 run_0.h5 --trn slope.tif -o marked --png
+expect 0 talus-maps failed/run_0.h5 run_0.h5 --trn slope.tif -o marked --pages png
 says '1 of 2 runs failed its numerical checks: failed/run_0 (a limit was broken'
-expect 0 talus-maps run_0.h5 --trn slope.tif -o plain --png
+expect 0 talus-maps run_0.h5 --trn slope.tif -o plain --pages png
 for name in reach ke_total deposit; do
   gdalinfo "marked/$name.tif" >info
   grep -q 'HEALTH=1 of 2 runs failed its numerical checks: failed/run_0' info || fail "$name is not marked"
@@ -44,7 +44,8 @@ expect 1 talus-maps bad.h5 --trn slope.tif -o maps
 says 'bad.h5'
 expect 1 talus-maps missing.h5 --trn slope.tif -o maps
 says 'no such file'
-expect 2 talus-maps run_0.h5 --trn slope.tif -o maps --resamples 3
+expect 2 talus-maps run_0.h5 --trn slope.tif -o maps --resamples 300
+says "is always drawn 200 times"
 expect 2 talus-maps --trn slope.tif -o maps
 
 for value in "--cell-size-m -8" "--memory-mb -1"; do

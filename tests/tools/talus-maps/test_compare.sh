@@ -2,7 +2,7 @@
 mkdir a b
 run-probe a 60
 run-probe b 40 seed=2 still_runs=20
-expect 0 talus-maps a/run_*.h5 --compare b/run_*.h5 --trn a/slope.tif -o maps --png
+expect 0 talus-maps a/run_*.h5 --compare b/run_*.h5 --trn a/slope.tif -o maps --pages png
 expect 0 talus-maps a/run_*.h5 --trn a/slope.tif -o alone
 gdalinfo maps/compare.tif >info
 grep -q 'N_RUNS=60$' info && grep -q 'N_RUNS_COMPARED=40$' info || fail 'the tags do not tell the two apart'
@@ -22,7 +22,7 @@ printf '%s %s %s\n' "$(value 1)" "$(value 2)" "$(value 3)" | awk '{
 # parts
 expect 0 talus-reduce a/run_*.h5 --trn a/slope.tif -o a.h5
 expect 0 talus-reduce b/run_*.h5 --trn a/slope.tif -o b.h5
-expect 0 talus-maps a.h5 --compare b.h5 --trn a/slope.tif -o of_parts --png
+expect 0 talus-maps a.h5 --compare b.h5 --trn a/slope.tif -o of_parts --pages png
 for file in maps/*.tif maps/*.qml maps/*.png; do cmp "$file" "of_parts/${file#maps/}" || fail "$file of parts is another one"; done
 expect 1 talus-maps a.h5 --compare b.h5 --trn a/slope.tif -o small --memory-mb 0.01
 says 'give more --memory-mb'

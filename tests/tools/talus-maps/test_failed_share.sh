@@ -3,7 +3,7 @@ mkdir failed more
 run-probe . 100
 run-probe failed 2 status=failed seed=7
 expect 0 talus-maps run_*.h5 --trn slope.tif -o good
-expect 0 talus-maps run_*.h5 failed/run_*.h5 --trn slope.tif -o few --png --json
+expect 0 talus-maps run_*.h5 failed/run_*.h5 --trn slope.tif -o few --pages png --json
 cp out few.json
 says '2 of 102 runs failed their numerical checks and are left out: failed/run_0 (a limit was broken'
 python3 - <<'PY' || fail 'the failed runs are not listed'
@@ -33,7 +33,7 @@ gdalinfo good/reach.tif | bound >good.bound
 bound <info | awk '{ wanted = 0.0369935 * 100 / 102 + 2 / 102; exit $1 - wanted > 1e-6 || wanted - $1 > 1e-6 }' || fail 'the bound elsewhere does not count the failed runs'
 # the same from a part that holds the failed runs too
 expect 0 talus-reduce run_*.h5 failed/run_*.h5 --trn slope.tif -o part.h5
-expect 0 talus-maps part.h5 --trn slope.tif -o of_part --png
+expect 0 talus-maps part.h5 --trn slope.tif -o of_part --pages png
 for file in few/*.tif few/*.qml few/*.png; do cmp "$file" "of_part/${file#few/}" || fail "$file of a part is another one"; done
 expect 0 talus-runout run_*.h5 failed/run_*.h5 --trn slope.tif -o a.gpkg --json a.json
 expect 0 talus-runout part.h5 --trn slope.tif -o b.gpkg --json b.json

@@ -1,7 +1,7 @@
 # Runs in any order, and any interval of frames, give the same bytes.
 run-probe . 4 blocks=2
-expect 0 talus-maps run_0.h5 run_1.h5 run_2.h5 run_3.h5 --trn slope.tif -o a --min-passages 2 --png --pdf --page a3
-expect 0 talus-maps run_3.h5 run_1.h5 run_0.h5 run_2.h5 --trn slope.tif -o b --min-passages 2 --png --pdf --page a3
+expect 0 talus-maps run_0.h5 run_1.h5 run_2.h5 run_3.h5 --trn slope.tif -o a --min-passages 2 --pages png,pdf,a3
+expect 0 talus-maps run_3.h5 run_1.h5 run_0.h5 run_2.h5 --trn slope.tif -o b --min-passages 2 --pages png,pdf,a3
 for file in a/*.tif a/*.qml a/*.png a/*.pdf; do
   cmp "$file" "b/${file#a/}" || fail "$file depends on the order of the runs"
 done
@@ -18,5 +18,5 @@ done
 grep -q 'CreationDate' a/reach.pdf && fail 'a page says when it was made'
 grep -q '/MediaBox \[ 0 0 1190.551181 841.889764 \]' a/reach.pdf || fail 'the page is not A3'
 gdalinfo a/reach.png | grep -q 'Size is 2480, 1754' || fail 'the picture is not A3 at 150 dots an inch'
-expect 2 talus-maps run_0.h5 --trn slope.tif -o d --page a5
-says 'a4'
+expect 2 talus-maps run_0.h5 --trn slope.tif -o d --pages png,a5
+says 'png,a5 is no list of pages, expected png, pdf or png,pdf'

@@ -5,7 +5,7 @@ make_inputs
 dda() {
   out=$1
   shift
-  talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db -q --duration-s 1 -o "$out" "$@"
+  talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db -q --set solver.duration_s=1 -o "$out" "$@"
 }
 mkdir x
 for seed in 1 2; do dda x/run_$seed.h5 --independent --seed $seed --set solver.start_jitter_m_s=0.1; done
@@ -28,7 +28,7 @@ other="was computed with other settings than x/run_1.h5: "
 # by --set, by an option for a key, by an option that is no key, by what a file holds
 dda x/run_3.h5 $same --seed 3 --set ground.ground.friction_deg=10
 refused "x/run_3.h5: ${other}ground.ground.friction_deg: 10, there 20" x/run_1.h5 x/run_2.h5 x/run_3.h5
-dda x/run_4.h5 $same --seed 4 --accuracy 0.05
+dda x/run_4.h5 $same --seed 4 --set solver.accuracy=0.05
 refused "${other}solver.accuracy: 0.05, there " x/run_1.h5 x/run_4.h5
 dda x/run_5.h5 --set solver.start_jitter_m_s=0.1 --seed 5 --passages-by centroid
 refused "${other}--independent: not given, there true; --passages-by: centroid, there footprint" x/run_1.h5 x/run_5.h5
@@ -43,7 +43,7 @@ sed -e 's/^\[ground.ground\]/[terrain]\nground_raster = "classes.asc"\n&/' site.
 printf '[ground.%s]\nraster_values = [%d]\nfriction_deg = 20\n' one 1 other 2 >>classed.toml
 for last in 1 2; do
   classes $last
-  talus-dda classed.toml --trn slope.tif --blocks blocks.h5 --no-db -q --duration-s 1 --independent --seed $last -o by_class/run_$last.h5
+  talus-dda classed.toml --trn slope.tif --blocks blocks.h5 --no-db -q --set solver.duration_s=1 --independent --seed $last -o by_class/run_$last.h5
 done
 expect 1 talus-maps by_class/run_1.h5 by_class/run_2.h5 --trn slope.tif -o m --no-db
 says "by_class/run_2.h5: was computed with other settings than by_class/run_1.h5: file ground_raster: "
@@ -73,7 +73,7 @@ dda cases/soft/run_3.h5 $same --seed 3 --case soft --set ground.ground.friction_
 expect 0 talus-maps cases --trn slope.tif -o cases_maps --no-db
 says "runs of 2 cases pooled, each run alike: no probability"
 sed 's/^friction_deg = 20/friction_deg = 10/' site.toml >soft.toml
-talus-dda soft.toml --trn slope.tif --blocks blocks.h5 --no-db -q --duration-s 1 $same --seed 4 --case soft -o soft_4.h5
+talus-dda soft.toml --trn slope.tif --blocks blocks.h5 --no-db -q --set solver.duration_s=1 $same --seed 4 --case soft -o soft_4.h5
 expect 0 talus-maps cases/soft/run_3.h5 soft_4.h5 --trn slope.tif -o soft --no-db
 expect 1 talus-maps cases/hard/run_1.h5 soft_4.h5 --trn slope.tif -o m --no-db
 says "ground.ground.friction_deg: 10, there 20"

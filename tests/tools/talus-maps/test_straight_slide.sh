@@ -1,7 +1,7 @@
 # One box of 1 m slides down 30 degrees: v^2 = 2 a s up to 24 m, then it brakes; every cell of every
 # map equals the closed form.
 run-probe . 1
-expect 0 talus-maps run_0.h5 --trn slope.tif -o maps --min-passages 1 --png
+expect 0 talus-maps run_0.h5 --trn slope.tif -o maps --min-passages 1 --pages png
 prints '10 maps of 1 run'
 cat > check.py <<'PY'
 import math

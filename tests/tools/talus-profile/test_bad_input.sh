@@ -24,11 +24,11 @@ collection "$(feature a LineString '[[250030,350004],[250030,350020]]'),$(featur
 ogr2ogr -a_srs EPSG:31254 two.gpkg two.geojson
 run 1 --line-file two.gpkg
 says 'two.gpkg: holds 2 lines, expected one'
-says 'choose one with --line-where'
+says 'choose one, e.g. --line-file "FILE|subset=fid = 1"'
 run 2 --line-file two.gpkg --line "$line"
 says 'there are two lines'
-run 1 --line-file two.gpkg --line-where "name = 'c'"
-expect 0 talus-profile run_0.h5 run_1.h5 --trn slope.tif -o one.gpkg --line-file two.gpkg --line-where "name = 'b'"
+run 1 --line-file "two.gpkg|subset=name = 'c'"
+expect 0 talus-profile run_0.h5 run_1.h5 --trn slope.tif -o one.gpkg --line-file "two.gpkg|subset=name = 'b'"
 prints 'line of 16 m: 2 blocks cross it'
 collection '' >empty.geojson
 run 1 --line-file empty.geojson
@@ -41,7 +41,7 @@ ogr2ogr -a_srs EPSG:31254 point.gpkg point.geojson
 run 1 --line-file point.gpkg
 says 'line'
 # metres that are said to be degrees (what GeoJSON is), another zone
-run 1 --line-file two.geojson --line-where "name = 'a'"
+run 1 --line-file "two.geojson|subset=name = 'a'"
 says 'two.geojson'
 ogr2ogr -a_srs EPSG:32633 zone.gpkg two.geojson -where "name = 'a'"
 run 1 --line-file zone.gpkg
@@ -62,7 +62,7 @@ says 'no run has passages: the profile along the line holds the ground alone'
 prints '1 block crosses it in 1 of 1 run'
 grep -q '"method": "ground alone"' framed.json || fail 'passages from nowhere'
 # nothing comes
-expect 0 talus-profile run_0.h5 run_1.h5 --trn slope.tif -o none.gpkg --line '250070,350004 250070,350020' --charts none
+expect 0 talus-profile run_0.h5 run_1.h5 --trn slope.tif -o none.gpkg --line '250070,350004 250070,350020' --tables none
 prints 'line of 16 m: nothing crosses it in 2 runs (95 %: 0 - 0.658); by frames'
 expect 1 talus-profile slope.tif --trn slope.tif -o p.gpkg --line "$line"
 : >empty.h5

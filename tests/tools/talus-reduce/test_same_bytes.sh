@@ -19,24 +19,24 @@ for set in 'eleven.h5 one.h5' 'one.h5 eleven.h5' 'odd.h5 even.h5' 'third_6.h5 th
 done
 
 # the same maps of any mixture, byte for byte
-expect 0 talus-maps run_*.h5 --trn slope.tif -o maps --min-passages 2 --png
+expect 0 talus-maps run_*.h5 --trn slope.tif -o maps --min-passages 2 --pages png
 expect 0 talus-maps run_*.h5 --trn slope.tif -o coarse --cell-size-m 6 --memory-mb 0.005
 for set in whole.h5 'eleven.h5 one.h5' 'odd.h5 even.h5' 'third_6.h5 third_0.h5 third_9.h5 third_3.h5' \
   'run_5.h5 third_6.h5 run_3.h5 third_0.h5 run_4.h5 third_9.h5'; do
-  expect 0 talus-maps $set --trn slope.tif -o of_parts --min-passages 2 --png --overwrite
+  expect 0 talus-maps $set --trn slope.tif -o of_parts --min-passages 2 --pages png --overwrite
   for file in maps/*.tif maps/*.qml maps/*.png; do cmp "$file" "of_parts/${file#maps/}" || fail "$file of $set is another one"; done
   expect 0 talus-maps $set --trn slope.tif -o of_parts_coarse --cell-size-m 6 --memory-mb 0.005 --overwrite
   for file in coarse/*.tif coarse/*.qml; do cmp "$file" "of_parts_coarse/${file#coarse/}" || fail "coarse $file of $set"; done
 done
 
 # run-out: all that needs no frames
-expect 0 talus-runout run_*.h5 --trn slope.tif -o a.gpkg --json a.json --csv a.csv --run-table a_runs.csv --thickness a.tif --svg a.svg
+expect 0 talus-runout run_*.h5 --trn slope.tif -o a.gpkg --json a.json --tables a --thickness a.tif
 grep -q 'no frames' err && fail 'runs are said to have no frames'
 expect 1 talus-runout odd.h5 third_0.h5 --trn slope.tif -o b.gpkg
 says 'is the same run as'
-expect 0 talus-runout odd.h5 even.h5 --trn slope.tif -o b.gpkg --json b.json --csv b.csv --run-table b_runs.csv --thickness b.tif --svg b.svg --curves b_curves.csv
+expect 0 talus-runout odd.h5 even.h5 --trn slope.tif -o b.gpkg --json b.json --tables b --thickness b.tif
 says '12 of 12 runs have no frames: paths, their points and the curves leave them out'
-cmp a.csv b.csv && cmp a_runs.csv b_runs.csv && cmp a.tif b.tif && cmp a.svg b.svg || fail 'run-out of parts is another one'
+cmp a/runout.csv b/runout.csv && cmp a/runs.csv b/runs.csv && cmp a.tif b.tif && cmp a/runout.svg b/runout.svg || fail 'run-out of parts is another one'
 python3 - <<'PY' || fail 'runout.json of parts is another one'
 import json
 a, b = json.load(open('a.json')), json.load(open('b.json'))
@@ -49,7 +49,7 @@ for layer in deposit streamline envelope runs reach_points; do
   cmp a.layer.csv b.layer.csv || fail "layer $layer of parts is another one"
   rm a.layer.csv b.layer.csv
 done
-[ "$(wc -l <b_curves.csv)" = 1 ] || fail 'curves of runs without frames'
+[ "$(wc -l <b/curves.csv)" = 1 ] || fail 'curves of runs without frames'
 
 # fences
 expect 0 talus-fence site.toml run_*.h5 --trn slope.tif -o fa.gpkg --json fa.json --csv fa.csv

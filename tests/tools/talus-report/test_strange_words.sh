@@ -7,8 +7,8 @@ mv run_*.h5 made/runs/
 cp slope.tif made/trn.tif
 printf '\n[hazard.class.all]\nfrequency_per_a = 0.01\n[place.house]\npolygon = [[250010, 350000], [250040, 350000], [250040, 350020]]\n' >>site.toml
 expect 0 talus-runout made/runs/*.h5 --trn made/trn.tif -o made/runout.gpkg --json made/runout.json --no-db
-expect 0 talus-maps made/runs/*.h5 --trn made/trn.tif -o made/maps --png --no-db
-expect 0 talus-hazard site.toml made/runs/*.h5 --trn made/trn.tif -o made/hazard --json made/hazard.json --png --no-db
+expect 0 talus-maps made/runs/*.h5 --trn made/trn.tif -o made/maps --pages png --no-db
+expect 0 talus-hazard site.toml made/runs/*.h5 --trn made/trn.tif -o made/hazard --json made/hazard.json --pages png --no-db
 expect 0 talus-trace site.toml made/runs/*.h5 --trn made/trn.tif -o made/trace.gpkg --json made/trace.json --no-db
 expect 0 talus-places site.toml made/runs/*.h5 --trn made/trn.tif --json made/places.json --no-db
 fence=$(sed -n 's/^\[fence\.\(.*\)\]/\1/p' site.toml | head -n 1)

@@ -7,7 +7,7 @@ mv flat.toml site.toml
 make_blocks
 for friction in 80 10; do
   expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o "run_$friction.h5" --no-db \
-    --duration-s 2 --set "$(grep -o 'ground\.[a-z]*' site.toml | head -1).friction_deg=$friction"
+    --set solver.duration_s=2 --set "$(grep -o 'ground\.[a-z]*' site.toml | head -1).friction_deg=$friction"
 done
 expect 0 talus-runout run_80.h5 --trn slope.tif -o held.gpkg --no-db
 says '1 of 1 run did not move (no block by more than 1 m): no run-out'
@@ -15,14 +15,14 @@ prints 'no run-out: no H, L and angle of reach'
 expect 0 talus-runout run_10.h5 --trn slope.tif -o gone.gpkg --no-db
 grep -q 'did not move' err && fail 'boxes that slid are said to stand'
 expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o again.h5 --no-db \
-  --duration-s 2 --set "$(grep -o 'ground\.[a-z]*' site.toml | head -1).friction_deg=80"
+  --set solver.duration_s=2 --set "$(grep -o 'ground\.[a-z]*' site.toml | head -1).friction_deg=80"
 says 'no block moved more than 1 m: there is no run-out'
 prints '0 % of the mass moved more than 1 m, 0 % more than 20 m; displacement by mass: p50 0'
 
 # Of three runs the first moves nothing: it is counted, and left out of reach and means.
 mkdir runs part
 run-probe runs 3 still_runs=1
-expect 0 talus-runout runs/run_*.h5 --trn runs/slope.tif -o three.gpkg --json three.json --run-table three.csv --no-db
+expect 0 talus-runout runs/run_*.h5 --trn runs/slope.tif -o three.gpkg --json three.json --tables . --no-db
 says '1 of 3 runs did not move'
 prints '1 of 3 runs did not move (no block by more than 1 m)'
 prints 'run-out of 2 runs that moved: H '
@@ -42,7 +42,7 @@ for key in 'H_m', 'L_path_m', 'L_chord_m', 'reach_angle_path_deg':
     mean = sum(r['event'][key] for r in moved) / 2
     assert s['n'] == 2 and abs(s['mean'] - mean) < 1e-9, (key, s, mean)
 assert len(j['mobility'][0]['runs']) == 2
-rows = list(csv.DictReader(open('three.csv')))
+rows = list(csv.DictReader(open('runs.csv')))
 assert [r['moved'] for r in rows] == ['0', '1', '1'] and rows[0]['L_path_m'] == ''
 assert abs(float(rows[1]['L_path_m']) - moved[0]['event']['L_path_m']) < 1e-6
 PY

@@ -1,9 +1,9 @@
 # A box slides 36 m down 30 degrees: H = 18 m, L = 31.177 m, both angles 30 degrees, to the digit.
 run-probe . 1
-expect 0 talus-runout run_0.h5 --trn slope.tif -o runout.gpkg --json runout.json --csv blocks.csv --curves curves.csv --svg mobility.svg --thickness thickness.tif --friction-deg 20
+expect 0 talus-runout run_0.h5 --trn slope.tif -o runout.gpkg --json runout.json --tables . --thickness thickness.tif --friction-deg 20
 prints 'run-out of run probe100000'
 nothing_left
-grep -q '^probe100000,0,deposited,1,2600,18,31.1769145,31.1769145,30,30,12,187.2,36$' blocks.csv || fail "blocks.csv holds $(tail -1 blocks.csv)"
+grep -q '^probe100000,0,deposited,1,2600,18,31.1769145,31.1769145,30,30,12,187.2,36$' runout.csv || fail "runout.csv holds $(tail -1 runout.csv)"
 python3 - <<'PY' || fail 'runout.json differs from the closed form'
 import json, math
 j = json.load(open('runout.json'))
@@ -23,7 +23,7 @@ assert abs(run['energy_shares']['friction'] - 1) < 1e-12
 assert len(j['mobility']) == 17
 assert sum(m['from_memory'] for m in j['mobility']) == 6
 PY
-grep -q 'rockfalls (Corominas 1996)' mobility.svg || fail 'the chart has no legend'
+grep -q 'rockfalls (Corominas 1996)' runout.svg || fail 'the chart has no legend'
 ogrinfo -so runout.gpkg paths | grep -q '3D Measured Line String' || fail 'paths hold no time'
 for layer in envelope deposit paths path_points streamline reach_points runs; do
   ogrinfo -q runout.gpkg -sql "SELECT f_table_name FROM layer_styles WHERE f_table_name = '$layer' AND useAsDefault" | grep -q "$layer" || fail "$layer has no style"

@@ -32,7 +32,7 @@ expect 0 talus-tin map.geojson -o ridge.ply --breaklines ridge.geojson --report 
 lines "0:500000,5200000;500100,5200000" | sed 's/"ELEV":0/"NAME":1/' >flat_ridge.geojson
 expect 1 talus-tin map.geojson -o bad.ply --breaklines flat_ridge.geojson
 says "the breaklines have no elevation: they are 2-D and no field has a known name"
-says "hint: name the field with --breaklines-elevation-field"
+says "hint: name the field with --elevation-field breaklines=FIELD"
 
 # a Z of 0 everywhere is no height: a field holds it, or nothing does; Z that tells heights stays
 spots() { # spots FIELD HEIGHT Z: one spot height on the summit, one beside it
@@ -46,7 +46,7 @@ spots ELEV null 138 >null_spots.geojson
 spots hoehe_nn 138 0 >named_spots.geojson
 expect 0 talus-tin map.geojson -o level_spots.ply --spots level_spots.geojson
 data level_spots.ply >expected
-for spots in zero_spots.geojson null_spots.geojson "named_spots.geojson --spots-elevation-field hoehe_nn"; do
+for spots in zero_spots.geojson null_spots.geojson "named_spots.geojson --elevation-field spots=hoehe_nn"; do
   expect 0 talus-tin map.geojson -o spots.ply --spots $spots --overwrite
   data spots.ply >found
   cmp -s expected found || fail "--spots $spots gives another terrain"
@@ -54,7 +54,7 @@ done
 says "named_spots.geojson: elevation from field hoehe_nn"
 expect 1 talus-tin map.geojson -o bad.ply --spots named_spots.geojson
 says "the spot heights have no elevation: all Z are 0 and no field has a known name"
-says "hint: name the field with --spots-elevation-field; the fields are: hoehe_nn; or Z where 0 m is meant"
+says "hint: name the field with --elevation-field spots=FIELD; the fields are: hoehe_nn; or Z where 0 m is meant"
 lines "138:500000,5200000;500010,5200000" | sed 's/\(\[5000[01]0,5200000\)\]/\1,0]/g' >zero_ridge.geojson
 lines "0:500000,5200000;500010,5200000" | sed 's/\(\[5000[01]0,5200000\)\]/\1,138]/g' >ridge_z.geojson
 expect 0 talus-tin map.geojson -o ridge_z.ply --breaklines ridge_z.geojson
@@ -68,9 +68,9 @@ cmp -s expected found || fail "a breakline with Z 0 and a field gives another te
 ogr2ogr -q -nln heights two_layers.gpkg named_spots.geojson
 ogr2ogr -q -nln others -update two_layers.gpkg spot.geojson
 expect 1 talus-trn spots.ply -o bad.tif --reference-points two_layers.gpkg
-says "hint: choose with --reference-points-layer"
+says "hint: put \"|layername="
 expect 0 talus-trn spots.ply -o spots.tif --window 499990,5199990,500010,5200010 --cell-size-m 1 --report spots_trn.json \
-  --reference-points two_layers.gpkg --reference-points-layer heights --reference-points-elevation-field hoehe_nn
+  --reference-points 'two_layers.gpkg|layername=heights' --elevation-field hoehe_nn
 [ "$(value spots_trn.json largest_m)" = 0.0 ] || fail "the spot heights are off by $(value spots_trn.json largest_m) m"
 
 # the boundary cuts; a hole stays a hole; elsewhere leaves nothing
@@ -103,5 +103,5 @@ cmp -s expected found || fail "contours and spots from one file give other trian
 ogr2ogr -q -nln old_contours -update both.gpkg map.geojson
 expect 1 talus-tin both.gpkg -o bad.ply
 says "2 layers hold lines, expected one; the layers are: contours, spots, old_contours"
-says "hint: choose with --layer"
-expect 0 talus-tin both.gpkg -o chosen.ply --layer old_contours
+says "hint: put \"|layername="
+expect 0 talus-tin 'both.gpkg|layername=old_contours' -o chosen.ply

@@ -10,12 +10,12 @@ refused() { # refused WORDS COMMAND...
   nothing_left bad.ply bad.json
 }
 
-refused "there is no layer \"contors\"; there are: map" talus-tin map.gpkg --layer contors
+refused "there is no layer \"contors\"; there are: map" talus-tin 'map.gpkg|layername=contors'
 ogr2ogr -q -where "ELEV > 9999" empty.gpkg map.geojson
 refused "the layer is empty, expected lines" talus-tin empty.gpkg
 ogr2ogr -q -dim XY -select NAME nofield.gpkg map.geojson
 refused "the contours have no elevation: they are 2-D and no field has a known name" talus-tin nofield.gpkg
-says "hint: name the field with --elevation-field; the fields are: NAME"
+says "hint: name the field with --elevation-field FIELD; the fields are: NAME"
 refused "there is no field \"HEIHGT\"; the fields are: ELEV, NAME" talus-tin map.gpkg --elevation-field HEIHGT
 refused "the field NAME says \"ring 0\", expected an elevation" talus-tin map.gpkg --elevation-field NAME
 says "layer map, feature 1"

@@ -22,10 +22,10 @@ expect 0 talus-tin map.dxf -o dxf.ply --crs EPSG:32632 --report dxf.json
 # a layer of a drawing is chosen by its name
 ogr2ogr -q -f DXF layers.dxf map.gpkg -dialect sqlite \
   -sql "SELECT geom, CASE WHEN ELEV > 110 THEN 'HIGH' ELSE 'LOW' END AS Layer FROM map"
-expect 0 talus-tin layers.dxf -o high.ply --crs EPSG:32632 --layer HIGH --report high.json
+expect 0 talus-tin 'layers.dxf|layername=HIGH' -o high.ply --crs EPSG:32632 --report high.json
 [ "$(value high.json n_lines) $(value high.json lowest_m)" = "2 120.0" ] ||
   fail "layer HIGH gives $(value high.json n_lines) lines from $(value high.json lowest_m) m"
-expect 1 talus-tin layers.dxf -o no.ply --crs EPSG:32632 --layer NONE
+expect 1 talus-tin 'layers.dxf|layername=NONE' -o no.ply --crs EPSG:32632
 says "the drawing has nothing in a layer \"NONE\""
 
 # 2-D: the height stands in a field, found by its name or named by the user, as number or text

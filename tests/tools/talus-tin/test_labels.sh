@@ -12,36 +12,36 @@ drawing() { # drawing N: a plane that rises 1 : 2, contours every 10 m; N of 6 h
     print "0\nTEXT\n100\nAcDbEntity\n8\nLABELS\n100\nAcDbText\n10\n500020\n20\n5200050\n40\n2\n1\nAlm\n100\nAcDbText\n0\nENDSEC\n0\nEOF" }'
 }
 drawing 6 >map.dxf
-expect 0 talus-tin map.dxf --layer CONTOURS --labels map.dxf --labels-layer LABELS --crs EPSG:32632 -o map.ply
+expect 0 talus-tin 'map.dxf|layername=CONTOURS' --labels 'map.dxf|layername=LABELS' --crs EPSG:32632 -o map.ply
 says "map.dxf: 6 labels of heights; 1 other text passed over"
 says "elevation from labels of layer CONTOURS"
 prints "12 contours, 24 points, every 10 m from 800 to 850 m"
 expect 0 talus-trn map.ply -o map.tif --cell-size-m 5
 prints "slope 26.6 degrees on average, up to 26.6"
 drawing 5 >five.dxf
-expect 1 talus-tin five.dxf --layer CONTOURS --labels five.dxf --labels-layer LABELS --crs EPSG:32632 -o bad.ply
+expect 1 talus-tin 'five.dxf|layername=CONTOURS' --labels 'five.dxf|layername=LABELS' --crs EPSG:32632 -o bad.ply
 says "2 of 12 contours have no label, the first feature"
 says "x 500000, y 5200100"
-expect 1 talus-tin map.dxf --layer CONTOURS --crs EPSG:32632 -o bad.ply
+expect 1 talus-tin 'map.dxf|layername=CONTOURS' --crs EPSG:32632 -o bad.ply
 says "have no elevation"
 sed 's/^810 m$/8100/' map.dxf >wrong.dxf
-expect 1 talus-tin wrong.dxf --layer CONTOURS --labels wrong.dxf --labels-layer LABELS --crs EPSG:32632 -o bad.ply
+expect 1 talus-tin 'wrong.dxf|layername=CONTOURS' --labels 'wrong.dxf|layername=LABELS' --crs EPSG:32632 -o bad.ply
 says "contour at 8100 m"
 nothing_left bad.ply
 # texts of a layer of points, in a field of another name
 ogr2ogr -q -f GPKG texts.gpkg map.dxf -sql "SELECT Text AS words FROM entities WHERE Layer = 'LABELS'" -nln texts
-expect 0 talus-tin map.dxf --layer CONTOURS --labels texts.gpkg --labels-field words --crs EPSG:32632 -o again.ply
+expect 0 talus-tin 'map.dxf|layername=CONTOURS' --labels texts.gpkg --elevation-field labels=words --crs EPSG:32632 -o again.ply
 cmp map.ply again.ply || fail "the same texts give another TIN"
 # labels of another system, unit or height than the contours stand beside none of them
 ogr2ogr -q -a_srs EPSG:32632 placed.gpkg texts.gpkg
 ogr2ogr -q -t_srs EPSG:32633 elsewhere.gpkg placed.gpkg
 ogr2ogr -q -f GPKG lines.gpkg map.dxf -a_srs EPSG:32632 -sql "SELECT * FROM entities WHERE Layer = 'CONTOURS'" -nln lines
-expect 1 talus-tin lines.gpkg --labels elsewhere.gpkg --labels-field words -o bad.ply
+expect 1 talus-tin lines.gpkg --labels elsewhere.gpkg --elevation-field labels=words -o bad.ply
 says "the labels are in EPSG:32633"
 $(sed -n 's/^ *hint: \(ogr2ogr .*\) takes them there$/\1/p' err)
-expect 0 talus-tin lines.gpkg --labels labels.gpkg --labels-field words -o back.ply
-expect 0 talus-tin lines.gpkg --labels texts.gpkg --labels-field words -o there.ply
+expect 0 talus-tin lines.gpkg --labels labels.gpkg --elevation-field labels=words -o back.ply
+expect 0 talus-tin lines.gpkg --labels texts.gpkg --elevation-field labels=words -o there.ply
 prints "12 contours, 24 points, every 10 m from 800 to 850 m"
 for unit in 4 6; do sed "s/^\$ACADVER$/\$INSUNITS\n70\n$unit\n9\n&/" map.dxf >unit$unit.dxf; done
-expect 1 talus-tin unit6.dxf --layer CONTOURS --labels unit4.dxf --labels-layer LABELS --crs EPSG:32632 -o bad.ply
+expect 1 talus-tin 'unit6.dxf|layername=CONTOURS' --labels 'unit4.dxf|layername=LABELS' --crs EPSG:32632 -o bad.ply
 says "the labels are drawn in millimetres, the contours in metres"

@@ -45,37 +45,39 @@ expect 0 talus-tin map.geojson -o truth.ply --overwrite --report truth.json
 ogr2ogr -q -where "ELEV IN (100, 120)" -nln index two.gpkg map.geojson
 ogr2ogr -q -update -where "ELEV IN (110, 130)" -nln between two.gpkg map.geojson
 refused "2 layers hold lines, expected one; the layers are: index, between" two.gpkg
-says "hint: choose with --layer; several: --layer 'index' --layer 'between'"
-eval "is_map two.gpkg $(hint | sed 's/.*several: //')"
+says 'hint: put "|layername=index" behind the file; several: "|layername=index,between"; all: "|layername=*"'
+eval "is_map two.gpkg$(hint | sed 's/.*several: \(".*"\); .*/\1/')"
 says "elevation from Z of layer index, between"
-is_map two.gpkg --layer "index, between"
-is_map two.gpkg --layer "*"
+is_map 'two.gpkg|layername=index, between'
+is_map 'two.gpkg|layername=*'
 is_map 'two.gpkg|layername=index,between'
-refused "there is no layer \"betwen\"; there are: index, between" two.gpkg --layer index --layer betwen
-refused 'there is no layer " "; there are: index, between' two.gpkg --layer ' '
-refused 'there is no layer ","' two.gpkg --layer ,
+refused "there is no layer \"index,betwen\"; there are: index, between" 'two.gpkg|layername=index,betwen'
+refused 'there is no layer " "; there are: index, between' 'two.gpkg|layername= '
+refused 'there is no layer ","' 'two.gpkg|layername=,'
+expect 2 talus-tin two.gpkg -o bad.ply --layer index
+says "hint: --layer is gone: write 'FILE|layername=LAYER'"
 odd_name='line one
 line two'
 ogr2ogr -q -nln "$odd_name" odd.gpkg map.geojson
 ogr2ogr -q -update -nln other odd.gpkg map.geojson
-is_map odd.gpkg --layer "$odd_name"
+is_map "odd.gpkg|layername=$odd_name"
 ogr2ogr -q -update -nln far -t_srs EPSG:32633 two.gpkg map.geojson
-refused "the CRS of layer index is" two.gpkg --layer "index,far"
+refused "the CRS of layer index is" 'two.gpkg|layername=index,far'
 # one map in 2-D, whose layers call the elevation by different names
 ogr2ogr -q -dim XY -sql "SELECT ELEV AS elevation FROM map WHERE ELEV > 110" -nln high names.gpkg map.geojson
 ogr2ogr -q -dim XY -update -sql "SELECT ELEV AS hoehe FROM map WHERE ELEV < 120" -nln low names.gpkg map.geojson
-is_map names.gpkg --layer high --layer low
+is_map 'names.gpkg|layername=high,low'
 says "elevation from field elevation, hoehe of layer high, low"
 # a filter takes the wanted lines of a layer
 cone 32632 0.5 >small.geojson
 sed 's/"ELEV"/"OLD":1,"ELEV"/' small.geojson >old.geojson
 ogr2ogr -q -nln map filter.gpkg map.geojson
 ogr2ogr -q -append -update -addfields -nln map filter.gpkg old.geojson
-is_truth filter.gpkg --where "OLD IS NULL"
+is_truth 'filter.gpkg|subset=OLD IS NULL'
 says "filter OLD IS NULL"
 is_truth 'filter.gpkg|layername=map|subset=OLD IS NULL'
-refused "filter \"NONE = 1\"" filter.gpkg --where "NONE = 1"
-refused "leaves no feature" filter.gpkg --where "ELEV > 9000"
+refused "filter \"NONE = 1\"" 'filter.gpkg|subset=NONE = 1'
+refused "leaves no feature" 'filter.gpkg|subset=ELEV > 9000'
 
 # --- drawings -------------------------------------------------------------------------------------
 polyline() { # polyline LAYER HEIGHT CLOSED X,Y...
@@ -99,12 +101,11 @@ expect 0 talus-tin one.dxf --crs EPSG:32632 -o one.ply
 says "elevation from Z of layer INDEX"
 data one.ply >expected
 refused "3 layers of the drawing hold lines, expected one; they are: BETWEEN (3), INDEX (2), ROAD (1)" two.dxf --crs EPSG:32632
-is_truth two.dxf --crs EPSG:32632 --layer INDEX --layer BETWEEN
-is_truth two.dxf --crs EPSG:32632 --layer "INDEX,BETWEEN"
-is_truth two.dxf --crs EPSG:32632 --where "Layer <> 'ROAD'"
-is_truth two.dxf --crs EPSG:32632 --layer "[!R]*?,INDEX"
-refused "layer RAOD: holds no lines" two.dxf --crs EPSG:32632 --layer "INDEX,RAOD"
-refused "the drawing has nothing in a layer \"NONE\"; its layers are: INDEX, BETWEEN, ROAD" two.dxf --crs EPSG:32632 --layer NONE
+is_truth 'two.dxf|layername=INDEX,BETWEEN' --crs EPSG:32632
+is_truth "two.dxf|subset=Layer <> 'ROAD'" --crs EPSG:32632
+is_truth 'two.dxf|layername=[!R]*?,INDEX' --crs EPSG:32632
+refused "layer RAOD: holds no lines" 'two.dxf|layername=INDEX,RAOD' --crs EPSG:32632
+refused "the drawing has nothing in a layer \"NONE\"; its layers are: INDEX, BETWEEN, ROAD" 'two.dxf|layername=NONE' --crs EPSG:32632
 
 # a closed line of a drawing, or of another file, is a boundary; an open one is none
 expect 0 talus-tin one.dxf --crs EPSG:32632 -o whole.ply --report whole.json
@@ -174,7 +175,7 @@ for file in nan.gpkg nan.shp; do
 done
 ogr2ogr -q -dialect OGRSQL -sql "SELECT ELEV AS OTHER, NAME FROM nan" unnamed.gpkg nan.gpkg
 refused "the Z of 4 of 4 is not a finite number, and no field with a usual name holds heights" unnamed.gpkg
-says "hint: name the field with --elevation-field; the fields are: OTHER, NAME"
+says "hint: name the field with --elevation-field FIELD; the fields are: OTHER, NAME"
 is_truth unnamed.gpkg --elevation-field OTHER
 
 # a field called Z beside another Z: refused with both names, each of which works

@@ -58,7 +58,7 @@ refused one.zip /vsizip/one.zip/map.dbf 10
 expect 1 talus-tin map.geojson --breaklines one/map.shp -o bad.ply --no-db
 says "one/map.dbf: the table has 10 rows"
 python3 rows.py two/other.dbf fewer
-expect 1 talus-tin two --layer map -o bad.ply --no-db
+expect 1 talus-tin 'two|layername=map' -o bad.ply --no-db
 says "two/other.dbf: the table has 10 rows"
 
 # MapInfo's text

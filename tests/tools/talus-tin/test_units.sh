@@ -132,8 +132,8 @@ awk -v z="$(gdallocationinfo -valonly -geoloc peak.tif 450000 4400000)" 'BEGIN {
 # breaklines and spot heights in a drawing of their own
 printf '0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n2\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nPOINT\n8\nS\n10\n2132545.931758530\n20\n17060367.454068241\n30\n452.755905511811\n0\nENDSEC\n0\nEOF\n' >spot.dxf
 expect 1 talus-tin metres.dxf -o bad.ply --crs EPSG:25832 --spots spot.dxf --no-db
-says "hint: --spots-unit-m 0.3048"
-expect 0 talus-tin metres.dxf -o spot.ply --crs EPSG:25832 --spots spot.dxf --spots-unit-m 0.3048 --report spot.json --no-db
+says "hint: --unit-m spots=0.3048"
+expect 0 talus-tin metres.dxf -o spot.ply --crs EPSG:25832 --spots spot.dxf --unit-m spots=0.3048 --report spot.json --no-db
 [ "$(value spot.json n_spots)" = 1 ] || fail "no spot height"
 expect 0 talus-trn spot.ply -o spot.tif --cell-size-m 1 --no-db
 awk -v z="$(gdallocationinfo -valonly -geoloc spot.tif 650000 5200000)" 'BEGIN { exit !((z - 138) ^ 2 < 0.01) }' ||

@@ -1,6 +1,6 @@
 # Box 0 hits the house, box 2 the hut, nothing the shed: sources, sums, and the energy of the slide.
 run-probe . 12 blocks=3 objects=watched
-expect 0 talus-trace site.toml run_*.h5 --trn slope.tif -o trace.gpkg --json trace.json --csv links.csv --rasters sources --png
+expect 0 talus-trace site.toml run_*.h5 --trn slope.tif -o trace.gpkg --json trace.json --csv links.csv --rasters sources --pages png
 prints 'house: hit in 12 of 12 runs'
 cat >check.py <<'PY'
 import json, math
@@ -39,7 +39,7 @@ expect 0 talus-reduce run_0.h5 run_3.h5 run_6.h5 run_9.h5 --trn slope.tif -o a.h
 expect 0 talus-reduce run_1.h5 run_2.h5 run_4.h5 run_5.h5 run_7.h5 --trn slope.tif -o b.h5
 expect 0 talus-reduce b.h5 a.h5 --trn slope.tif -o ab.h5
 for set in 'b.h5 run_10.h5 a.h5 run_8.h5 run_11.h5' 'run_11.h5 ab.h5 run_8.h5 run_10.h5'; do
-  expect 0 talus-trace site.toml $set --trn slope.tif -o parts.gpkg --json parts.json --csv parts.csv --rasters parts --png --overwrite
+  expect 0 talus-trace site.toml $set --trn slope.tif -o parts.gpkg --json parts.json --csv parts.csv --rasters parts --pages png --overwrite
   cmp links.csv parts.csv && cmp sources/source_house.tif parts/source_house.tif || fail "$set give another trace"
 done
 

@@ -34,12 +34,12 @@ $(sed -n 's/^ *hint: a surface of faces needs no contours: //p' err | sed 's/EPS
 sed 's/^ENTITIES$/&\n0\n3DFACE\n8\nroof\n10\n650000\n20\n5200000\n30\n1000\n11\n650025\n21\n5200000\n31\n1000\n12\n650025\n22\n5200050\n32\n1099\n13\n650025\n23\n5200050\n33\n1099/' faces.dxf >roof.dxf
 expect 1 talus-trn roof.dxf -o bad.tif --crs EPSG:25832
 says "2 layers of the drawing hold faces, expected one; they are: TIN (128), roof (1)"
-expect 0 talus-trn roof.dxf --layer TIN -o ground.tif --cell-size-m 5 --crs EPSG:25832
+expect 0 talus-trn 'roof.dxf|layername=TIN' -o ground.tif --cell-size-m 5 --crs EPSG:25832
 gdal_translate -q -of ENVI ground.tif ground.bin
 cmp ground.bin faces.dxf.bin || fail "the layer of the ground is another terrain"
-expect 1 talus-trn roof.dxf --layer '*' -o bad.tif --crs EPSG:25832
+expect 1 talus-trn 'roof.dxf|layername=*' -o bad.tif --crs EPSG:25832
 says "the surface folds over or has two layers at 1 edge"
-expect 0 talus-trn roof.dxf --layer TIN,roof -o roof.tif --crs EPSG:25832 --accept-doubts
+expect 0 talus-trn 'roof.dxf|layername=TIN,roof' -o roof.tif --crs EPSG:25832 --accept-doubts
 says "warning: the surface folds over"
 # a drawing in feet is refused; the hint's option scales plan and heights
 { printf '0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n2\n0\nENDSEC\n'; cat faces.dxf; } >feet.dxf
@@ -47,10 +47,10 @@ expect 1 talus-trn feet.dxf -o bad.tif --crs none
 says "--unit-m 0.3048 scales plan and heights"
 expect 0 talus-trn feet.dxf -o feet.tif --crs none --unit-m 0.3048
 prints "304.8 to 334.8 m"  # 1000 ft, and 1 : 2 over 60 m
-expect 2 talus-trn faces.dxf.tif -o bad.tif --layer TIN
+expect 2 talus-trn faces.dxf.tif -o bad.tif --unit-m 2
 sed 's/linearUnit="meter"/linearUnit="foot"/' ground.xml >feet.xml
 expect 1 talus-trn feet.xml -o bad.tif
-says "the linear unit is foot, expected meter"
+says "linearUnit is foot, expected meter"
 sed '$d' ground.ply >short.ply
 expect 1 talus-trn short.ply -o bad.tif --crs EPSG:25832
 says "it was truncated"

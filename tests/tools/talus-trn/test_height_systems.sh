@@ -68,8 +68,8 @@ rmse_is 2397.726  # feet taken for metres, as the system says
 # heights in feet, by the raster's unit and by its CRS alone: the hint's command makes metres of them
 gdal_translate -q -ot Float64 -a_srs EPSG:32632+6360 plane.asc feet.tif
 expect 1 talus-trn feet.tif -o bad.tif --no-db
-says 'the elevations are in "us survey foot", expected metres'
-$(sed -n 's/^ *hint: convert them first: //p' err) -q
+says 'the elevations are in "US survey foot", expected metres'
+$(sed -n 's/^ *hint: //p' err) -q
 expect 0 talus-trn metres.tif -o metres_trn.tif --no-db
 is_near "$(height metres_trn.tif)" "$(awk -v z="$(height feet.tif)" 'BEGIN { printf "%.9f", z * 1200 / 3937 }')" 1e-6
 rm metres.tif

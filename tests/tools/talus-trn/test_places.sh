@@ -85,7 +85,7 @@ for code in EPSG:32662 EPSG:6933 EPSG:3857 "+proj=eqc +lat_ts=20 +ellps=GRS80 +t
   set -- $(gdalinfo rimmed.tif | sed -n 's/^Size is \([0-9]*\), \([0-9]*\)$/\1 \2/p')
   gdal_translate -q -srcwin 6 6 $(($1 - 12)) $(($2 - 12)) rimmed.tif stretched.tif
   refused stretched.tif "whose metres are stretched here"
-  says "hint: --t-srs EPSG:32632, or gdalwarp -r bilinear -t_srs EPSG:32632"
+  says "hint: --t-srs EPSG:32632, or gdalwarp -r bilinear -ot Float32 -dstnodata nan -t_srs EPSG:32632"
   expect 0 talus-trn stretched.tif -o mended_trn.tif --t-srs EPSG:32632 --overwrite --no-db
   is_plane mended_trn.tif 0.5 500
   sed -n 's/^ *hint: .*, or //p' err >hint.sh

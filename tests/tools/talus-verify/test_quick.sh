@@ -45,5 +45,6 @@ expect 2 talus-verify parabola --no-db
 says "give -o DIR"
 expect 1 talus-verify oblique -o three --peers nowhere --no-db
 says "nowhere/oblique.csv"
-expect 2 talus-verify --quick --full -o four --no-db
+expect 2 talus-verify --quick -o four --no-db
+says "hint: --quick is gone"
 exit 0

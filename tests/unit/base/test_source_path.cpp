@@ -55,6 +55,7 @@ TEST(SourcePath, ArchivesAreLookedInto) {
   EXPECT_EQ(parse_source_path(zip).source, "/vsizip/" + zip);
   for (const std::string& name : {zip + "/sub/a.shp", "/vsizip/" + zip + "/sub/a.shp"}) {
     const SourcePath path = parse_source_path(name + "|layername=a");
+    EXPECT_EQ(without_layer(name + "|layername=a"), name);
     EXPECT_EQ(path.file, zip);
     EXPECT_EQ(path.source, "/vsizip/" + zip + "/sub/a.shp");
     EXPECT_EQ(path.inside, "/sub/a.shp|layername=a");

@@ -51,12 +51,19 @@ TEST(Workers, BeginChunksInAscendingOrder) {
 TEST(Workers, ShareALoopInPartsThatCoverIt) {
   Workers workers(2);
   for (Workers* const who : {static_cast<Workers*>(nullptr), &workers})
-    for (const std::size_t n : {0u, 5u, 31u, 32u, 33u, 1000u}) {
+    for (const std::size_t n : {0u, 5u, 63u, 64u, 65u, 1000u}) {
       std::vector<int> times(n, 0);
-      in_chunks(who, n, 32, 33, [&](std::size_t begin, std::size_t end) {
+      in_chunks(who, n, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) ++times[i];
       });
       EXPECT_EQ(times, std::vector<int>(n, 1)) << n;
+      std::vector<int> of_parts(n_parts(who, n), 0);
+      in_parts(who, n, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        ++of_parts[part];
+        for (std::size_t i = begin; i < end; ++i) ++times[i];
+      });
+      EXPECT_EQ(times, std::vector<int>(n, 2)) << n;
+      EXPECT_EQ(of_parts, std::vector<int>(of_parts.size(), 1)) << n;
     }
 }
 

@@ -17,13 +17,11 @@ bool meet(const Box& p, const Box& q) {
   return (p.low.array() <= q.high.array()).all() && (q.low.array() <= p.high.array()).all();
 }
 
-Pairs brute_pairs(const std::vector<Box>& boxes, const std::vector<int>& owner,
-                  const std::vector<std::uint8_t>& fixed) {
+Pairs brute_pairs(const std::vector<Box>& boxes, const std::vector<int>& owner) {
   Pairs pairs;
   for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
     for (int j = i + 1; j < static_cast<int>(boxes.size()); ++j) {
-      const bool both_fixed = !fixed.empty() && fixed[i] != 0 && fixed[j] != 0;
-      if (owner[i] != owner[j] && !both_fixed && meet(boxes[i], boxes[j])) pairs.push_back({i, j});
+      if (owner[i] != owner[j] && meet(boxes[i], boxes[j])) pairs.push_back({i, j});
     }
   return pairs;
 }
@@ -48,15 +46,10 @@ RC_GTEST_PROP(FindOverlaps, AgreesWithAllPairs, ()) {
   const std::vector<Box> boxes = random_boxes(random, n, ratio, *rc::gen::inRange(1, 60));
   std::vector<int> owner(boxes.size());
   for (std::size_t i = 0; i < owner.size(); ++i) owner[i] = static_cast<int>(i) / 3;
-  std::vector<std::uint8_t> fixed;
-  if (*rc::gen::arbitrary<bool>())
-    for (int i = 0; i < n; ++i) fixed.push_back(uniform(random, 0, 1) < 0.5 ? 1 : 0);
-  OverlapScratch scratch;
+  std::vector<BoxInStrip> strips;
   Pairs pairs;
-  if (!fixed.empty() && uniform(random, 0, 1) < 0.5)  // all that moves belongs together
-    for (std::size_t i = 0; i < boxes.size(); ++i) owner[i] = fixed[i];
-  find_overlaps(boxes, owner, fixed, scratch, pairs);
-  RC_ASSERT(pairs == brute_pairs(boxes, owner, fixed));
+  find_overlaps(boxes, owner, strips, pairs);
+  RC_ASSERT(pairs == brute_pairs(boxes, owner));
 }
 
 // Boxes on a lattice touch exactly at their faces; identical boxes have the same cell; boxes
@@ -70,13 +63,13 @@ TEST(FindOverlaps, TouchingIdenticalAndEmptyBoxesAreFound) {
   boxes.push_back({Vec3(1e7, 1e7, 1e7), Vec3(1e7, 1e7, 1e7)});
   std::vector<int> owner(boxes.size());
   std::iota(owner.begin(), owner.end(), 0);
-  OverlapScratch scratch;
+  std::vector<BoxInStrip> strips;
   Pairs pairs;
-  find_overlaps(boxes, owner, {}, scratch, pairs);
-  EXPECT_EQ(pairs, brute_pairs(boxes, owner, {}));
+  find_overlaps(boxes, owner, strips, pairs);
+  EXPECT_EQ(pairs, brute_pairs(boxes, owner));
   const std::vector<Box> points(5, Box{Vec3(1, 1, 1), Vec3(1, 1, 1)});
   owner.resize(5);
-  find_overlaps(points, owner, {}, scratch, pairs);
+  find_overlaps(points, owner, strips, pairs);
   EXPECT_EQ(pairs.size(), 10u);
 }
 

@@ -66,10 +66,25 @@ TEST(PointTable, ColumnsThatCannotBeToldAreRefused) {
   expect_found(refusal("a,b,c\n1,2,3\n"), "expected columns named x and y");
   expect_found(refusal("x,y,easting,northing\n1,2,3,4\n"), "x and y, and easting and northing");
   expect_found(refusal("1 500000 5200000 1000\n2 500001 5200000 1001\n"), "counts the rows");
+  expect_found(refusal("7012,500.1,700.2,99.5\n7098,510.2,710.4,98\n"), "whole numbers alone");
+  expect_found(refusal("5.1,500.1,700.2,99.5,FENCE\n9,5.2,7.4,98,TREE\n"), "holds words");
   expect_found(refusal("# nothing\n"), "expected columns named x and y");
   expect_found(refusal(""), "holds no row");
   expect_found(refusal("x,y\n"), "holds no row");
   expect_found(refusal(std::string("\xFF\xFEx", 3)), "UTF-16");
+}
+
+TEST(PointTable, ListsOfPointsWithoutNumbersAreRead) {
+  EXPECT_EQ(
+      parse_point_table("650000 5200000 1010.5 7\n650005 5200005 1011 8\n", "p.xyz").points.size(),
+      2u);
+  EXPECT_EQ(parse_point_table("1.5 2.5 3.5 4\n2.5 3.5 4.5 5\n", "p.xyz").points.size(), 2u);
+}
+
+TEST(PointTable, HeightsThatMayHaveThousandsStayText) {
+  const PointTable doubtful = parse_point_table("x,y,z\n1,2,990\n2,3,1.010\n", "p.csv");
+  EXPECT_FALSE(doubtful.is_number[0]);
+  EXPECT_TRUE(parse_point_table("x,y,z\n1,2,990.5\n2,3,1.010\n", "p.csv").is_number[0]);
 }
 
 TEST(PointTable, AColumnOfGeometriesIsKnown) {

@@ -121,9 +121,9 @@ TEST(TinFiles, LandXmlThatCannotBeTakenIsRefused) {
   EXPECT_EQ(
       refusal(write("high.xml",
                     landxml("<Metric linearUnit=\"meter\" elevationUnit=\"feet\"/>", corners, ""))),
-      ": the unit of heights is feet, expected meter");
+      ": elevationUnit is feet, expected meter");
   EXPECT_EQ(refusal(write("feet.xml", landxml("<Imperial linearUnit=\"foot\"/>", corners, ""))),
-            ": the units are feet (Imperial), expected metres");
+            ": linearUnit is foot, expected meter");
   EXPECT_EQ(refusal(write("bare.xml", landxml(metric, corners, ""))),
             ": the surface has no faces, expected a TIN");
   EXPECT_EQ(refusal(write("lost.xml", landxml(metric, corners, "<F>7 8 99</F>"))),

@@ -94,7 +94,7 @@ TEST(ReadVectors, RingsComeWithoutTheirLastPoint) {
       "area.geojson",
       geojson(
           R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,0]],[[5,1],[6,1],[6,2],[5,1]]]})"));
-  const VectorShapes found = read_vectors({path, "", "", VectorKind::areas}, "");
+  const VectorShapes found = read_vectors({path, VectorKind::areas}, "");
   ASSERT_EQ(found.shapes.size(), 2u);
   EXPECT_EQ(found.shapes[0].size(), 3u);
   EXPECT_TRUE(found.source_crs.empty());
@@ -105,7 +105,7 @@ TEST(ReadVectors, OtherCoordinateSystemsAreReprojected) {
       scratch("line.geojson",
               geojson(R"({"type":"LineString","coordinates":[[15,47],[15,48]]})", "OGC:1.3:CRS84"));
   const VectorShapes found =
-      read_vectors({path, "", "", VectorKind::lines}, crs_from_user("EPSG:32633", "test"));
+      read_vectors({path, VectorKind::lines}, crs_from_user("EPSG:32633", "test"));
   EXPECT_FALSE(found.source_crs.empty());
   EXPECT_NEAR(found.shapes[0][0].x(), 500000, 1e-6);         // 15 E is the middle of zone 33
   EXPECT_NEAR(found.shapes[0][0].y(), 0.9996 * 5207247, 1);  // meridian arc to 47 N
@@ -119,7 +119,7 @@ TEST(ReadVectors, MetresThatAreCalledDegreesAreRefused) {
               R"("geometry":{"type":"Point","coordinates":[500000,5200000]}}]})");
   try {
     static_cast<void>(
-        read_vectors({path, "", "", VectorKind::points}, crs_from_user("EPSG:32633", "test")));
+        read_vectors({path, VectorKind::points}, crs_from_user("EPSG:32633", "test")));
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("the coordinates are no degrees"), std::string::npos);
@@ -129,17 +129,16 @@ TEST(ReadVectors, MetresThatAreCalledDegreesAreRefused) {
 
 TEST(ReadVectors, WhatIsNotThereIsNamed) {
   const std::string path = scratch("p.geojson", geojson(R"({"type":"Point","coordinates":[1,2]})"));
-  EXPECT_NE(refusal({path, "roads", "", VectorKind::points}).find("there is no layer \"roads\""),
+  EXPECT_NE(
+      refusal({path + "|layername=roads", VectorKind::points}).find("there is no layer \"roads\""),
+      std::string::npos);
+  EXPECT_NE(refusal({path, VectorKind::areas}).find("holds no polygons"), std::string::npos);
+  EXPECT_NE(refusal({path + "|subset=nonsense = ", VectorKind::points}).find("cannot be used"),
             std::string::npos);
-  EXPECT_NE(refusal({path, "", "", VectorKind::areas}).find("holds no polygons"),
-            std::string::npos);
-  EXPECT_NE(refusal({path, "", "nonsense = ", VectorKind::points}).find("cannot be used"),
-            std::string::npos);
-  EXPECT_NE(refusal({path, "", "kind = 'b'", VectorKind::points})
+  EXPECT_NE(refusal({path + "|subset=kind = 'b'", VectorKind::points})
                 .find("holds no points: the filter \"kind = 'b'\" leaves no feature"),
             std::string::npos);
-  EXPECT_NE(refusal({scratch("broken.geojson", "{"), "", "", VectorKind::points})
-                .find("cannot be opened"),
+  EXPECT_NE(refusal({scratch("broken.geojson", "{"), VectorKind::points}).find("cannot be opened"),
             std::string::npos);
 }
 
@@ -148,15 +147,16 @@ TEST(ReadVectors, WhatIsNotThereIsNamed) {
 TEST(ReadVectors, LayersThatMayBeMeantAreListed) {
   const std::string path = two_layers("several.vrt", square(0, 0, 9), square(20, 0, 3));
   try {
-    static_cast<void>(read_vectors({path, "", "", VectorKind::areas, "source.polygon_"}, ""));
+    static_cast<void>(read_vectors({path, VectorKind::areas}, ""));
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("the layers are: first, second"), std::string::npos);
     EXPECT_EQ(
         error.hint(),
-        "choose with source.polygon_layer; several: source.polygon_layer = \"first, second\"");
+        "put \"|layername=first\" behind the file; several: \"|layername=first,second\"; all: "
+        "\"|layername=*\"");
   }
-  const VectorShapes found = read_vectors({path, "second", "", VectorKind::areas}, "");
+  const VectorShapes found = read_vectors({path + "|layername=second", VectorKind::areas}, "");
   EXPECT_EQ(found.layer, "second");
   EXPECT_EQ(found.area_m2, 9);
 }
@@ -164,67 +164,61 @@ TEST(ReadVectors, LayersThatMayBeMeantAreListed) {
 TEST(ReadVectors, ALayerOfAnyGeometryHidesNoneBehindIt) {
   const std::string line = R"({"type":"LineString","coordinates":[[0,0],[9,9]]})";
   const VectorShapes behind =
-      read_vectors({two_layers("a.vrt", line, square(0, 0, 3)), "", "", VectorKind::areas}, "");
+      read_vectors({two_layers("a.vrt", line, square(0, 0, 3)), VectorKind::areas}, "");
   EXPECT_EQ(behind.layer, "second");
   const std::string mixed =
       R"({"type":"GeometryCollection","geometries":[)" + line + "," + square(0, 0, 2) + "]}";
   const std::string path = two_layers("b.vrt", mixed, line);
-  const VectorShapes inside = read_vectors({path, "", "", VectorKind::areas}, "");
+  const VectorShapes inside = read_vectors({path, VectorKind::areas}, "");
   EXPECT_EQ(inside.layer, "first");
   EXPECT_EQ(inside.area_m2, 4);
   EXPECT_EQ(inside.n_passed_over, 1);
-  EXPECT_NE(refusal({path, "", "", VectorKind::lines}).find("2 layers hold lines"),
-            std::string::npos);
+  EXPECT_NE(refusal({path, VectorKind::lines}).find("2 layers hold lines"), std::string::npos);
 }
 
 TEST(ReadVectors, SeveralLayersAreReadAsOne) {
   const std::string path = two_layers("both.vrt", square(0, 0, 3), square(20, 0, 2));
-  for (const char* layers : {"first\nsecond", "first, second", "second,first", "*", "fi*,sec?nd"}) {
-    const VectorShapes found = read_vectors({path, layers, "", VectorKind::areas}, "");
+  for (const char* layers : {"first, second", "second,first", "*", "fi*,sec?nd"}) {
+    const VectorShapes found = read_vectors({path + "|layername=" + layers, VectorKind::areas}, "");
     EXPECT_EQ(found.area_m2, 13) << layers;
     EXPECT_EQ(found.n_parts, 2) << layers;
   }
-  EXPECT_NE(refusal({path, "first, third", "", VectorKind::areas}).find("there is no layer"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal({path + "|layername=first, third", VectorKind::areas}).find("there is no layer"),
+      std::string::npos);
 }
 
 TEST(ReadVectors, ANamedLayerWithoutTheShapeIsRefused) {
   const std::string point = R"({"type":"Point","coordinates":[1,2]})";
   const std::string path = two_layers("half.vrt", square(0, 0, 3), point);
-  EXPECT_NE(refusal({path, "first, second", "", VectorKind::areas})
+  EXPECT_NE(refusal({path + "|layername=first, second", VectorKind::areas})
                 .find("layer second: holds no polygons"),
             std::string::npos);
 }
 
 TEST(ReadVectors, NamesAsQgisWritesThemChooseLayerAndFeatures) {
   const std::string path = two_layers("qgis.vrt", square(0, 0, 3), square(20, 0, 2));
-  EXPECT_EQ(read_vectors({path + "|layername=second", "", "", VectorKind::areas}, "").area_m2, 4);
-  EXPECT_EQ(read_vectors({path + "|layerid=0", "", "", VectorKind::areas}, "").area_m2, 9);
-  EXPECT_NE(refusal({path + "|layername=second", "first", "", VectorKind::areas})
-                .find("the name asks for the layer second"),
-            std::string::npos);
-  EXPECT_NE(refusal({path + "|layerid=2", "", "", VectorKind::areas}).find("the number 2"),
+  EXPECT_EQ(read_vectors({path + "|layername=second", VectorKind::areas}, "").area_m2, 4);
+  EXPECT_EQ(read_vectors({path + "|layerid=0", VectorKind::areas}, "").area_m2, 9);
+  EXPECT_NE(refusal({path + "|layerid=2", VectorKind::areas}).find("the number 2"),
             std::string::npos);
   const std::string two = scratch(
       "subset.geojson",
       R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"k":1},"geometry":)" +
           square(0, 0, 3) + R"(},{"type":"Feature","properties":{"k":2},"geometry":)" +
           square(9, 0, 1) + "}]}");
-  EXPECT_EQ(read_vectors({two + "|subset=k = 2", "", "", VectorKind::areas}, "").area_m2, 1);
-  EXPECT_NE(refusal({two + "|subset=k = 2", "", "k = 1", VectorKind::areas})
-                .find("the filter \"(k = 2) AND (k = 1)\" leaves no feature"),
-            std::string::npos);
+  EXPECT_EQ(read_vectors({two + "|subset=k = 2", VectorKind::areas}, "").area_m2, 1);
 }
 
 TEST(ReadVectors, PointsComeFromTables) {
   const std::string path = scratch("points.csv", "name;northing;easting\na;5200000,5;500000\n");
-  const VectorShapes found = read_vectors({path, "", "", VectorKind::points}, "");
+  const VectorShapes found = read_vectors({path, VectorKind::points}, "");
   ASSERT_EQ(found.shapes.size(), 1u);
   EXPECT_EQ(found.shapes[0][0].head<2>(), Vec2(500000, 5200000.5));
   ASSERT_EQ(found.remarks.size(), 1u);
   EXPECT_EQ(found.remarks[0], "x from easting, y from northing");
   const std::string geometries = scratch("wkt.csv", "id,WKT\n1,POINT (3 4)\n");
-  EXPECT_EQ(read_vectors({geometries, "", "", VectorKind::points}, "").shapes[0][0].x(), 3);
+  EXPECT_EQ(read_vectors({geometries, VectorKind::points}, "").shapes[0][0].x(), 3);
 }
 
 // --- closed lines, drawings ----------------------------------------------------------------------
@@ -248,51 +242,52 @@ std::string drawing(const std::string& name,
 
 TEST(ReadVectors, ClosedLinesOfADrawingAreAreas) {
   const std::string path = drawing("limit.dxf", {{"LIMIT", 1}, {"LIMIT", 0}});
-  const VectorShapes found = read_vectors({path, "", "", VectorKind::areas}, "");
+  const VectorShapes found = read_vectors({path, VectorKind::areas}, "");
   EXPECT_EQ(found.layer, "LIMIT");
   EXPECT_EQ(found.area_m2, 100);
   EXPECT_EQ(found.passed_over, "1 open line");
   EXPECT_EQ(found.remarks, std::vector<std::string>{"1 closed line taken as areas"});
-  EXPECT_NE(refusal({drawing("open.dxf", {{"A", 0}}), "", "", VectorKind::areas})
+  EXPECT_NE(refusal({drawing("open.dxf", {{"A", 0}}), VectorKind::areas})
                 .find("holds no polygons, but 1 open line; expected polygons or closed lines"),
             std::string::npos);
 }
 
 TEST(ReadVectors, ClosedLinesAreAreasWhereNoPolygonIs) {
   const std::string ring = R"({"type":"LineString","coordinates":[[0,0],[4,0],[4,4],[0,4],[0,0]]})";
-  EXPECT_EQ(read_vectors({features("ring.geojson", {ring}), "", "", VectorKind::areas}, "").area_m2,
-            16);
-  const VectorShapes both = read_vectors(
-      {features("ring_and.geojson", {ring, square(50, 0, 3)}), "", "", VectorKind::areas}, "");
+  EXPECT_EQ(read_vectors({features("ring.geojson", {ring}), VectorKind::areas}, "").area_m2, 16);
+  const VectorShapes both =
+      read_vectors({features("ring_and.geojson", {ring, square(50, 0, 3)}), VectorKind::areas}, "");
   EXPECT_EQ(both.area_m2, 9);
   EXPECT_EQ(both.passed_over, "1 closed line");
   const std::string line = R"({"type":"LineString","coordinates":[[0,0],[9,9]]})";
   const VectorShapes behind =
-      read_vectors({two_layers("c.vrt", line, ring), "", "", VectorKind::areas}, "");
+      read_vectors({two_layers("c.vrt", line, ring), VectorKind::areas}, "");
   EXPECT_EQ(behind.layer, "second");
 }
 
 TEST(ReadVectors, LayersOfADrawingAreChosenLikeOthers) {
   const std::string path = drawing("layers.dxf", {{"A", 1}, {"B", 1}, {"ROAD", 0}});
-  const std::string said = refusal({path, "", "", VectorKind::areas});
+  const std::string said = refusal({path, VectorKind::areas});
   EXPECT_NE(
       said.find("2 layers of the drawing hold polygons, expected one; they are: A (1), B (1)"),
       std::string::npos)
       << said;
-  EXPECT_EQ(read_vectors({path, "A", "", VectorKind::areas}, "").n_parts, 1);
-  for (const char* layers : {"A\nB", "A,B", "?", "*", "entities"})
-    EXPECT_EQ(read_vectors({path, layers, "", VectorKind::areas}, "").n_parts, 2) << layers;
-  EXPECT_EQ(read_vectors({path, "", "Layer IN ('A', 'B')", VectorKind::areas}, "").n_parts, 2);
-  EXPECT_NE(refusal({path, "C", "", VectorKind::areas}).find("its layers are: A, B, ROAD"),
+  EXPECT_EQ(read_vectors({path + "|layername=A", VectorKind::areas}, "").n_parts, 1);
+  for (const char* layers : {"A, B", "A,B", "?", "*", "entities"})
+    EXPECT_EQ(read_vectors({path + "|layername=" + layers, VectorKind::areas}, "").n_parts, 2)
+        << layers;
+  EXPECT_EQ(read_vectors({path + "|subset=Layer IN ('A', 'B')", VectorKind::areas}, "").n_parts, 2);
+  EXPECT_NE(refusal({path + "|layername=C", VectorKind::areas}).find("its layers are: A, B, ROAD"),
             std::string::npos);
-  EXPECT_NE(refusal({path, "A,ROAD", "", VectorKind::areas}).find("layer ROAD: holds no polygons"),
+  EXPECT_NE(refusal({path + "|layername=A,ROAD", VectorKind::areas})
+                .find("layer ROAD: holds no polygons"),
             std::string::npos);
 }
 
 TEST(ReadVectors, CurvesAreStrokedAndSaid) {
   const std::string path =
       scratch("arc.csv", "WKT,k\n\"CURVEPOLYGON (CIRCULARSTRING (0 0,2 0,0 0))\",1\n");
-  const VectorShapes found = read_vectors({path, "", "", VectorKind::areas}, "");
+  const VectorShapes found = read_vectors({path, VectorKind::areas}, "");
   EXPECT_NEAR(found.area_m2, 3.14159, 0.01);
   EXPECT_EQ(found.remarks, std::vector<std::string>{"1 curve stroked to lines"});
 }
@@ -304,7 +299,7 @@ TEST(ReadVectors, PolygonsThatOverlapAreOneArea) {
   const std::string path =
       features("union.geojson", {square(0, 0, 10), square(0, 0, 10), square(2, 2, 3),
                                  square(10, 0, 10), square(100, 100, 1)});
-  const VectorShapes found = read_vectors({path, "", "", VectorKind::areas}, "");
+  const VectorShapes found = read_vectors({path, VectorKind::areas}, "");
   EXPECT_EQ(found.n_parts, 5);
   EXPECT_EQ(found.n_united, 4);
   EXPECT_EQ(found.n_made, 1);
@@ -315,7 +310,7 @@ TEST(ReadVectors, PolygonsThatOverlapAreOneArea) {
 TEST(ReadVectors, PolygonsThatCrossAreOneArea) {
   const std::string path =
       features("cross.geojson", {rectangle(0, 4, 10, 6), rectangle(4, 0, 6, 10)});
-  const VectorShapes found = read_vectors({path, "", "", VectorKind::areas}, "");
+  const VectorShapes found = read_vectors({path, VectorKind::areas}, "");
   EXPECT_EQ(found.shapes.size(), 1u);
   EXPECT_DOUBLE_EQ(found.area_m2, 36);
 }
@@ -324,15 +319,14 @@ TEST(ReadVectors, PolygonsThatCrossAreOneArea) {
 TEST(ReadVectors, HolesOfPolygonsStay) {
   const std::string holed = R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,9],[0,0]],)"
                             R"([[3,3],[6,3],[6,6],[3,6],[3,3]]]})";
-  const VectorShapes one =
-      read_vectors({features("h.geojson", {holed}), "", "", VectorKind::areas}, "");
+  const VectorShapes one = read_vectors({features("h.geojson", {holed}), VectorKind::areas}, "");
   EXPECT_EQ(one.shapes.size(), 2u);
   EXPECT_EQ(one.area_m2, 72);
   EXPECT_EQ(one.n_united, 0);
   const VectorShapes bars =
       read_vectors({features("bars.geojson", {rectangle(0, 0, 9, 3), rectangle(0, 6, 9, 9),
                                               rectangle(0, 0, 3, 9), rectangle(6, 0, 9, 9)}),
-                    "", "", VectorKind::areas},
+                    VectorKind::areas},
                    "");
   EXPECT_EQ(bars.shapes.size(), 2u);
   EXPECT_DOUBLE_EQ(bars.area_m2, 72);
@@ -342,14 +336,14 @@ TEST(ReadVectors, PolygonsThatCrossThemselvesAreRefusedWithThePlace) {
   const std::string bow_tie =
       R"({"type":"Polygon","coordinates":[[[0,0],[10,10],[10,0],[0,10],[0,0]]]})";
   const std::string said =
-      refusal({features("bow.geojson", {square(20, 0, 1), bow_tie}), "", "", VectorKind::areas});
+      refusal({features("bow.geojson", {square(20, 0, 1), bow_tie}), VectorKind::areas});
   EXPECT_NE(said.find("feature 1: the polygon is not sound: Self-intersection"), std::string::npos)
       << said;
   EXPECT_NE(said.find("5 5"), std::string::npos) << said;
   const std::string hole_outside =
       R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,9],[0,0]],)"
       R"([[30,3],[36,3],[36,6],[30,3]]]})";
-  EXPECT_NE(refusal({features("out.geojson", {hole_outside}), "", "", VectorKind::areas})
+  EXPECT_NE(refusal({features("out.geojson", {hole_outside}), VectorKind::areas})
                 .find("Hole lies outside shell"),
             std::string::npos);
 }
@@ -366,7 +360,7 @@ TEST(WriteFootprints, ReadBackAndTheSameBytesEveryTime) {
   write_footprints(b, set, {{{0, 0}, {1, 0}, {1, 1}}});
   EXPECT_EQ(sha256_of_file(a), sha256_of_file(b));
   const VectorShapes found =
-      read_vectors({a, "blocks", "volume_m3 > 5", VectorKind::areas}, set.crs_wkt);
+      read_vectors({a + "|layername=blocks|subset=volume_m3 > 5", VectorKind::areas}, set.crs_wkt);
   ASSERT_EQ(found.shapes.size(), 1u);
   EXPECT_EQ(found.shapes[0].size(), 4u);
   EXPECT_TRUE(found.source_crs.empty());

@@ -192,7 +192,7 @@ TEST(Summarise, GivesPercentilesWithBoundsOfIndependentRuns) {
     list.push_back(a);
   }
   std::sort(energies.begin(), energies.end());
-  const FencePartSummary s = summarise(list, 150, 1);
+  const FencePartSummary s = summarise(list, 150);
   EXPECT_EQ(s.n, 120);
   EXPECT_DOUBLE_EQ(s.per_run, 0.8);
   EXPECT_EQ(s.energy.largest, energies.back());
@@ -210,7 +210,7 @@ TEST(Summarise, AddsUpTheHitsOfOneSecond) {
   const std::vector<double> times = {0.9, 0, 5, 0.4, 1.3},
                             energies = {40e3, 10e3, 70e3, 20e3, 30e3};
   for (int i = 0; i < 5; ++i) add_crossing(run, 5, 1, 1, energies[i], times[i]);
-  const FencePartSummary s = summarise(arrivals(run, 0, straight_fence(), 0), 1, 1);
+  const FencePartSummary s = summarise(arrivals(run, 0, straight_fence(), 0), 1);
   EXPECT_DOUBLE_EQ(s.window_energy, 90e3);
   EXPECT_EQ(s.window_hits, 3);
   EXPECT_EQ(s.most_in_a_run, 5);

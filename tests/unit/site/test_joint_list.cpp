@@ -99,6 +99,11 @@ TEST(ReadOrientations, DipsWritesStrikesAndQuantities) {
   expect_planes("Trend,Plunge\n225,30\n", {{45, 60}});
 }
 
+TEST(ReadOrientations, GonIsReadWhereTheNamesSayIt) {
+  expect_planes("Dip direction [gon];Dip [gon]\n200;50\n400;10,5\n", {{180, 45}, {0, 9.45}});
+  expect_planes("Streichen;Fallen\n110;41\n", {{200, 41}});
+}
+
 TEST(ReadOrientations, StereonetWritesBearingsAndSides) {
   expect_planes("No.\tStrike\tDip\n1\t045\t60\n", {{135, 60}});
   expect_planes("Strike,Dip\nN45E,60SE\nN45E,60NW\nS45W,60N\n", {{135, 60}, {315, 60}, {315, 60}});

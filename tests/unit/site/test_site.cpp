@@ -134,23 +134,29 @@ TEST(Site, TheCommandLineOverridesTheFile) {
   EXPECT_THROW(talus::override_value(site, "solver.duration_s", "soon"), InputError);
   EXPECT_THROW(talus::override_value(site, "duration_s", "3"), InputError);
   EXPECT_THROW(talus::override_value(site, "source.depth_m", "1\nseed = 3"), InputError);
+  EXPECT_THROW(talus::override_value(site, "source.depth_m", "1]\nseed = [3"), InputError);
+  EXPECT_THROW(talus::override_value(site, "source.depth_m", "5 # m"), InputError);
+  for (const char* name : {"2024", "true", "a #1", "1 # 2", "[1]", "a = b"}) {
+    talus::override_value(site, "site.name", name);
+    EXPECT_EQ(site.info.name, name);
+  }
 }
 
 // What is printed reads back as the same configuration.
 TEST(Site, ANameMayHoldWhatAKeyAndItsValueArePartedBy) {
   const std::string fence = "line = [[0, 0], [1, 1]]\n";
   Site site = parse_site(
-      "[fence.\"a=b\"]\n" + fence + "[fence.a]\n" + fence + "[fence.\"v1.5 = 'x'\"]\n" + fence,
+      "[fence.\"a=b\"]\n" + fence + "[fence.a]\n" + fence + "[fence.\"v1.5 = 'x' #2\"]\n" + fence,
       "site.toml");
   const auto set = [&site](const std::string& words) {
     const std::size_t at = talus::end_of_key(site, words);
     talus::override_value(site, words.substr(0, at), words.substr(at + 1));
   };
   set("fence.a=b.active=false");
-  set("fence.v1.5 = 'x'.height_m=7");
-  set("fence.a.line_where=name = 'a=b'");
+  set("fence.v1.5 = 'x' #2.height_m=7");
+  set("fence.a.line_file=f.gpkg|subset=name = 'a=b'");
   EXPECT_FALSE(site.fences[0].active);
-  EXPECT_EQ(site.fences[1].line_where, "name = 'a=b'");
+  EXPECT_EQ(site.fences[1].line_file, "f.gpkg|subset=name = 'a=b'");
   EXPECT_TRUE(site.fences[1].active);
   EXPECT_EQ(site.fences[2].height_m, 7);
   EXPECT_EQ(talus::end_of_key(site, "solver.lawn=paper"), 11U);
@@ -197,6 +203,23 @@ TEST(Site, EveryKeyIsDescribedAndUnique) {
     EXPECT_FALSE(row.help.empty()) << row.key;
   }
   EXPECT_TRUE(seen.count("joints.NAME.dip_deg"));
+}
+
+// Whoever adds a key takes another one away.
+TEST(Site, KeysAreNoMoreThanThese) {
+  const std::size_t n = talus::site_keys().size();
+  std::cout << n << " keys of the site file\n";
+  EXPECT_LE(n, 246U);
+}
+
+TEST(Site, AKeyThatIsGoneSaysWhatToWriteInstead) {
+  EXPECT_EQ(refusal("[source]\npolygon_layer = 'release'\n"),
+            "s/site.toml:2: the key polygon_layer of [source] is gone | write polygon_file = "
+            "\"FILE|layername=LAYER\"");
+  EXPECT_EQ(refusal("[fence.a]\nline_where = 'k = 1'\n"),
+            "s/site.toml:2: the key line_where of [fence.a] is gone | write line_file = "
+            "\"FILE|subset=FILTER\"");
+  EXPECT_EQ(refusal("[fence.a]\nbreaklines_layer = 'a'\n").find("gone"), std::string::npos);
 }
 
 // docs/reference/site-file.md holds the table of keys; TALUS_PRINT_KEYS=1 prints what should stand
@@ -372,11 +395,11 @@ TEST(SiteLayers, ASectionOfALayerIsAsOneOfTheFile) {
 
 TEST(SiteLayers, WhatIsPrintedReadsBackWithoutTheLayers) {
   Site site = parse_site(whole, "s/site.toml");
-  take_sections(site, {section_of("fence", "road",
-                                  {{"line_file", "site.gpkg"}, {"line_where", "name = 'road'"}})});
+  const std::string file = "site.gpkg|layername=fences|subset=name = 'road'";
+  take_sections(site, {section_of("fence", "road", {{"line_file", file}})});
   const Site again = parse_site(print_config(site), "s/site.toml");
   ASSERT_EQ(again.fences.size(), 1u);
-  EXPECT_EQ(again.fences[0].line_where, "name = 'road'");
+  EXPECT_EQ(again.fences[0].line_file, file);
 }
 
 TEST(SiteLayers, AKeyIsSaidOnceAndHeldToItsRange) {
@@ -399,7 +422,6 @@ TEST(SiteLayers, EveryFieldOfALayerIsAKeyOfItsSection) {
       if (row.section == section) keys.insert(row.key);
     for (const std::string& field : layer.fields)
       EXPECT_TRUE(keys.count(field)) << layer.name << ": " << field;
-    for (const char* key : {"file", "layer", "where"})
-      EXPECT_TRUE(keys.count(layer.prefix + key)) << layer.name << ": " << key;
+    EXPECT_TRUE(keys.count(layer.prefix + "file")) << layer.name;
   }
 }

@@ -20,7 +20,6 @@ Vec3 random_vector(Random& random, double size) {
 struct Landing {
   std::vector<ImpactBody> bodies;
   std::vector<ImpactContact> contacts;
-  std::vector<ImpactRow> rows;
   Eigen::VectorXd before;
 
   Landing(Random& random, int n_contacts, bool grounded) {
@@ -45,12 +44,10 @@ struct Landing {
       c.point =
           Vec3(i % 2 == 0 ? 0.5 : -0.5, i % 4 < 2 ? 0.5 : -0.5, 0) + random_vector(random, 0.1);
       c.friction = random.uniform(0, 0.8);
+      c.arm_a = c.point - bodies[0].position;
+      if (!grounded) c.arm_b = c.point - bodies[1].position;
+      c.target = random.uniform(0, 0.5);
       contacts.push_back(c);
-      ImpactRow row;
-      row.arm_a = c.point - bodies[0].position;
-      if (!grounded) row.arm_b = c.point - bodies[1].position;
-      row.target = random.uniform(0, 0.5);
-      rows.push_back(row);
     }
   }
 
@@ -60,7 +57,7 @@ struct Landing {
       const ImpactBody& body = bodies[k];
       Vec3 v = body.velocity.head<3>(), spin = body.velocity.tail<3>();
       for (std::size_t j = 0; j < contacts.size(); ++j) {
-        const Vec3 p = sign * rows[j].impulse;
+        const Vec3 p = sign * contacts[j].impulse;
         v += body.per_mass * p;
         spin += body.per_inertia * (contacts[j].point - body.position).cross(p);
       }
@@ -81,12 +78,11 @@ TEST(SolveFew, WhatIsFoundIsTheLaw) {
   for (int k = 0; k < n_tried; ++k) {
     Landing landing(random, 2 + k % 7, k % 2 == 0);
     int passes = 0;
-    const bool found =
-        solve_few(landing.bodies, landing.contacts, landing.before, 3, landing.rows, few, passes);
+    const bool found = solve_few(landing.bodies, landing.contacts, landing.before, 3, few, passes);
     EXPECT_GT(passes, 0);
     n_found += found;
     for (std::size_t i = 0; i < landing.contacts.size(); ++i) {
-      const Vec3& p = landing.rows[i].impulse;
+      const Vec3& p = landing.contacts[i].impulse;
       if (!found) {
         EXPECT_TRUE(p.isZero(0));
         continue;
@@ -95,14 +91,14 @@ TEST(SolveFew, WhatIsFoundIsTheLaw) {
       const Vec3 u = landing.after(i);
       const double p_n = n.dot(p), cap = landing.contacts[i].friction * p_n;
       const Vec3 p_t = p - p_n * n, slip = u - n.dot(u) * n;
-      EXPECT_GE(n.dot(u), landing.rows[i].target - 1e-10);
+      EXPECT_GE(n.dot(u), landing.contacts[i].target - 1e-10);
       EXPECT_GE(p_n, -1e-11);
       EXPECT_LE(p_t.norm(), cap + 1e-10);
       if (p_n < 1e-9) {
         ++n_open;
         continue;
       }
-      EXPECT_NEAR(n.dot(u), landing.rows[i].target, 1e-10);
+      EXPECT_NEAR(n.dot(u), landing.contacts[i].target, 1e-10);
       const bool slides = slip.norm() > 1e-6;
       ++(slides ? n_slide : n_stick);
       if (!slides) continue;
@@ -125,14 +121,13 @@ TEST(SolveFew, CornersOfAFlatFaceShareTheLoad) {
     c.normal = Vec3::UnitZ();
     c.point = Vec3(i % 2 == 0 ? 0.5 : -0.5, i < 2 ? 0.5 : -0.5, 0);
     c.friction = 0;
-    landing.rows[i].arm_a = c.point - landing.bodies[0].position;
-    landing.rows[i].target = 1;
+    landing.contacts[i].arm_a = c.point - landing.bodies[0].position;
+    landing.contacts[i].target = 1;
   }
   int passes = 0;
-  ASSERT_TRUE(
-      solve_few(landing.bodies, landing.contacts, landing.before, 2, landing.rows, few, passes));
-  for (const ImpactRow& row : landing.rows)
-    EXPECT_NEAR(row.impulse.z(), 3 / landing.bodies[0].per_mass / 4, 1e-6);
+  ASSERT_TRUE(solve_few(landing.bodies, landing.contacts, landing.before, 2, few, passes));
+  for (const ImpactContact& c : landing.contacts)
+    EXPECT_NEAR(c.impulse.z(), 3 / landing.bodies[0].per_mass / 4, 1e-6);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST(GroundDoubts, SlopesCliffsAndPondsAreNone) {
   EXPECT_TRUE(find_ground_doubts(slope()).empty());
   Trn cliff = slope();
   for (int r = 0; r < 10; ++r)
-    for (int c = 0; c < 21; ++c) node(cliff, r, c) += 24;
+    for (int c = 0; c < 12; ++c) node(cliff, r, c) += 24;
   EXPECT_TRUE(find_ground_doubts(cliff).empty());
   Trn pond = slope();
   for (int r = 8; r < 12; ++r)
@@ -75,6 +75,17 @@ TEST(GroundDoubts, StepsAndDepthsBelowAllLandAreNamed) {
   EXPECT_EQ(count(find_ground_doubts(trn), GroundDoubtKind::below_land), 4 * 21);  // -510 m
   trn.origin.z() = -1500;
   EXPECT_TRUE(find_ground_doubts(trn).empty());
+}
+
+TEST(GroundDoubts, AStepAlongALineOfNodesIsASeam) {
+  Trn trn = slope();
+  for (int r = 0; r < 10; ++r)
+    for (int c = 0; c < 21; ++c) node(trn, r, c) += 7;
+  const std::vector<GroundDoubt> doubts = find_ground_doubts(trn);
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_EQ(doubts[0].kind, GroundDoubtKind::seam);
+  EXPECT_EQ(doubts[0].row, 9);
+  EXPECT_NEAR(doubts[0].expected - node(trn, 9, doubts[0].col), -7, 1e-9);
 }
 
 }  // namespace

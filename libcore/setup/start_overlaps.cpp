@@ -1,10 +1,10 @@
-#include "scene/start_overlaps.hpp"
+#include "setup/start_overlaps.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "scene/start_depth.hpp"
+#include "setup/start_depth.hpp"
 
 namespace talus {
 namespace {

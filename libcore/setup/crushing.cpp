@@ -1,4 +1,4 @@
-#include "scene/crushing.hpp"
+#include "setup/crushing.hpp"
 
 #include <algorithm>
 #include <cmath>

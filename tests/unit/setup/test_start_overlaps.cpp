@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/start_depth.hpp"
-#include "scene/start_overlaps.hpp"
+#include "setup/start_depth.hpp"
+#include "setup/start_overlaps.hpp"
 #include "verify/cases/cases.hpp"
 
 namespace {

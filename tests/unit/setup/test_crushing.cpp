@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "motion/rotation.hpp"
-#include "scene/crushing.hpp"
+#include "setup/crushing.hpp"
 #include "verify/cases/cases.hpp"
 
 namespace {

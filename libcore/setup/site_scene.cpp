@@ -1,4 +1,4 @@
-#include "scene/site_scene.hpp"
+#include "setup/site_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include "base/random.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
-#include "scene/crushing.hpp"
 #include "scene/make_scene.hpp"
 #include "scene/stems.hpp"
+#include "setup/crushing.hpp"
 
 namespace talus {
 namespace {
@@ -110,11 +110,8 @@ void add_jitter(Blocks& blocks, double size, std::uint64_t seed) {
 }  // namespace
 
 double time_step(const SolverSettings& solver) {
-  double dt = solver.time_step_s;
-  if (std::isnan(dt)) dt = solver.law == "paper" ? 1e-4 : Settings{}.dt;
-  if (!std::isnan(solver.min_time_step_s)) dt = std::max(dt, solver.min_time_step_s);
-  if (!std::isnan(solver.max_time_step_s)) dt = std::min(dt, solver.max_time_step_s);
-  return dt;
+  if (!std::isnan(solver.time_step_s)) return solver.time_step_s;
+  return solver.law == "paper" ? 1e-4 : Settings{}.dt;
 }
 
 Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/random.hpp"
-#include "scene/start_depth.hpp"
+#include "setup/start_depth.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "scene/site_scene.hpp"
+#include "setup/site_scene.hpp"
 
 namespace {
 

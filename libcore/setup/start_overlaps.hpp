@@ -1,4 +1,4 @@
-// libcore/scene/start_overlaps.hpp: public
+// libcore/setup/start_overlaps.hpp
 // Blocks that overlap before anything moves, with one another or with a fence: how deep, which two,
 // where; and blocks lifted out of the ground and moved apart.
 #pragma once

@@ -1,4 +1,4 @@
-// libcore/scene/site_scene.hpp: public
+// libcore/setup/site_scene.hpp: public
 // From a site file, its terrain and its blocks to the scene that is computed.
 #pragma once
 
@@ -27,8 +27,7 @@ struct SceneParts {
   std::vector<Canopy> canopies;         ///< of the forests that drag
 };
 
-/// The effective time step: [solver] time_step_s, else 5 ms for law talus and 0.1 ms for law paper,
-/// within min_time_step_s and max_time_step_s [s].
+/// [solver] time_step_s, else 5 ms for law talus and 0.1 ms for law paper [s].
 [[nodiscard]] double time_step(const SolverSettings& solver);
 
 /// How a site's run is computed: its solver's settings with the decisions of the plan. Without any

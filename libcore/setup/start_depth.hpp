@@ -1,4 +1,4 @@
-// libcore/scene/start_depth.hpp: public
+// libcore/setup/start_depth.hpp
 // How deep blocks stand in the ground before anything moves, and moving them as a set holds them.
 #pragma once
 

@@ -1,4 +1,4 @@
-#include "scene/start_depth.hpp"
+#include "setup/start_depth.hpp"
 
 #include <algorithm>
 #include <cmath>

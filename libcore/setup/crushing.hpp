@@ -1,4 +1,4 @@
-// libcore/scene/crushing.hpp
+// libcore/setup/crushing.hpp
 // How much load a block bears that is pressed through it before it is crushed: the strength of a
 // lump between two points.
 // in:    the blocks as cut, the strength of their rock

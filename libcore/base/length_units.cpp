@@ -1,0 +1,60 @@
+// The words that files write for units of length.
+#include "base/length_units.hpp"
+
+#include <initializer_list>
+#include <string_view>
+
+#include "base/text.hpp"
+
+namespace talus {
+namespace {
+
+struct Unit {
+  double metres;
+  std::initializer_list<std::string_view> words;
+};
+
+constexpr double us_foot = 1200.0 / 3937;
+
+const Unit units[] = {
+    {1,
+     {"m", "metre", "metres", "meter", "meters", "metro", "metros", "metri", "m\xc3\xa8tre",
+      "m\xc3\xa8tres", "masl", "mamsl", "msnm", "mslm"}},
+    {0.3048, {"ft", "foot", "feet", "internationalfoot", "internationalfeet", "intft", "ftint"}},
+    {us_foot,
+     {"usft", "ftus", "ussurveyfoot", "ussurveyfeet", "surveyfoot", "surveyfeet", "usfoot",
+      "usfeet", "footus", "ftussurvey"}},
+    {0.001, {"mm", "millimetre", "millimetres", "millimeter", "millimeters"}},
+    {0.01, {"cm", "centimetre", "centimetres", "centimeter", "centimeters"}},
+    {0.1, {"dm", "decimetre", "decimetres", "decimeter", "decimeters"}},
+    {1000, {"km", "kilometre", "kilometres", "kilometer", "kilometers"}},
+    {0.0254, {"in", "inch", "inches"}},
+    {0.9144, {"yd", "yard", "yards"}},
+};
+
+// In small letters, without blanks and signs.
+std::string letters_of(const std::string& word) {
+  std::string letters;
+  for (const char c : lower(word))
+    if (std::string_view(" ._-()[]").find(c) == std::string_view::npos) letters += c;
+  return letters;
+}
+
+}  // namespace
+
+bool is_no_unit(const std::string& word) {
+  const std::string letters = letters_of(word);
+  for (const char* none : {"", "unspecified", "unknown", "undefined", "none", "n/a"})
+    if (letters == none) return true;
+  return false;
+}
+
+double metres_in(const std::string& word) {
+  const std::string letters = letters_of(word);
+  for (const Unit& unit : units)
+    for (const std::string_view known : unit.words)
+      if (letters == known) return unit.metres;
+  return 0;
+}
+
+}  // namespace talus

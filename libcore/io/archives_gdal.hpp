@@ -1,0 +1,20 @@
+// libcore/io/archives_gdal.hpp
+// Archives (zip, tar) as they are downloaded, with one file of data.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/source_path.hpp"
+
+namespace talus {
+
+enum class Contents { vectors, rasters };
+
+/// What GDAL opens of a path: the one file of data where the path is an archive, else its source.
+/// Throws InputError where there is none, or several; Shapefiles of one folder are one. `remarks`
+/// gets a sentence on the member taken.
+[[nodiscard]] std::string source_in(const SourcePath& path, Contents contents,
+                                    std::vector<std::string>& remarks);
+
+}  // namespace talus

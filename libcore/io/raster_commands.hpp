@@ -1,0 +1,26 @@
+// libcore/io/raster_commands.hpp: public
+// Commands of GDAL that messages give for rasters. What they write says which cells are unknown.
+#pragma once
+
+#include <string>
+
+namespace talus {
+
+/// What the cells of a raster hold: how it is resampled.
+enum class CellKind { heights, values, classes };
+
+/// gdalwarp of `from` to a file called `to`: cells beyond the edge of `from` are unknown.
+/// `options`: further words, "-t_srs EPSG:32632"; may be empty.
+[[nodiscard]] std::string warp_command(CellKind kind, const std::string& options,
+                                       const std::string& from, const std::string& to);
+
+/// gdal_translate of `from` to a file called `to`, which is another name where `from` has it.
+[[nodiscard]] std::string translate_command(const std::string& options, const std::string& from,
+                                            const std::string& to);
+
+/// The command that makes metres of heights in units of `unit_m` metres. The copy is in `crs`, the
+/// code of a plan; empty: in the system of `from`.
+[[nodiscard]] std::string scale_command(double unit_m, const std::string& crs,
+                                        const std::string& from);
+
+}  // namespace talus

@@ -1,0 +1,48 @@
+#include "site/gone_keys.hpp"
+
+namespace talus {
+namespace {
+
+struct GoneKey {
+  const char *section, *key, *instead;
+};
+
+constexpr GoneKey gone_keys[] = {
+    {"solver", "min_time_step_s", "time_step_s = SECONDS"},
+    {"solver", "max_time_step_s", "time_step_s = SECONDS"},
+    {"terrain", "layer", R"(contours = "FILE|layername=LAYER")"},
+    {"terrain", "where", R"(contours = "FILE|subset=FILTER")"},
+    {"terrain", "breaklines_layer", R"(breaklines = "FILE|layername=LAYER")"},
+    {"terrain", "breaklines_where", R"(breaklines = "FILE|subset=FILTER")"},
+    {"terrain", "spots_layer", R"(spots = "FILE|layername=LAYER")"},
+    {"terrain", "spots_where", R"(spots = "FILE|subset=FILTER")"},
+    {"terrain", "boundary_layer", R"(boundary = "FILE|layername=LAYER")"},
+    {"terrain", "boundary_where", R"(boundary = "FILE|subset=FILTER")"},
+    {"source", "polygon_layer", R"(polygon_file = "FILE|layername=LAYER")"},
+    {"source", "polygon_where", R"(polygon_file = "FILE|subset=FILTER")"},
+    {"ground", "polygon_layer", R"(polygon_file = "FILE|layername=LAYER")"},
+    {"ground", "polygon_where", R"(polygon_file = "FILE|subset=FILTER")"},
+    {"blocks", "release_layer", R"(release_file = "FILE|layername=LAYER")"},
+    {"blocks", "release_where", R"(release_file = "FILE|subset=FILTER")"},
+    {"fence", "line_layer", R"(line_file = "FILE|layername=LAYER")"},
+    {"fence", "line_where", R"(line_file = "FILE|subset=FILTER")"},
+    {"forest", "polygon_layer", R"(polygon_file = "FILE|layername=LAYER")"},
+    {"forest", "polygon_where", R"(polygon_file = "FILE|subset=FILTER")"},
+    {"forest", "stems_layer", R"(stems_file = "FILE|layername=LAYER")"},
+    {"forest", "stems_where", R"(stems_file = "FILE|subset=FILTER")"},
+    {"place", "polygon_layer", R"(polygon_file = "FILE|layername=LAYER")"},
+    {"place", "polygon_where", R"(polygon_file = "FILE|subset=FILTER")"},
+    {"object", "layer", R"(file = "FILE|layername=LAYER")"},
+    {"object", "where", R"(file = "FILE|subset=FILTER")"},
+};
+
+}  // namespace
+
+std::string written_instead(const std::string& section, std::string_view key) {
+  for (const GoneKey& gone : gone_keys)
+    if (section.substr(0, section.find('.')) == gone.section && key == gone.key)
+      return gone.instead;
+  return "";
+}
+
+}  // namespace talus
