@@ -9,7 +9,7 @@ import glob, json
 of = {file[:-5]: sum(not option["positional"] for option in json.load(open(file))["options"]) for file in glob.glob("*.json")}
 n = sum(of.values())
 print(n, "options:", ", ".join(f"{tool} {of[tool]}" for tool in sorted(of)))
-assert n <= 248, n
+assert n <= 198, n
 PY
 expect 2 talus-dda site.toml --law paper
 says "hint: --law is gone: write --set solver.law=VALUE"
