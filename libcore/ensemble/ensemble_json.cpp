@@ -46,31 +46,24 @@ std::string bytes_of(const std::string& path) {
 
 // --- JSON ----------------------------------------------------------------------------------------
 
+// The keys of a member, but for what became of it.
+template <class Member, class Take>
+void each_key(Member& m, const Take& take) {
+  take("file", m.file), take("case", m.case_name), take("seed", m.seed), take("sample", m.sample);
+  take("unit", m.unit), take("weight", m.weight), take("run_id", m.run_id), take("why", m.why);
+  take("digest", m.digest), take("settings", m.settings), take("wanted", m.wanted);
+  take("mass", m.mass), take("seed_draws", m.seed_draws);
+}
+
 Json json_of(const EnsembleMember& m) {
-  return {{"file", m.file},         {"case", m.case_name},
-          {"seed", m.seed},         {"sample", m.sample},
-          {"unit", m.unit},         {"weight", m.weight},
-          {"run_id", m.run_id},     {"outcome", text(m.outcome)},
-          {"why", m.why},           {"digest", m.digest},
-          {"settings", m.settings}, {"wanted", m.wanted},
-          {"mass", m.mass},         {"seed_draws", m.seed_draws}};
+  Json json = {{"outcome", text(m.outcome)}};
+  each_key(m, [&json](const char* key, const auto& value) { json[key] = value; });
+  return json;
 }
 
 EnsembleMember member_of(const Json& json) {
   EnsembleMember m;
-  json.at("file").get_to(m.file);
-  json.at("case").get_to(m.case_name);
-  json.at("seed").get_to(m.seed);
-  json.at("sample").get_to(m.sample);
-  json.at("unit").get_to(m.unit);
-  json.at("weight").get_to(m.weight);
-  json.at("run_id").get_to(m.run_id);
-  json.at("why").get_to(m.why);
-  json.at("digest").get_to(m.digest);
-  json.at("settings").get_to(m.settings);
-  json.at("wanted").get_to(m.wanted);
-  json.at("mass").get_to(m.mass);
-  json.at("seed_draws").get_to(m.seed_draws);
+  each_key(m, [&json](const char* key, auto& value) { json.at(key).get_to(value); });
   const auto outcome = json.at("outcome").get<std::string>();
   for (const Outcome one : outcomes)
     if (outcome == text(one)) m.outcome = one;
