@@ -231,12 +231,19 @@ std::vector<RunArtifact> inputs_of(const std::string& db, const RunRecord& step)
   return files;
 }
 
+// A step that was repeated on the same inputs and wrote the same is one step.
+std::string what_it_did(const RunRecord& step) {
+  std::string words = step.content_id;
+  for (const RunArtifact& file : step.outputs) words += " " + file.sha256;
+  return words;
+}
+
 // Depth first, so that each step stands behind those whose outputs it reads.
 void add_steps(const std::string& db, const std::string& sha256, std::int64_t before,
-               std::set<std::int64_t>& seen, std::vector<RunRecord>& steps) {
+               std::set<std::string>& seen, std::vector<RunRecord>& steps) {
   if (sha256.empty()) return;
   RunRecord record = writer_of(db, sha256, before);
-  if (record.id == 0 || !seen.insert(record.id).second) return;
+  if (record.id == 0 || !seen.insert(what_it_did(record)).second) return;
   record.inputs = inputs_of(db, record);
   for (const RunArtifact& input : record.inputs)
     if (input.role != "part") add_steps(db, input.sha256, record.id, seen, steps);
@@ -253,7 +260,7 @@ void read_registry(const std::string& db, const ResultFolder& folder,
     if (places[i].part != nullptr) continue;  // its file may be gone
     add_limits(writer_of(db, sha256_of_file(places[i].file.string()), latest).checks, data.limits);
   }
-  std::set<std::int64_t> seen;
+  std::set<std::string> seen;
   const std::string a_map = std::string("maps/") + map_layers().front().name + ".tif";
   for (const std::string& name : {std::string("runout.gpkg"), a_map, std::string("fence.gpkg")})
     if (folder.has(name))
