@@ -45,6 +45,13 @@ struct MassShare {
   int barred = 0;           ///< steps for which it is no mass, since its forces were not found
 };
 
+/// What a block that sleeps carried when it fell asleep, of one neighbour.
+struct SleepLoad {
+  std::int32_t block = 0;    ///< asleep
+  std::int32_t by = 0;       ///< the neighbour
+  Vec6 load = Vec6::Zero();  ///< force, and couple about the centroid of `block` [N, N m]
+};
+
 /// What a block has slid, on ground whose friction follows that.
 struct SlidWay {
   double way = 0;   ///< [m]
@@ -136,6 +143,7 @@ struct State : BlockLives {  // clang-format off
   std::vector<std::vector<ContactMemory>> memory;  ///< contacts of block b with the ground and
                                                    ///< blocks of higher number       (n_blocks)
   std::vector<MassShare> mass;              ///< empty: none was in a mass so far       (n_blocks)
+  std::vector<SleepLoad> carried;           ///< sorted by block, by
   PairState pairs;                          ///< close pairs of blocks and their axes
   PlacedHulls placed;                       ///< where the pairs were searched last
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)

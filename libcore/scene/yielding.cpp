@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "contact/scales.hpp"
+#include "scene/sleep.hpp"
 #include "scene/stems.hpp"
 #include "solver/law_numbers.hpp"
 
@@ -44,7 +45,7 @@ void wake_sleepers_at(const Scene& scene, int body, int world, State& state) {
     if (state.phase[b] != Phase::asleep || world_of(scene, static_cast<int>(b)) != world) continue;
     const auto touches = [name](const ContactMemory& m) { return m.key.body_b == name; };
     if (std::any_of(state.memory[b].begin(), state.memory[b].end(), touches))
-      wake(state, b, state.time);
+      wake_bonded(static_cast<int>(b), state.time, state);
   }
 }
 

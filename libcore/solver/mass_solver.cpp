@@ -135,8 +135,9 @@ void sweep_turns(MassSystem& s) {
 // the bodies or over the mass, whichever is larger. So a heavy block does not hide many light ones,
 // nor do they hide it.
 double change_since_before(const MassSystem& s) {
-  double sum = 0, sum_of_mass = 0, mass = 0;
+  double sum = 0, sum_of_mass = 0, mass = 0, n = 0;
   for (size_t k = 0; k < s.inertia.size(); ++k) {
+    if (s.inertia[k].per_mass == 0) continue;
     double squared = 0;
     for (int i = 0; i < 3; ++i) {
       const double step = static_cast<double>(s.change[k].velocity[i]) -
@@ -147,8 +148,8 @@ double change_since_before(const MassSystem& s) {
     sum += squared;
     sum_of_mass += m * squared;
     mass += m;
+    ++n;
   }
-  const auto n = static_cast<double>(s.inertia.size());
   return std::sqrt(std::max(sum / n, sum_of_mass / mass));
 }
 

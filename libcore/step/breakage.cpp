@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "motion/rotation.hpp"
+#include "scene/sleep.hpp"
 #include "step/substep.hpp"
 
 namespace talus {
@@ -93,7 +94,7 @@ void free_bonds(int b, State& state) {
 void bring_up(const Scene& scene, int b, State& state, Work& work) {
   const auto i = static_cast<size_t>(b);
   if (state.phase[i] == Phase::flight) end_flight(scene, b, state.time, state, work);
-  if (state.phase[i] == Phase::asleep) wake(state, i, state.time);
+  if (state.phase[i] == Phase::asleep) wake_bonded(b, state.time, state);
 }
 
 void hit(const Scene& scene, int b, double loss, State& state, Work& work) {

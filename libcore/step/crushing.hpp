@@ -18,10 +18,10 @@
 namespace talus {
 
 /// Adds a contact of block b, with a normal impulse p_n >= 0 along the unit normal and `impulse` in
-/// all [N s], to its loads of the step. Blocks that nothing crushes take no note.
+/// all [N s], to its loads of the step. Blocks that sleep, or that nothing crushes, take no note.
 inline void add_load(const Scene& scene, int b, const Vec3& normal, double p_n, const Vec3& impulse,
                      State& state) {
-  if (b < 0 || std::isinf(scene.crush_load[static_cast<std::size_t>(b)])) return;
+  if (b < 0 || std::isinf(scene.crush_load[b]) || does_not_move(state.phase[b])) return;
   BlockLoad& load = state.load[static_cast<std::size_t>(b)];
   load.step_press += p_n * normal * normal.transpose();
   load.step_push += impulse;

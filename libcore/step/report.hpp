@@ -33,11 +33,12 @@ enum class SubstepCut : std::uint8_t {
   hit,               ///< a contact of a small island closes within it: ends there
   inaccurate,        ///< its forces change by more than Settings::accuracy allows: shorter
   bond_broken,       ///< a bond carries more than it holds: the same without it
+  woken,             ///< a block asleep carries what it did not fall asleep under: with it awake
   yielding_used_up,  ///< what gives way has taken all that it can: ends there
 };
-inline constexpr std::array<const char*, 7> substep_cut_names = {
-    "yielding_touched", "unconverged",     "deep", "hit", "inaccurate",
-    "bond_broken",      "yielding_used_up"};
+inline constexpr std::array<const char*, 8> substep_cut_names = {
+    "yielding_touched", "unconverged", "deep",  "hit",
+    "inaccurate",       "bond_broken", "woken", "yielding_used_up"};
 
 struct StepReport {
   StepFlag flags = StepFlag::none;

@@ -25,7 +25,8 @@ struct BlockNumbers {
   /// 0: all have `stiffness` [m]; the speed of slip or of opening from which it does not rest
   /// [m/s].
   double least_stiffness = 0, most_stiffness = 0, sag = 0, slow = 0;
-  bool rests = false;  ///< island: slower than that when the substep begins, or factored
+  bool stands = false;  ///< island: as fast as the ground, since it sleeps
+  bool rests = false;   ///< island: slower than that when the substep begins, or factored
 };
 
 /// A substep of `h`: where the block would be without contact.

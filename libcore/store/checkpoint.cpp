@@ -16,7 +16,7 @@ namespace talus {
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 72 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 112 &&
               sizeof(HealthRow) == 208 + 8 * substep_cut_names.size());
-static_assert(sizeof(State) == 8 + 22 * 24 + sizeof(HitChain) + sizeof(EnergyLedger) +
+static_assert(sizeof(State) == 8 + 23 * 24 + sizeof(HitChain) + sizeof(EnergyLedger) +
                                    sizeof(RunCounters) + sizeof(PairState) + sizeof(PlacedHulls) +
                                    sizeof(FenceState) + sizeof(YieldingState) + sizeof(Mishaps));
 static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
@@ -29,7 +29,7 @@ static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(L
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
 static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
               sizeof(Mishaps) == 5 * 48);
-static_assert(sizeof(MassShare) == 16);
+static_assert(sizeof(MassShare) == 16 && sizeof(SleepLoad) == 64);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
 template <class Archive>
@@ -122,6 +122,10 @@ void fields(Fields<Archive>& archive, MassShare& share) {
   archive(share.is_in_mass, share.calm, share.unsettled, share.barred);
 }
 template <class Archive>
+void fields(Fields<Archive>& archive, SleepLoad& load) {
+  archive(load.block, load.by, load.load);
+}
+template <class Archive>
 void fields(Fields<Archive>& archive, RunCounters& counters) {
   archive(counters.steps, counters.substeps, counters.flight_skips, counters.impacts,
           counters.passes, counters.unconverged, counters.cut_back, counters.left_domain);
@@ -199,15 +203,16 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.support, checkpoint.paper.rebound,
           state.rest_pose, state.rest_steps, state.strain, state.strain_rate, state.memory,
-          state.mass, state.pairs, state.placed, state.bonds, state.deep, state.slid, state.load,
-          state.crushed, state.hit_loss, state.n_hits, state.breaks, state.mishaps, state.yielding,
-          state.fence, state.stem_hits, state.stem_chain, state.ledger, state.counters,
-          checkpoint.trackers, checkpoint.sampler, checkpoint.interval, checkpoint.energy_start);
+          state.mass, state.carried, state.pairs, state.placed, state.bonds, state.deep, state.slid,
+          state.load, state.crushed, state.hit_loss, state.n_hits, state.breaks, state.mishaps,
+          state.yielding, state.fence, state.stem_hits, state.stem_chain, state.ledger,
+          state.counters, checkpoint.trackers, checkpoint.sampler, checkpoint.interval,
+          checkpoint.energy_start);
 }
 
 namespace {
 
-constexpr std::uint64_t format = 0x34316b6365686374;  // "tcheck14"
+constexpr std::uint64_t format = 0x35316b6365686374;  // "tcheck15"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {
@@ -231,6 +236,10 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
     return false;
   if (!state.load.empty() && state.load.size() != n_blocks) return false;
   if (!state.mass.empty() && state.mass.size() != n_blocks) return false;
+  for (const SleepLoad& load : state.carried)
+    if (std::min(load.block, load.by) < 0 ||
+        std::max(load.block, load.by) >= static_cast<int>(n_blocks))
+      return false;
   if (!checkpoint.paper.rebound.empty() && checkpoint.paper.rebound.size() != n_blocks)
     return false;
   for (const auto& [chain, n_hits] : {std::pair{&state.fence.chain, state.fence.hits.size()},

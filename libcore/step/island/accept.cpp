@@ -127,7 +127,7 @@ struct SubstepAcceptance {
   // What the contacts keep for the next step, and the work they did. In one piece: see
   // ContactMaker::add_points().
   [[gnu::flatten]] void remember() {
-    for (const int b : members.blocks) state.memory[b].clear();
+    forget_contacts(members, state);
     end.pressed.assign(members.size(), 0);
     end.ground_impulse.assign(members.size(), Vec3::Zero());
     for (size_t r = 0; r < system.contacts.size(); ++r) {
@@ -204,7 +204,7 @@ struct SubstepAcceptance {
   }
 
   void move_all() {
-    for (size_t k = 0; k < members.size(); ++k) move(k);
+    for (const int b : members.moving) move(members.at(b));
     for (const size_t r : hits.contacts_hit)
       for (const int b : {system.contacts[r].a, system.contacts[r].b})
         if (b >= 0) forget_rates(scene, b, state);

@@ -87,6 +87,7 @@ void wait_for_hit(size_t r, IslandSystem& system) {
 void take_member(const HitLooks& looks, size_t k, FreeMotions& free, IslandSystem& system,
                  SubstepHits& hits) {
   const BlockNumbers& c = looks.members.numbers[k];
+  if (c.stands) return;
   const Motion end = looks.motion_of(k, free.h);
   Substep& s = free.substeps[k];
   FreeTurn& turn = free.turns[k];

@@ -169,7 +169,9 @@ struct SubstepCheck {
   // did, or blocks are let go.
   [[nodiscard]] WayError error_of(size_t k) const {
     const size_t b = members.block(k);
-    if (hits.members[k].was_hit || state.acceleration[b] == scene.gravity) return {};
+    if (members.numbers[k].stands || hits.members[k].was_hit ||
+        state.acceleration[b] == scene.gravity)
+      return {};
     const Substep& s = free.substeps[k];
     const FreeTurn& turn = free.turns[k];
     const Vec6 by_contact = change(system.island, k);
@@ -196,14 +198,30 @@ struct SubstepCheck {
     return momentum > 0 ? share / momentum : 0;
   }
 
+  // --- sleep -----------------------------------------------------------------------------------
+
+  // Whether members asleep have to be awake in the substep. What is hit wakes.
+  [[nodiscard]] bool wakes_any() const {
+    if (!asks_for_presses(state, members)) return false;
+    list_presses(members, free.h, system, end.presses);
+    for (const int k : hits.hit_members.items)
+      if (phase_of(state, members.blocks[k]) == Phase::asleep)
+        end.woken.push_back(members.blocks[k]);
+    find_woken(scene, state, members, end);
+    return !end.woken.empty();
+  }
+
   // --- in this order ---------------------------------------------------------------------------
 
   [[nodiscard]] SubstepVerdict run(bool converged) const {
     using enum SubstepCut;
     const double h = free.h;
+    end.presses.clear();
+    end.woken.clear();
     if (!converged && can_ease(members, tries)) return SubstepVerdict::again(unconverged, h);
     if (!converged && tries.halvings < most_halvings)
       return SubstepVerdict::again(unconverged, h / 2);
+    if (wakes_any()) return SubstepVerdict::again(SubstepCut::woken, h);
     set_displacements(free.h, system, hits, end.displacement);
     if (tries.deep_cuts < most_rounds_in_substep)
       if (const double first = std::min(end_of_deepening_hit(), end_of_throw_into_ground());

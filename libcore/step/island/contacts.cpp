@@ -144,6 +144,7 @@ struct ContactMaker {
     const int b = members.blocks[k];
     const BlockNumbers& c = members.numbers[k];
     system.ground_pair.push_back(-1);
+    if (c.stands) return true;
     if (!scene.settings.trn_contacts) {
       system.fell_through |= is_below_ground(scene, b, s.free.pose.position);
       return true;

@@ -90,6 +90,7 @@ struct IslandMembers {  // clang-format off
   std::vector<int> blocks;                  ///< ascending
   std::vector<BlockNumbers> numbers;        ///<                                         (n_members)
   std::vector<int> place;                   ///< of a body in `blocks`, -1: not in it    (n_bodies)
+  std::vector<int> moving;                  ///< blocks that do not stand, ascending
   bool is_small = false;                    ///< the island's matrix is cheap to factor
   bool is_soft = false;                     ///< no load makes its contacts stiffer
   bool locates_hits = false;                ///< a hit ends the substep, as of a lone block
@@ -101,6 +102,16 @@ struct IslandMembers {  // clang-format off
   }
   [[nodiscard]] std::size_t at(int b) const { return static_cast<std::size_t>(place[b]); }
   [[nodiscard]] const BlockNumbers& of(int b) const { return numbers[at(b)]; }
+  [[nodiscard]] bool moves(int b) const { return place[b] >= 0 && !of(b).stands; }
+};
+
+/// Mass of a block over that with which it stands as fast as the ground: nothing feels the rest.
+inline constexpr double share_of_standing_mass = std::numeric_limits<double>::epsilon();
+
+/// What two members press each other with over a substep, on the mean.
+struct PairPress {
+  int a = 0, b = 0;  ///< blocks
+  Vec6 on_a, on_b;   ///< force, and couple about its centroid [N, N m]
 };
 
 // --- of a substep ------------------------------------------------------------------------------
@@ -238,6 +249,9 @@ struct SubstepEnd {  // clang-format off
   std::vector<BondFace> bond_faces;         ///< and what they carry                     (n_bonded)
   double error = 0;                         ///< estimated, as a share of the way [-]
   std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
+  std::vector<PairPress> presses;           ///< where they tell who sleeps
+  std::vector<Vec6> load_change;            ///< of those asleep                        (n_members)
+  std::vector<int> woken;                   ///< blocks asleep that have to be awake in it
   // 9 accept
   std::vector<std::uint8_t> pressed;        ///< 1: by a contact                         (n_members)
   std::vector<Vec3> ground_impulse;        ///< hits aside [N s]                        (n_members)

@@ -88,7 +88,8 @@ void HitLooks::begin() const {
     hits.members[k].motion = s.start;
     if (!scene.loads.empty())
       hits.members[k].torque = (s.free.angular_momentum - s.start.angular_momentum) / s.h;
-    if (bears(state, members.blocks[k]) || system.ground_pair[k] >= 0)
+    if (!members.numbers[k].stands &&
+        (bears(state, members.blocks[k]) || system.ground_pair[k] >= 0))
       set_borne(state, members, s, k, hits.members[k]);
   }
   const size_t n_pairs = system.island.pairs.size();

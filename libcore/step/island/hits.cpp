@@ -129,6 +129,11 @@ struct HitPhase {
     body.per_mass = 1 / c.mass;
     body.inertia = R * c.inertia.asDiagonal() * R.transpose();
     body.per_inertia = R * c.per_inertia.asDiagonal() * R.transpose();
+    if (c.stands) {
+      body.per_mass *= share_of_standing_mass;
+      body.inertia /= share_of_standing_mass;
+      body.per_inertia = R * (share_of_standing_mass * c.per_inertia).asDiagonal() * R.transpose();
+    }
     body.position = m.pose.position;
     body.velocity << m.velocity, body.per_inertia * m.angular_momentum;
     return body;

@@ -25,6 +25,15 @@ void gather_members(const Scene& scene, std::span<const int> blocks, IslandMembe
     members.place[members.block(k)] = static_cast<int>(k);
     members.numbers.push_back(numbers_of(scene, members.blocks[k]));
   }
+  members.moving = members.blocks;
+}
+
+void let_stand(const State& state, double t_end, IslandMembers& members) {
+  std::erase_if(members.moving, [&](int b) {
+    BlockNumbers& c = members.numbers[members.at(b)];
+    c.stands = does_not_move(phase_of(state, b)) || state.local_time[b] >= t_end;
+    return c.stands;
+  });
 }
 
 void release_members(IslandMembers& members) {

@@ -154,9 +154,9 @@ bool stands_for(const Scene& scene, const State& state, const PairManifold& m) {
   return stands(scene, state, world_of(scene, m.block_a), fixed_of(scene, m.block_b));
 }
 
-// Pairs of blocks within reach; true when one of them was asleep and now is not.
-bool join_pairs(const Scene& scene, State& state, PairSearch& search) {
-  bool woken = false;
+// Pairs of blocks within reach. Blocks asleep are in the island of what is near them, and join no
+// islands by what is between them.
+void join_pairs(const Scene& scene, const State& state, PairSearch& search) {
   search.joined.clear();
   search.joined_manifold.clear();
   for (size_t j = 0; j < search.pairs.manifolds.size(); ++j) {
@@ -171,22 +171,38 @@ bool join_pairs(const Scene& scene, State& state, PairSearch& search) {
     if (!takes_part(state, m.block_a) || !takes_part(state, m.block_b)) continue;
     search.joined.emplace_back(m.block_a, m.block_b);
     search.joined_manifold.push_back(static_cast<int>(j));
-    for (const int b : {m.block_a, m.block_b}) {
-      const auto i = static_cast<size_t>(b);
-      if (state.phase[i] != Phase::asleep) continue;
-      wake(state, i, state.time);
-      search.awake[i] = 1;
-      woken = true;
-    }
   }
-  return woken;
 }
 
-// Whether a manifold is between members, or of a member with a fixed body that stands.
+// Whether a manifold is between members of which one moves, or of one with a fixed body that
+// stands.
 bool in_island(const Scene& scene, const State& state, const IslandMembers& members,
                const PairManifold& m) {
-  return members.place[m.block_a] >= 0 &&
-         (is_fixed(scene, m.block_b) ? stands_for(scene, state, m) : members.place[m.block_b] >= 0);
+  if (is_fixed(scene, m.block_b)) return members.moves(m.block_a) && stands_for(scene, state, m);
+  return members.place[m.block_a] >= 0 && members.place[m.block_b] >= 0 &&
+         (members.moves(m.block_a) || members.moves(m.block_b));
+}
+
+// Blocks asleep that members come within reach of are members.
+void gather_sleepers(const Scene& scene, const State& state, const PairSearch& search,
+                     IslandMembers& members) {
+  std::vector<int> blocks;
+  const auto add = [&](int b, int other) {
+    if (phase_of(state, b) == Phase::asleep && members.place[b] < 0 && members.moves(other))
+      blocks.push_back(b);
+  };
+  for (const PairManifold& m : search.pairs.manifolds) {
+    if (is_fixed(scene, m.block_b)) continue;
+    add(m.block_a, m.block_b);
+    add(m.block_b, m.block_a);
+  }
+  if (blocks.empty()) return;
+  blocks.insert(blocks.end(), members.blocks.begin(), members.blocks.end());
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  release_members(members);
+  gather_members(scene, blocks, members);
+  let_stand(state, state.time + scene.settings.dt, members);
 }
 
 // Bounds how far a point of either part of a pair goes ahead as the other body sees it: of all
@@ -254,16 +270,17 @@ void take_pairs(const Scene& scene, const State& state, const PairSearch& search
   }
 }
 
-void find_pairs(const Scene& scene, const IslandMembers& members, double h, State& state,
-                PairSearch& search, std::vector<int>& manifolds) {
-  for (size_t k = 0; k < members.size(); ++k) {
-    search.moving[members.block(k)] = 1;
-    set_motion_ahead(scene, members.blocks[k], state.motion[members.block(k)], h, search);
+void find_pairs(const Scene& scene, double h, State& state, PairSearch& search,
+                IslandMembers& members, std::vector<int>& manifolds) {
+  for (const int b : members.moving) {
+    search.moving[b] = 1;
+    set_motion_ahead(scene, b, state.motion[b], h, search);
   }
   search.awake = search.moving;
   place_fixed(scene, state, search);
   search_marked(scene, h, state, search);
-  for (const int b : members.blocks) search.moving[b] = 0;
+  for (const int b : members.moving) search.moving[b] = 0;
+  gather_sleepers(scene, state, search, members);
   place_own_fixed(scene, members.blocks[0], state, search);
   search.is_of_step = false;
   manifolds.clear();
@@ -344,24 +361,13 @@ void form_islands(const Scene& scene, State& state, Work& work) {
     find_islands(n, {}, {}, search.groups);
     return;
   }
-  do search_marked(scene, scene.settings.dt, state, search);
-  while (join_pairs(scene, state, search));
-  find_islands(n, search.joined, {}, search.groups);
+  do {
+    search_marked(scene, scene.settings.dt, state, search);
+    join_pairs(scene, state, search);
+    find_islands(n, search.joined, {}, search.groups);
+  } while (wake_deserted(state, search));
   search.moving.assign(n, 0);
   search.is_of_step = true;
-}
-
-void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& work) {
-  const std::span<const int> blocks = blocks_of(work.search.groups, k);
-  int steps = law::steps_before_sleep;
-  for (const int b : blocks) {
-    if (!takes_part(state, b)) continue;
-    watch_rest(scene, static_cast<size_t>(b), state);
-    steps = std::min(steps, state.rest_steps[b]);
-  }
-  if (steps < law::steps_before_sleep) return;
-  for (const int b : blocks)
-    if (takes_part(state, b)) fall_asleep(scene, static_cast<size_t>(b), state);
 }
 
 }  // namespace talus

@@ -12,7 +12,7 @@ void add_body(const Scene& scene, const State& state, const BlockNumbers& c, con
               const FreeTurn& turn, size_t b, Island& island) {
   Vec6 free, guess;
   free << s.free.velocity, turn.spin_end;
-  if (state.acceleration[b] == scene.gravity)  // nothing pressed it
+  if (c.stands || state.acceleration[b] == scene.gravity)  // nothing pressed it
     guess = free;
   else
     guess << s.start.velocity + s.h * state.acceleration[b],
@@ -20,11 +20,21 @@ void add_body(const Scene& scene, const State& state, const BlockNumbers& c, con
   Mat6 M = Mat6::Zero();
   M.topLeftCorner<3, 3>().diagonal().setConstant(c.mass);
   M.bottomRightCorner<3, 3>() = s.R * c.inertia.asDiagonal() * s.R.transpose();
+  if (c.stands) M /= share_of_standing_mass;
   island.mass.push_back(M);
   island.free_velocity.push_back(free);
   island.velocity.push_back(guess);
   island.position.push_back((s.start.pose.position + s.free.pose.position) / 2);
   island.radius.push_back(c.radius);
+}
+
+// The substep of what stands.
+Substep stand(const Pose& pose, double h) {
+  Substep s;
+  s.h = h;
+  s.start.pose = s.free.pose = pose;
+  s.R = s.R_start = pose.attitude.toRotationMatrix();
+  return s;
 }
 
 void clear_bodies(Island& island) {
@@ -47,7 +57,9 @@ void predict_free(const Scene& scene, const State& state, const IslandMembers& m
     for (size_t k = begin; k < end; ++k) {
       const BlockNumbers& c = members.numbers[k];
       Substep& s = free.substeps[k];
-      s = predict(scene, members.blocks[k], c, begin_drag(scene, state, members.block(k), h), t, h);
+      s = c.stands ? stand(state.motion[members.block(k)].pose, h)
+                   : predict(scene, members.blocks[k], c,
+                             begin_drag(scene, state, members.block(k), h), t, h);
       free.turns[k] = {s.R * s.R_start.transpose(), s.R_start * s.spin_start, s.R * s.spin_free,
                        s.R * c.per_inertia.asDiagonal() * s.R.transpose()};
     }

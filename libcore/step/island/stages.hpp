@@ -21,6 +21,8 @@ namespace talus {
 // --- 1 gather_members (step/island/members.cpp)
 /// Fills `members` but for what follows from their pairs.
 void gather_members(const Scene& scene, std::span<const int> blocks, IslandMembers& members);
+/// Members that sleep, or that the step has moved already in the island that woke them, stand.
+void let_stand(const State& state, double t_end, IslandMembers& members);
 /// The bodies of `members` are in no island any more.
 void release_members(IslandMembers& members);
 
@@ -33,9 +35,9 @@ void place_own_fixed(const Scene& scene, int b, State& state, PairSearch& search
 void take_pairs(const Scene& scene, const State& state, const PairSearch& search, int k,
                 const IslandMembers& members, std::vector<int>& manifolds);
 /// Fills `search` and `manifolds` with the pairs at the poses of now, for at most `h` ahead. Of the
-/// state, what it remembers of pairs.
-void find_pairs(const Scene& scene, const IslandMembers& members, double h, State& state,
-                PairSearch& search, std::vector<int>& manifolds);
+/// state, what it remembers of pairs. Blocks asleep that members come within reach of join them.
+void find_pairs(const Scene& scene, double h, State& state, PairSearch& search,
+                IslandMembers& members, std::vector<int>& manifolds);
 /// The longest substep, up to `h`, over which the contacts found at its start still describe the
 /// motion.
 [[nodiscard]] double longest_substep(const Scene& scene, const State& state,
@@ -133,6 +135,23 @@ void set_displacements(double h, const IslandSystem& system, const SubstepHits& 
 /// Motion of member k at the end of the substep.
 [[nodiscard]] Motion end_of(const IslandMembers& members, const FreeMotions& free,
                             const IslandSystem& system, const SubstepEnd& end, std::size_t k);
+
+// --- who sleeps (step/island/sleepers.cpp); the mass step asks too
+/// Whether it matters what the members press each other with: one sleeps, or may soon.
+[[nodiscard]] bool asks_for_presses(const State& state, const IslandMembers& members);
+void list_presses(const IslandMembers& members, double h, const IslandSystem& system,
+                  std::vector<PairPress>& presses);
+/// Adds to the woken of `end` the members asleep that do not carry what they fell asleep under.
+void find_woken(const Scene& scene, const State& state, const IslandMembers& members,
+                SubstepEnd& end);
+/// Clears the memory of the members' contacts, but for those between members that stand.
+void forget_contacts(const IslandMembers& members, State& state);
+/// They move with the others, from `t` on.
+void wake_members(const Scene& scene, double t, std::span<const int> woken, State& state,
+                  IslandMembers& members);
+/// Wakes the blocks asleep of which a neighbour awake is in no island with them any more. Whether
+/// there is one.
+[[nodiscard]] bool wake_deserted(State& state, PairSearch& search);
 
 // --- 9 accept (step/island/accept.cpp)
 /// The substep holds: fills motion, memory, bonds, yielding bodies and ledger of the state, the

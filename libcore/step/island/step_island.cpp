@@ -68,6 +68,8 @@ void note_cut(SubstepCut reason, const SubstepEnd& end, const IslandMembers& mem
       for (const BondFace& face : end.bond_faces)
         if (!holds(face)) tries.broken.push_back(face);
       break;
+    case SubstepCut::woken:
+      break;
     case SubstepCut::yielding_used_up:
       ++tries.used_up_cuts;
       break;
@@ -85,8 +87,8 @@ void note_accuracy(const Scene& scene, double h, double error, SubstepTries& tri
   tries.longest = longest_after(scene.settings, error, h, tries.longest);
 }
 
-// Stages 4 to 9: attempts from `t`, the first over `h`, until one holds or a member is found off
-// the known ground.
+// Stages 4 to 9: attempts from `t`, the first over `h`, until one holds, a member is found off the
+// known ground, or one wakes.
 void make_substep(const Scene& scene, double t, double h, State& state, Work& work,
                   StepReport& report) {
   IslandScratch& w = work.island;
@@ -109,6 +111,7 @@ void make_substep(const Scene& scene, double t, double h, State& state, Work& wo
     note_cut(verdict.reason, w.end, w.members, w.tries);
     if (verdict.reason == SubstepCut::unconverged)
       choose_stiffness(scene, state, work.search, w.manifolds, w.tries.eased, w.members);
+    if (verdict.reason == SubstepCut::woken) return;
     h = verdict.h;
     if (verdict.reason == SubstepCut::inaccurate) w.tries.longest = h;
   }
@@ -135,6 +138,7 @@ void stop_outsiders(const Scene& scene, double t_end, State& state, Work& work,
   }
   release_members(members);
   gather_members(scene, stay, members);
+  let_stand(state, t_end, members);
   work.search.is_of_step = false;
 }
 
@@ -150,7 +154,7 @@ double prepare_substep(const Scene& scene, int k, bool is_mass, double t, double
       place_own_fixed(scene, w.members.blocks[0], state, search);
       take_pairs(scene, state, search, k, w.members, w.manifolds);
     } else {
-      find_pairs(scene, w.members, ahead, state, search, w.manifolds);
+      find_pairs(scene, ahead, state, search, w.members, w.manifolds);
     }
   }
   const StageTimer timer(w.clock, IslandStage::choose_stiffness);
@@ -181,7 +185,9 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
   {
     const StageTimer timer(w.clock, IslandStage::gather_members);
     gather_members(scene, blocks_of(work.search.groups, k), w.members);
+    let_stand(state, t_end, w.members);
   }
+  w.end.presses.clear();
   w.tries.deep_cuts = w.tries.eased = w.tries.hits = 0;
   w.tries.last_h = t_end - state.time;
   w.tries.longest = no_normal_limit;
@@ -190,7 +196,8 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
   bool is_mass = t > 0 && moves_as_mass(scene, w.members, state);
   if (was_mass && !is_mass) work.search.is_of_step = false;  // points that do not close are missing
   if (is_mass && !was_mass) release_exact_step(w);
-  while (t < t_end && !w.members.blocks.empty()) {
+  while (t < t_end && !w.members.moving.empty()) {
+    w.end.woken.clear();
     const double longest = prepare_substep(scene, k, is_mass, t, ahead, state, work);
     const bool is_tried = t == 0 && begins_as_mass(scene, longest, state, work);
     if (is_tried) is_mass = true;
@@ -198,13 +205,17 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
       make_mass_substep(scene, t, longest, is_tried, state, work, report);
     else
       make_substep(scene, t, std::min(longest, w.tries.longest), state, work, report);
-    t = state.local_time[w.members.block(0)];
+    if (!w.end.woken.empty()) {
+      wake_members(scene, t, w.end.woken, state, w.members);
+      work.search.is_of_step = false;
+    }
+    t = state.local_time[w.members.moving.front()];
     if (t_end - t < 1e-9 * scene.settings.dt) t = t_end;
     stop_outsiders(scene, t_end, state, work, report);
     // pairs that are far apart when a long step begins cost the most, and bear nothing yet
     ahead = (t_end - t) / std::ceil((t_end - t) / (law::substeps_ahead * longest));
   }
-  for (const int b : w.members.blocks) state.local_time[b] = t_end;
+  for (const int b : w.members.moving) state.local_time[b] = t_end;
   release_members(w.members);
   place_own_fixed(scene, -1, state, work.search);
 }

@@ -504,7 +504,8 @@ void advance_lone(const Scene& scene, int b, double t_end, State& state, Work& w
                   StepReport& report) {
   const auto i = static_cast<size_t>(b);
   if (!state.mass.empty()) state.mass[i] = {};
-  if (does_not_move(state.phase[i])) return;
+  // or it has made its step in the island that woke it
+  if (does_not_move(state.phase[i]) || state.local_time[i] >= t_end) return;
   if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end && scene.settings.flight) {
     ++state.counters.flight_skips;
     return;

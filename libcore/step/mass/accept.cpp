@@ -10,6 +10,7 @@
 #include "solver/law_numbers.hpp"
 #include "step/breakage.hpp"
 #include "step/deep_blocks.hpp"
+#include "step/island/stages.hpp"
 #include "step/mass/stages.hpp"
 #include "step/soil.hpp"
 #include "step/substep.hpp"
@@ -118,7 +119,8 @@ void sum_impulses(const MassEnd& end, std::vector<MassChange>& changes) {
   });
   for (const MassTurn& turn : w.system.turns)
     changes[w.system.pairs[turn.pair].a].couple += turn.couple;
-  for (size_t k = 0; k < changes.size(); ++k) {
+  for (const int b : end.members.moving) {
+    const size_t k = end.members.at(b);
     changes[k].velocity = end.members.numbers[k].per_mass * changes[k].impulse;
     changes[k].spin = w.members[k].per_inertia * changes[k].couple;
   }
@@ -182,7 +184,7 @@ struct MassAcceptance : MassEnd {
   }
 
   void take_contacts() {
-    for (const int b : members.blocks) state.memory[b].clear();
+    forget_contacts(members, state);
     for_each_pressed([&](size_t r, const MassPair& pair, const PressedRow& row) {
       const MassContact& contact = w.contacts[r];
       const double gap = gap_end(pair, row, contact.gap_free);
@@ -269,7 +271,7 @@ struct MassAcceptance : MassEnd {
     take_contacts();
     if (!state.slid.empty())
       for (size_t k = 0; k < members.size(); ++k) slide(k);
-    for (size_t k = 0; k < members.size(); ++k) move(k);
+    for (const int b : members.moving) move(members.at(b));
     note_touched();
     take_pushes(scene, w.pushes, free.t + free.h, state);
   }

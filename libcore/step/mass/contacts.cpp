@@ -64,6 +64,10 @@ struct MassMaker {
     out.outsider = -1;
   }
 
+  [[nodiscard]] double per_mass_of(size_t k) const {
+    return members.numbers[k].stands ? 0 : members.numbers[k].per_mass;
+  }
+
   void set_member(size_t k) {
     const Substep& s = free.substeps[k];
     const FreeTurn& turn = free.turns[k];
@@ -79,14 +83,10 @@ struct MassMaker {
     set_middle(members.numbers[k], members.block(k), s, m);
     const Mat3& P = m.per_inertia;
     const auto single = [](double x) { return static_cast<float>(x); };
-    w.system.inertia[k] = {single(P(0, 0)),
-                           single(P(1, 1)),
-                           single(P(2, 2)),
-                           single(P(0, 1)),
-                           single(P(0, 2)),
-                           single(P(1, 2)),
-                           single(members.numbers[k].per_mass),
-                           single(members.numbers[k].radius)};
+    w.system.inertia[k] = {single(P(0, 0)),        single(P(1, 1)),
+                           single(P(2, 2)),        single(P(0, 1)),
+                           single(P(0, 2)),        single(P(1, 2)),
+                           single(per_mass_of(k)), single(members.numbers[k].radius)};
   }
 
   void set_middle(const BlockNumbers& c, size_t b, const Substep& s, MassMember& m) const {
@@ -97,6 +97,7 @@ struct MassMaker {
     m.attitude = free_rotation(start.attitude, m.momentum, c.inertia, free.h / 2);
     const Mat3 R = m.attitude.toRotationMatrix();
     m.per_inertia = R * c.per_inertia.asDiagonal() * R.transpose();
+    if (c.stands) m.per_inertia.setZero();
     m.spin = m.per_inertia * m.momentum;
   }
 
@@ -119,7 +120,7 @@ struct MassMaker {
     const auto mobility = [&](int b, const Vec3& arm) {
       const size_t k = members.at(b);
       const Vec3 turn = arm.cross(n);
-      return members.numbers[k].per_mass + turn.dot(w.members[k].per_inertia * turn);
+      return per_mass_of(k) + turn.dot(w.members[k].per_inertia * turn);
     };
     double W = mobility(contact.a, motion.arm_a);
     if (contact.b >= 0) W += mobility(contact.b, motion.arm_b);
@@ -204,6 +205,7 @@ struct MassMaker {
     const Substep& s = free.substeps[k];
     const int b = members.blocks[k];
     const BlockNumbers& c = members.numbers[k];
+    if (c.stands) return true;
     if (!scene.settings.trn_contacts) {
       out.fell_through |= is_below_ground(scene, b, s.free.pose.position);
       return true;
@@ -374,8 +376,8 @@ struct MassMaker {
     reach = mass_reach(scene, free.h);
     recovery_time = members.numbers.front().recovery_time;
     // without shares of a mass it is the first step: nothing is remembered
-    compliance =
-        mass_compliance(scene, state.mass.empty() ? MassShare{} : state.mass[members.block(0)]);
+    compliance = mass_compliance(
+        scene, state.mass.empty() ? MassShare{} : state.mass[members.moving.front()]);
   }
   // Members [from, to), and what they have with the ground.
   void add_members(size_t from, size_t to) {

@@ -15,18 +15,18 @@ using std::size_t;
 constexpr double default_accuracy = Settings{}.accuracy;
 
 int faster_than(const IslandMembers& members, const State& state, double speed) {
-  return static_cast<int>(std::count_if(members.blocks.begin(), members.blocks.end(), [&](int b) {
+  return static_cast<int>(std::count_if(members.moving.begin(), members.moving.end(), [&](int b) {
     return state.motion[static_cast<size_t>(b)].velocity.norm() > speed;
   }));
 }
 
 bool has_bonds(const IslandMembers& members, const State& state) {
-  const auto is_member = [&](int b) { return members.place[static_cast<size_t>(b)] >= 0; };
   return std::any_of(state.bonds.begin(), state.bonds.end(),
                      [&](const BlockBond& bond) {
-                       return bond.area > 0 && is_member(bond.block_a) && is_member(bond.block_b);
+                       return bond.area > 0 && members.moves(bond.block_a) &&
+                              members.moves(bond.block_b);
                      }) ||
-         std::any_of(members.blocks.begin(), members.blocks.end(), [&](int b) {
+         std::any_of(members.moving.begin(), members.moving.end(), [&](int b) {
            const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
            return std::any_of(memory.begin(), memory.end(),
                               [](const ContactMemory& contact) { return contact.bond_area > 0; });
@@ -40,7 +40,7 @@ int calm_steps(const Scene& scene) {
 
 template <class Visit>
 void for_each(const IslandMembers& members, State& state, const Visit& visit) {
-  for (const int b : members.blocks) visit(state.mass[static_cast<size_t>(b)]);
+  for (const int b : members.moving) visit(state.mass[static_cast<size_t>(b)]);
 }
 
 void become_mass(const IslandMembers& members, const MassShare& share, State& state) {
@@ -56,13 +56,13 @@ bool has_settled(const Scene& scene, double h, double change) {
 
 bool is_any_in_mass(const IslandMembers& members, const State& state) {
   return !state.mass.empty() &&
-         std::any_of(members.blocks.begin(), members.blocks.end(),
+         std::any_of(members.moving.begin(), members.moving.end(),
                      [&](int b) { return state.mass[static_cast<size_t>(b)].is_in_mass; });
 }
 
 bool may_be_mass(const Scene& scene, const IslandMembers& members, const State& state) {
   return scene.settings.masses && !(scene.settings.normal_stiffness > 0) &&
-         static_cast<int>(members.size()) >= mass::least_size && !has_bonds(members, state);
+         static_cast<int>(members.moving.size()) >= mass::least_size && !has_bonds(members, state);
 }
 
 bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& state) {
@@ -87,7 +87,7 @@ bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& stat
       all.unsettled = std::max(all.unsettled, share.unsettled);
     });
   }
-  if (2 * n_in_mass > static_cast<int>(members.size())) {
+  if (2 * n_in_mass > static_cast<int>(members.moving.size())) {
     const bool is_calm =
         faster_than(members, state, by_gravity) <= static_cast<int>(law::few_blocks);
     all.calm = is_calm ? all.calm + 1 : 0;
@@ -133,7 +133,7 @@ void note_solution(const Scene& scene, const IslandMembers& members, double h,
   for_each(members, state,
            [&](MassShare& share) { share.unsettled = is_settled ? 0 : share.unsettled + 1; });
   if (is_settled) return;
-  note_unconverged(members.blocks.front(), report);
+  note_unconverged(members.moving.front(), report);
   report.flags = report.flags | StepFlag::unconverged;
 }
 

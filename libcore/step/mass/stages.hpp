@@ -70,6 +70,10 @@ void note_solution(const Scene& scene, const IslandMembers& members, double h,
 void find_mass_changes(const Scene& scene, const State& state, const PairSearch& search,
                        const IslandMembers& members, const FreeMotions& free, MassScratch& w);
 
+/// As of the exact step, see step/island/stages.hpp.
+void list_presses(const IslandMembers& members, double h, const MassScratch& w,
+                  std::vector<PairPress>& presses);
+
 // --- 5 accept_mass (step/mass/accept.cpp)
 /// Fills motion, memory, yielding bodies and ledger of the state, the segments, and the report.
 /// The memory is that of the exact step, which can go on from it, as this step can from that one's.

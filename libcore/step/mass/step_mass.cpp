@@ -49,6 +49,17 @@ void solve_contacts(const Scene& scene, const MassSettings& settings, const Stat
   find_mass_changes(scene, state, work.search, island.members, island.free, w);
 }
 
+// Whether members asleep have to be awake in the substep of `h`.
+bool wakes_any(const Scene& scene, double h, const State& state, Work& work) {
+  SubstepEnd& end = work.island.end;
+  end.presses.clear();
+  end.woken.clear();
+  if (!asks_for_presses(state, work.island.members)) return false;
+  list_presses(work.island.members, h, work.mass, end.presses);
+  find_woken(scene, state, work.island.members, end);
+  return !end.woken.empty();
+}
+
 }  // namespace
 
 bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, State& state,
@@ -57,12 +68,16 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
   MassScratch& w = work.mass;
   island.system.outsider = -1;
   for (int cuts = 0;; ++cuts) {
-    const MassShare& share = state.mass[island.members.block(0)];
+    const MassShare& share = state.mass[island.members.moving.front()];
     if (!is_tried || cuts > 0) {
       if (!predict_contacts(scene, t, h, state, work)) return false;
       solve_contacts(scene, settings_of(scene, share, h, work.workers), state, work);
     }
     report.passes += w.solved.sweeps;
+    if (wakes_any(scene, h, state, work)) {
+      ++report.cuts[static_cast<std::size_t>(SubstepCut::woken)];
+      return false;
+    }
     const StageTimer timer(island.clock, IslandStage::accept);
     const double used_up = time_to_first_break(scene, state.yielding, w.pushes, h);
     if (used_up < h && cuts < law::most_repetitions) {

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/workers.hpp"
 #include "motion/rotation.hpp"
+#include "scene/sleep.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/step.hpp"
 #include "step/substep.hpp"
@@ -100,6 +102,196 @@ TEST(StepIsland, MassThatCameToRestFallsAsleep) {
   const auto n_asleep = std::count(state.phase.begin(), state.phase.end(), Phase::asleep);
   EXPECT_EQ(n_asleep, std::ssize(state.phase));
   EXPECT_LT(fastest, 1e-3);
+}
+
+// --- blocks asleep beside others ---------------------------------------------------------------
+
+constexpr double g = 10;
+
+long n_asleep(const State& state) {
+  return std::count(state.phase.begin(), state.phase.end(), Phase::asleep);
+}
+
+// A pyramid of square layers of bricks, each on four others, that settles when it begins.
+std::vector<Body> pyramid(int bricks_along, int layers) {
+  std::vector<Body> bricks;
+  for (int k = 0; k < layers; ++k)
+    for (int j = 0; j < bricks_along - k; ++j)
+      for (int i = 0; i < bricks_along - k; ++i) {
+        const Vec3 low(i + 0.5 * k + 0.002 * ((7 * i + 3 * j + k) % 5),
+                       j + 0.5 * k + 0.002 * ((5 * j + i) % 4), 0.52 * k);
+        bricks.push_back(body_of(box(low, low + Vec3(0.985, 0.985, 0.5))));
+      }
+  return bricks;
+}
+
+std::vector<Body> column(int n) {
+  std::vector<Body> cubes;
+  for (int k = 0; k < n; ++k)
+    cubes.push_back(body_of(box(Vec3(-0.5, -0.5, k), Vec3(0.5, 0.5, k + 1))));
+  return cubes;
+}
+
+Scene on_level_ground(const std::vector<Body>& bodies, double restitution = 0) {
+  return scene_of(plane_trn(slope_frame(0, 0), 0.5, 40), ground_of(30, restitution), bodies, {});
+}
+
+void run_until(const Scene& scene, double time, State& state, Workers* workers = nullptr) {
+  Work work = make_work(scene, workers);
+  while (state.time < time - 1e-9) step(scene, state, work);
+}
+
+// How far the blocks of two runs are apart at most [m].
+double distance(const Scene& scene, const State& one, const State& other) {
+  double apart = 0;
+  for (int b = 0; b < n_blocks(scene); ++b)
+    apart = std::max(apart, (motion_at(scene, one, b, one.time).pose.position -
+                             motion_at(scene, other, b, other.time).pose.position)
+                                .norm());
+  return apart;
+}
+
+// Where the blocks are after `time` of a run from `state`, as it is and with all blocks awake: how
+// far they are apart.
+struct Pair {
+  State slept, awake;
+  double apart = 0;  // [m]
+};
+Pair with_and_without_sleep(const Scene& scene, const State& state, double time) {
+  Pair runs{state, state};
+  Scene sleepless = scene;
+  sleepless.settings.sleep = false;
+  for (int b = 0; b < n_blocks(scene); ++b)
+    if (phase_of(state, b) == Phase::asleep) wake(runs.awake, b, state.time);
+  runs.awake.carried.clear();
+  run_until(scene, state.time + time, runs.slept);
+  run_until(sleepless, state.time + time, runs.awake);
+  runs.apart = distance(scene, runs.slept, runs.awake);
+  return runs;
+}
+
+// What blocks err by in `time`, that would move were they not asleep: the accelerations that do not
+// wake them [m].
+double missed_in(double time) { return law::least_speed * g * time * time / 2; }
+
+// A force drags a block along the foot of bricks that rest. Work is that of the block and of what
+// it touches, whatever else sleeps, and it creeps as far as if all were awake.
+TEST(Sleepers, OneThatCreepsKeepsItsNeighboursAwakeAlone) {
+  for (const int along : {8, 14}) {
+    std::vector<Body> bodies = pyramid(along, 2);
+    bodies.push_back(body_of(box(Vec3(0.5, -1, 0), Vec3(1.5, 0, 0.5))));
+    Scene scene = on_level_ground(bodies);
+    scene.ground.classes[0].drag_per_time = 5;
+    const int creeper = n_blocks(scene) - 1;
+    const double friction = scene.ground.classes[0].friction;
+    PointLoad load;
+    load.block = creeper;
+    load.force = scene.blocks.mass[creeper] * Vec3(0.075 + 1.02 * g * friction, 0.02 * g, 0);
+    scene.loads = {load};
+    State state = start(scene);
+    run_until(scene, 2, state);
+    const State before = state;
+    Work work = make_work(scene);
+    int moved = 0;
+    for (int i = 0; i < 200; ++i) moved += step(scene, state, work).substeps;
+    EXPECT_LE(moved, 10 * 200) << along;
+    EXPECT_GE(n_asleep(state), creeper - 8) << along;
+    EXPECT_GT(state.motion[creeper].pose.position.x(),
+              before.motion[creeper].pose.position.x() + 0.02)
+        << along;
+    const double resolved = g * scene.settings.dt * scene.settings.dt;
+    EXPECT_LT(with_and_without_sleep(scene, before, 1).apart, resolved) << along;
+  }
+}
+
+// What stands on a foot that is pulled away wakes in that step, and falls as if it had not slept.
+TEST(Sleepers, AColumnWhoseFootIsPulledAwayWakes) {
+  const Scene scene = on_level_ground(column(10));
+  State state = start(scene);
+  run_until(scene, 2, state);
+  ASSERT_EQ(n_asleep(state), 10);
+  wake_bonded(0, state.time, state);
+  state.motion[0].velocity.x() = 20;
+  State next = state;
+  run_until(scene, next.time + scene.settings.dt, next);
+  EXPECT_EQ(n_asleep(next), 0);
+  EXPECT_LT(with_and_without_sleep(scene, state, 0.4).apart, missed_in(0.4));
+}
+
+// A block falls on a pile that sleeps. Where the bricks go depends on when in a step it hits: sleep
+// changes that by no more than another time of the hit does.
+TEST(Sleepers, APileThatIsHitWakesInTheStepOfTheHit) {
+  std::vector<Body> bodies = pyramid(4, 4);
+  bodies.push_back(body_of(box(Vec3(1.2, 1.3, 45), Vec3(2.2, 2.3, 46))));
+  const Scene scene = on_level_ground(bodies, 0.5);
+  State state = start(scene), before;
+  run_until(scene, 2.8, state);
+  ASSERT_EQ(n_asleep(state), 30);
+  Work work = make_work(scene);
+  for (const std::int64_t impacts = state.counters.impacts; state.counters.impacts == impacts;) {
+    ASSERT_LT(state.time, 4);
+    before = state;
+    step(scene, state, work);
+  }
+  EXPECT_LT(n_asleep(state), 15);
+  const Pair runs = with_and_without_sleep(scene, before, 0.5);
+  double scatter = 0;
+  for (const double higher : {-0.04, -0.02, 0.02, 0.04, 0.06}) {
+    State shifted = before;
+    shifted.motion.back().pose.position.z() += higher;
+    scatter = std::max(
+        scatter, distance(scene, with_and_without_sleep(scene, shifted, 0.5).awake, runs.awake));
+  }
+  EXPECT_LT(runs.apart, scatter);
+}
+
+// A plate that leans on a block falls when that goes.
+TEST(Sleepers, WhatLeansOnABlockThatLeavesWakes) {
+  const Mat3 lean = rotation_by(Vec3(0, std::numbers::pi / 6, 0)).toRotationMatrix();
+  const std::vector<Body> bodies = {
+      body_of(box(Vec3(0.2, -1, 0), Vec3(1.2, 1, 1))),
+      body_of(moved(box(Vec3(-1.2, -0.5, 0), Vec3(-1, 0.5, 2.2)), lean, Vec3(-1, 0, 0)))};
+  const Scene scene = on_level_ground(bodies);
+  State state = start(scene);
+  run_until(scene, 4, state);
+  ASSERT_EQ(n_asleep(state), 2);
+  wake_bonded(0, state.time, state);
+  state.motion[0].velocity.x() = 10;
+  const Pair runs = with_and_without_sleep(scene, state, 0.5);
+  EXPECT_LT(runs.awake.motion[1].pose.position.z(), state.motion[1].pose.position.z() - 0.1);
+  EXPECT_LT(runs.apart, missed_in(0.5));
+}
+
+TEST(Sleepers, AreNoneWhereTheGroundShakes) {
+  Scene scene = on_level_ground(column(3));
+  scene.base = {{0, 9}, {Vec3(1e-3, 0, 0), Vec3(1e-3, 0, 0)}, {}};
+  State state = start(scene);
+  run_until(scene, 2, state);
+  EXPECT_EQ(n_asleep(state), 0);
+}
+
+// The state is all that a run goes on from, and threads change no bit.
+TEST(Sleepers, GoOnFromTheStateWithTheSameBits) {
+  std::vector<Body> bodies = pyramid(8, 2);
+  bodies.push_back(body_of(box(Vec3(3.2, 3.3, 16), Vec3(4.2, 4.3, 17))));
+  const Scene scene = on_level_ground(bodies, 0.5);
+  const auto run_in = [&](unsigned threads, bool resumes) {
+    Workers workers(threads);
+    State state = start(scene);
+    if (resumes)
+      for (double t = 0.3; t < 2.6; t += 0.3) run_until(scene, t, state, &workers);
+    run_until(scene, 2.6, state, &workers);
+    return state;
+  };
+  const State once = run_in(1, false);
+  EXPECT_GT(n_asleep(once) + once.counters.impacts, 0);
+  for (const auto& [threads, resumes] :
+       {std::pair{1U, true}, {2U, false}, {3U, false}, {8U, true}}) {
+    const State other = run_in(threads, resumes);
+    EXPECT_EQ(other.phase, once.phase);
+    for (std::size_t b = 0; b < once.motion.size(); ++b)
+      EXPECT_EQ(other.motion[b].pose.position, once.motion[b].pose.position) << threads << ' ' << b;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+// libcore/scene/sleep.hpp: public
+// What blocks asleep carry, and how blocks wake.
+// docs/theory/theory.md, "Blocks asleep"
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/state.hpp"
+
+namespace talus {
+
+/// What block b carried when it fell asleep, by neighbour.
+[[nodiscard]] std::span<const SleepLoad> carried_by(const State& state, int b);
+/// Notes that a block carries this, which falls asleep: added to what it has from that neighbour.
+void note_carried(const SleepLoad& load, State& state);
+
+/// Wakes block b, which sleeps, at `time`, and all that bonds hold it to; adds them to `woken`.
+void wake_bonded(int b, double time, State& state, std::vector<int>& woken);
+inline void wake_bonded(int b, double time, State& state) {
+  std::vector<int> woken;
+  wake_bonded(b, time, state, woken);
+}
+
+}  // namespace talus
