@@ -7,33 +7,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "contact/ground_law.hpp"
 #include "terrain/trn.hpp"
 #include "terrain/trn_flags.hpp"
 #include "terrain/trn_pyramid.hpp"
 #include "terrain/trn_walk.hpp"
 
 namespace talus {
-
-/// What a contact with one class of ground does.
-struct GroundClass {
-  double friction = 0;     ///< tan(phi), >= 0 [-]
-  double cohesion = 0;     ///< c, acts on bonded area until the bond breaks [Pa]
-  double tension = 0;      ///< tensile strength of the same bond [Pa]
-  double restitution = 0;  ///< coefficient of restitution along the normal, 0 to 1 [-]
-  // what ground that gives way does besides; 0: nothing
-  double half_speed = 0;       ///< v_h: approach that halves the restitution [m/s]
-  double half_energy = 0;      ///< E_05: or the energy of it [J]
-  double rolling = 0;          ///< mu_r: couple against rolling per normal force and radius [-]
-  double spinning = -1;        ///< mu_s: against pivoting about the normal; < 0: as rolling [-]
-  double bearing = 0;          ///< q: mu_r by the size of the block instead [Pa]
-  double scar_friction = 0;    ///< mu_max: tan(phi) that slip leads to [-]
-  double scar_rate = 0;        ///< kappa: how fast, along the way slid [1/m]
-  double scar_decay = 0;       ///< beta: how fast that way is forgotten off the ground [1/s]
-  double weak_friction = 0;    ///< mu_w: tan(phi) at high speed of slip [-]
-  double weakening_speed = 0;  ///< U_w: where half of the way to it is done [m/s]
-  double drag_per_time = 0;    ///< nu [1/s]
-  double drag_per_way = 0;     ///< c [1/m]
-};
 
 struct Ground {
   Trn trn;

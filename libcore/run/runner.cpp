@@ -152,7 +152,7 @@ double least_restitution(const Scene& scene) {
   double least = 1;
   const auto meet = [&least](const std::vector<GroundClass>& classes) {
     for (const GroundClass& c : classes)
-      least = std::min(least, c.half_speed > 0 || c.half_energy > 0 ? 0 : c.restitution);
+      least = std::min(least, restitution_falls(c) ? 0 : c.restitution);
   };
   meet(scene.ground.classes);
   meet(scene.joints.of_block);

@@ -101,12 +101,11 @@ void check_scene(const Scene& scene) {
       throw InputError({}, "restitution is " + text(g.restitution) + ", expected 0 to 1");
     if (!(g.cohesion >= 0 && g.tension >= 0))
       throw InputError({}, "cohesion or tensile strength is negative");
-    for (const double law :
-         {g.half_speed, g.half_energy, g.rolling, g.bearing, g.scar_friction, g.scar_rate,
-          g.scar_decay, g.weak_friction, g.weakening_speed, g.drag_per_time, g.drag_per_way})
-      if (!(law >= 0 && std::isfinite(law)))
-        throw InputError({},
-                         "a number of ground that gives way is " + text(law) + ", expected >= 0");
+    for (const auto number : yielding_numbers) {
+      const double value = g.*number;
+      if (!(value >= 0 && std::isfinite(value)) && value != GroundClass{}.*number)
+        throw InputError({}, "a number of yielding ground is " + text(value) + ", expected >= 0");
+    }
   }
   for (const Canopy& canopy : scene.canopies)
     if (!(canopy.drag >= 0 && std::isfinite(canopy.drag)))

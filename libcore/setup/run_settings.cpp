@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
-#include "site/soils.hpp"
+#include "setup/site_scene.hpp"
 
 namespace talus {
 namespace {
@@ -93,7 +93,7 @@ std::vector<std::string> warn_of_settings(InputLog& log, const Site& site) {
       log.warn(warnings.back());
     }
   for (const GroundSettings& ground : site.grounds)
-    if (site.solver.law == "paper" && gives_way(ground)) {
+    if (site.solver.law == "paper" && yields(ground_class(ground))) {
       warnings.push_back("ground." + ground.name +
                          " gives way with law talus alone: law paper knows its friction and COR");
       log.warn(warnings.back());

@@ -33,16 +33,6 @@ void set_yielding(const GroundSettings& drawn, GroundClass& made) {
   made.drag_per_way = drawn.drag_1_m;
 }
 
-GroundClass ground_class(const GroundSettings& drawn) {
-  GroundClass made;
-  made.friction = std::tan(drawn.friction_deg * degree);
-  made.cohesion = drawn.cohesion_pa;
-  made.tension = drawn.tension_pa;
-  made.restitution = drawn.cor;
-  set_yielding(drawn, made);
-  return made;
-}
-
 GroundClass rock_class(const MaterialSettings& material, const SolverSettings& solver) {
   GroundClass made;
   made.friction = std::tan(material.friction_deg * degree);
@@ -108,6 +98,16 @@ void add_jitter(Blocks& blocks, double size, std::uint64_t seed) {
 }
 
 }  // namespace
+
+GroundClass ground_class(const GroundSettings& drawn) {
+  GroundClass made;
+  made.friction = std::tan(drawn.friction_deg * degree);
+  made.cohesion = drawn.cohesion_pa;
+  made.tension = drawn.tension_pa;
+  made.restitution = drawn.cor;
+  set_yielding(drawn, made);
+  return made;
+}
 
 double time_step(const SolverSettings& solver) {
   if (!std::isnan(solver.time_step_s)) return solver.time_step_s;

@@ -34,6 +34,9 @@ struct SceneParts {
 /// it is Settings{}.
 [[nodiscard]] Settings settings_of(const SolverSettings& solver, const ScenePlan& plan);
 
+/// The law of a section [ground.*].
+[[nodiscard]] GroundClass ground_class(const GroundSettings& ground);
+
 /// The ground classes of a site with the friction and restitution that its seed draws, within what
 /// they can be.
 [[nodiscard]] std::vector<GroundSettings> drawn_grounds(const Site& site);

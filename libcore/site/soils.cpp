@@ -141,15 +141,6 @@ void fill_from_soils(Site& site) {
   }
 }
 
-bool gives_way(const GroundSettings& ground) {
-  using G = GroundSettings;
-  for (double G::*key :
-       {&G::cor_half_speed_m_s, &G::cor_half_energy_kj, &G::rolling_resistance, &G::spin_resistance,
-        &G::bearing_kpa, &G::scar_friction, &G::friction_weak_deg})
-    if (!std::isnan(ground.*key)) return true;
-  return ground.drag_1_s > 0 || ground.drag_1_m > 0;
-}
-
 void check_grounds(const Site& site) {
   for (const GroundSettings& ground : site.grounds) GroundCheck{site, ground}.check();
 }

@@ -28,10 +28,6 @@ struct Soil {
 /// Site::sources that they are from there. A key that excludes one that is given is left out.
 void fill_from_soils(Site& site);
 
-/// Whether a key of the section makes its ground give way: COR that falls, resistance to rolling,
-/// friction that varies, drag.
-[[nodiscard]] bool gives_way(const GroundSettings& ground);
-
 /// Throws InputError for keys of a section [ground.*] that exclude each other, or that need one
 /// that is not given.
 void check_grounds(const Site& site);

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "contact/contact.hpp"
+#include "contact/ground_law.hpp"
 #include "motion/displacement.hpp"
 #include "solver/angular_row.hpp"
 
@@ -17,17 +18,6 @@ struct ImpactBody {
   Mat3 per_inertia = Mat3::Identity();  ///< its inverse [1/(kg m2)]
   Vec3 position = Vec3::Zero();         ///< of the centroid [m]
   Vec6 velocity = Vec6::Zero();         ///< of the centroid, and spin; in: before, out: after
-};
-
-/// How a restitution falls with the approach v > 0: to that at no speed over 1 + per_speed v +
-/// per_square v^2. All zero: it does not.
-struct RestitutionFall {
-  double per_speed = 0;   ///< [s/m]
-  double per_square = 0;  ///< [s2/m2]
-
-  [[nodiscard]] double at(double restitution, double v) const {
-    return restitution / (1 + v * (per_speed + per_square * v));
-  }
 };
 
 /// A contact of two of the bodies, or of one with the ground. One point, common to both bodies.

@@ -13,47 +13,23 @@ namespace {
 using std::size_t;
 using std::numbers::pi;
 
-constexpr double most_by_bearing = 0.5;  // mu_r: deeper in, the half disc says nothing
-
 double sphere_radius(double volume) { return std::cbrt(3 * volume / (4 * pi)); }
-
-double rolling_on(const Scene& scene, const GroundClass& ground, size_t b, double radius) {
-  if (ground.bearing == 0) return ground.rolling;
-  const double weight = scene.blocks.mass[b] / scene.blocks.volume[b] * scene.gravity.norm();
-  return std::min(most_by_bearing,
-                  4 / (3 * pi) * std::sqrt(8 * weight * radius / (3 * ground.bearing)));
-}
-
-// Integral of friction along the way slid, from 0 to `way`.
-double scar_work(const GroundClass& ground, double way) {
-  const double kappa = ground.scar_rate, x = kappa * way;
-  return ground.friction * way + 2 / pi * (ground.scar_friction - ground.friction) *
-                                     (way * std::atan(x) - std::log1p(x * x) / (2 * kappa));
-}
 
 void drag_on_ground(const GroundClass& ground, double h, Motion& motion) {
   if (!drags(ground)) return;
-  const double per_time = std::exp(-ground.drag_per_time * h);
-  const double speed = motion.velocity.norm();
-  const double per_way = 1 / (1 + ground.drag_per_way * speed * h);
-  motion.velocity *= per_time * per_way;
-  motion.angular_momentum *= per_time * per_way;
+  const double kept = kept_by_drag(ground, motion.velocity.norm(), h);
+  motion.velocity *= kept;
+  motion.angular_momentum *= kept;
 }
 
 }  // namespace
-
-RestitutionFall fall_on(const GroundClass& ground, double mass) {
-  RestitutionFall fall;
-  if (ground.half_speed > 0) fall.per_speed = 1 / ground.half_speed;
-  if (ground.half_energy > 0) fall.per_square = mass / (2 * ground.half_energy);
-  return fall;
-}
 
 RowArm arm_on(const Scene& scene, const GroundClass& ground, int b) {
   const auto i = static_cast<size_t>(b);
   if (!resists_rolling(ground)) return {};
   const double radius = sphere_radius(scene.blocks.volume[i]);
-  const double rolling = rolling_on(scene, ground, i, radius);
+  const double weight = scene.blocks.mass[i] / scene.blocks.volume[i] * scene.gravity.norm();
+  const double rolling = rolling_on(ground, weight, radius);
   return {rolling * radius, (ground.spinning < 0 ? rolling : ground.spinning) * radius};
 }
 
@@ -64,37 +40,17 @@ double turn_damping(const Scene& scene, const BlockNumbers& c, double h) {
 int add_turn(const Scene& scene, int b, const BlockNumbers& c, double h,
              std::span<const ContactRow> rows, std::vector<AngularRow>& turns,
              std::vector<RowArm>& arms) {
-  const auto class_of_row = [&](const ContactRow& row) -> const GroundClass& {
-    return scene.ground.classes[static_cast<size_t>(row.ground_class)];
-  };
   if (std::none_of(rows.begin(), rows.end(),
-                   [&](const ContactRow& row) { return resists_rolling(class_of_row(row)); }))
+                   [&](const ContactRow& row) { return resists_rolling(class_of(scene, row)); }))
     return -1;
   AngularRow turn;
   turn.row_end = static_cast<int>(rows.size());
   turn.arm_begin = static_cast<int>(arms.size());
   turn.damping = turn_damping(scene, c, h);
   turn.inertia = c.inertia.minCoeff();
-  for (const ContactRow& row : rows) arms.push_back(arm_on(scene, class_of_row(row), b));
+  for (const ContactRow& row : rows) arms.push_back(arm_on(scene, class_of(scene, row), b));
   turns.push_back(turn);
   return static_cast<int>(turns.size()) - 1;
-}
-
-double friction_on(const GroundClass& ground, double speed, double way) {
-  if (ground.scar_rate > 0)
-    return ground.friction +
-           2 / pi * (ground.scar_friction - ground.friction) * std::atan(ground.scar_rate * way);
-  if (ground.weakening_speed > 0)
-    return ground.weak_friction +
-           (ground.friction - ground.weak_friction) / (1 + speed / ground.weakening_speed);
-  return ground.friction;
-}
-
-double mean_friction(const GroundClass& ground, double speed, double way, double path) {
-  // below this the quotient is rounding
-  if (ground.scar_rate == 0 || ground.scar_rate * path < 1e-6)
-    return friction_on(ground, speed, way + path / 2);
-  return (scar_work(ground, way + path) - scar_work(ground, way)) / path;
 }
 
 double way_slid(const Slide& slide, const GroundClass& ground) {
@@ -120,8 +76,7 @@ int begin_soil(const Scene& scene, int b, const BlockNumbers& c, double h, const
                std::vector<RowArm>& arms) {
   const int turn = add_turn(scene, b, c, h, rows, turns, arms);
   for (ContactRow& row : rows)
-    vary_friction(scene.ground.classes[static_cast<size_t>(row.ground_class)], slide,
-                  row.slip_speed, h, row.friction);
+    vary_friction(class_of(scene, row), slide, row.slip_speed, h, row.friction);
   return turn;
 }
 

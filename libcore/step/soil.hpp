@@ -19,24 +19,13 @@
 
 namespace talus {
 
-/// Whether a class of ground resists rolling or pivoting; has friction that follows the way slid
-/// or the speed; has drag.
-[[nodiscard]] inline bool resists_rolling(const GroundClass& ground) {
-  return ground.rolling > 0 || ground.bearing > 0 || ground.spinning > 0;
+/// The class of ground that a contact is with.
+[[nodiscard]] inline const GroundClass& class_of(const Scene& scene, const KeptContact& contact) {
+  return scene.ground.classes[static_cast<std::size_t>(contact.ground_class)];
 }
-[[nodiscard]] inline bool varies_friction(const GroundClass& ground) {
-  return ground.scar_rate > 0 || ground.weakening_speed > 0;
-}
-[[nodiscard]] inline bool drags(const GroundClass& ground) {
-  return ground.drag_per_time > 0 || ground.drag_per_way > 0;
-}
-
-/// How the restitution on `ground` falls for a block of `mass` [kg].
-[[nodiscard]] RestitutionFall fall_on(const GroundClass& ground, double mass);
 
 /// Arms of the couples on `ground` of block b: mu_r R_e and mu_s R_e with R_e the radius of the
-/// sphere of its volume; by the ground's bearing strength mu_r = 4 / (3 pi) sqrt(8 rho g R_e / (3
-/// q)), at most 0.5.
+/// sphere of its volume.
 [[nodiscard]] RowArm arm_on(const Scene& scene, const GroundClass& ground, int b);
 
 /// Damping of the couple over a step of `h`: as firm as the stiffest contact of a lone block
@@ -48,12 +37,6 @@ namespace talus {
 int add_turn(const Scene& scene, int b, const BlockNumbers& c, double h,
              std::span<const ContactRow> rows, std::vector<AngularRow>& turns,
              std::vector<RowArm>& arms);
-
-/// tan(phi) of ground at slip `speed` after a way slid of `way`; and its mean over a path that goes
-/// on from there, exact in the work of friction that follows the way.
-[[nodiscard]] double friction_on(const GroundClass& ground, double speed, double way);
-[[nodiscard]] double mean_friction(const GroundClass& ground, double speed, double way,
-                                   double path);
 
 /// Way slid on ground whose friction follows it: less what has been forgotten off the ground [m].
 [[nodiscard]] double way_slid(const Slide& slide, const GroundClass& ground);

@@ -46,9 +46,7 @@ State start_unsettled(const Scene& scene) {
   state.memory.resize(n);
   state.deep.resize(n);
   const std::vector<GroundClass>& grounds = scene.ground.classes;
-  if (std::any_of(grounds.begin(), grounds.end(),
-                  [](const GroundClass& ground) { return ground.scar_rate > 0; }))
-    state.slid.resize(n);
+  if (std::any_of(grounds.begin(), grounds.end(), scars)) state.slid.resize(n);
   if (!scene.crush_load.empty()) state.load.resize(n);
   state.yielding = start_yielding(scene);
   state.bonds = start_bonds(scene);

@@ -14,10 +14,6 @@ bool any_varies(const Scene& scene) {
   return std::any_of(classes.begin(), classes.end(), varies_friction);
 }
 
-const GroundClass& class_of_contact(const Scene& scene, const KeptContact& contact) {
-  return scene.ground.classes[static_cast<size_t>(contact.ground_class)];
-}
-
 double across(const Vec3& normal, const Vec3& velocity) {
   return (velocity - normal.dot(velocity) * normal).norm();
 }
@@ -62,7 +58,7 @@ void slide_member(const Scene& scene, const IslandMembers& members, const FreeMo
   if (system.ground_pair[k] < 0) return;
   const size_t r = pressed_most(system, k);
   if (r == system.contacts.size()) return;
-  const GroundClass& ground = class_of_contact(scene, system.contacts[r]);
+  const GroundClass& ground = class_of(scene, system.contacts[r]);
   const bool slips = row_of(system, r).state() == ContactState::slip;
   const double speed = slips ? mean_slip(free, hits, system, r) : 0;
   slide_on(scene, ground, members.blocks[k], speed, pressed_time(free, hits, k), free.t, free.h,
@@ -86,7 +82,7 @@ bool renew_friction(const Scene& scene, const State& state, const IslandMembers&
   for (size_t k = 0; k < members.size(); ++k) {
     if (system.ground_pair[k] < 0) continue;
     for (const size_t r : contacts_of(system, static_cast<size_t>(system.ground_pair[k]))) {
-      const GroundClass& ground = class_of_contact(scene, system.contacts[r]);
+      const GroundClass& ground = class_of(scene, system.contacts[r]);
       if (system.contacts[r].waits || !varies_friction(ground) ||
           row_of(system, r).state() != ContactState::slip)
         continue;

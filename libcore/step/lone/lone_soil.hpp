@@ -13,10 +13,6 @@
 
 namespace talus {
 
-[[nodiscard]] inline const GroundClass& class_of_row(const Scene& scene, const ContactRow& row) {
-  return scene.ground.classes[static_cast<std::size_t>(row.ground_class)];
-}
-
 /// What the ground does beside the rows that are made.
 inline void begin_soil(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                        const State& state, double t, Work& work) {
@@ -25,7 +21,7 @@ inline void begin_soil(const Scene& scene, int b, const BlockNumbers& c, const S
   soil.arms.clear();
   (void)begin_soil(scene, b, c, s.h, slide_of(state, b, t), work.rows, soil.turns, soil.arms);
   soil.varies = std::any_of(work.rows.begin(), work.rows.end(), [&](const ContactRow& row) {
-    return varies_friction(class_of_row(scene, row));
+    return varies_friction(class_of(scene, row));
   });
 }
 
@@ -42,7 +38,7 @@ void renew_friction(const Scene& scene, int b, const Substep& s, const State& st
                     const BlockSystem<Dof>& system, Work& work) {
   for (ContactRow& row : work.rows)
     if (!row.waits && row.state == ContactState::slip)
-      vary_friction(class_of_row(scene, row), slide_of(state, b, t), mean_slip(system, row), s.h,
+      vary_friction(class_of(scene, row), slide_of(state, b, t), mean_slip(system, row), s.h,
                     row.friction);
 }
 
@@ -83,7 +79,7 @@ void end_soil(const Scene& scene, int b, const Substep& s, double t, const Block
   }
   if (pressed == nullptr) return;
   const double speed = pressed->state == ContactState::slip ? mean_slip(system, *pressed) : 0;
-  slide_on(scene, class_of_row(scene, *pressed), b, speed, s.h, t, s.h, state);
+  slide_on(scene, class_of(scene, *pressed), b, speed, s.h, t, s.h, state);
 }
 
 }  // namespace talus

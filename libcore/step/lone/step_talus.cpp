@@ -302,8 +302,7 @@ struct Advance {
     for (const ContactRow& row : work.rows) {
       if (!(row.bond_area > 0)) continue;
       BondFace& face = face_of(-1, b, row.normal, work.bond_faces);
-      face.corners.push_back(corner_of(
-          row, scene.ground.classes[static_cast<size_t>(row.ground_class)], row.impulse, s.h));
+      face.corners.push_back(corner_of(row, class_of(scene, row), row.impulse, s.h));
       if (row.state != ContactState::open) continue;
       const double along = row.normal.dot(row.free_move + solved.moved(row.arm, s.h));
       face.opened |= row.gap_start + along > bonded_gap_ratio * c.radius;

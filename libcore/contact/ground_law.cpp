@@ -1,0 +1,62 @@
+#include "contact/ground_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace talus {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double most_by_bearing = 0.5;  // mu_r: deeper in, the half disc says nothing
+
+// Integral of friction along the slid distance, from 0 to `way`.
+double scar_work(const GroundClass& ground, double way) {
+  const double kappa = ground.scar_rate, x = kappa * way;
+  return ground.friction * way + 2 / pi * (ground.scar_friction - ground.friction) *
+                                     (way * std::atan(x) - std::log1p(x * x) / (2 * kappa));
+}
+
+}  // namespace
+
+bool yields(const GroundClass& ground) {
+  return std::any_of(yielding_numbers.begin(), yielding_numbers.end(),
+                     [&](auto number) { return ground.*number != GroundClass{}.*number; });
+}
+
+RestitutionFall fall_on(const GroundClass& ground, double mass) {
+  RestitutionFall fall;
+  if (ground.half_speed > 0) fall.per_speed = 1 / ground.half_speed;
+  if (ground.half_energy > 0) fall.per_square = mass / (2 * ground.half_energy);
+  return fall;
+}
+
+double friction_on(const GroundClass& ground, double speed, double way) {
+  if (scars(ground))
+    return ground.friction +
+           2 / pi * (ground.scar_friction - ground.friction) * std::atan(ground.scar_rate * way);
+  if (ground.weakening_speed > 0)
+    return ground.weak_friction +
+           (ground.friction - ground.weak_friction) / (1 + speed / ground.weakening_speed);
+  return ground.friction;
+}
+
+double mean_friction(const GroundClass& ground, double speed, double way, double path) {
+  // below this the quotient is rounding
+  if (!scars(ground) || ground.scar_rate * path < 1e-6)
+    return friction_on(ground, speed, way + path / 2);
+  return (scar_work(ground, way + path) - scar_work(ground, way)) / path;
+}
+
+double rolling_on(const GroundClass& ground, double weight, double radius) {
+  if (ground.bearing == 0) return ground.rolling;
+  return std::min(most_by_bearing,
+                  4 / (3 * pi) * std::sqrt(8 * weight * radius / (3 * ground.bearing)));
+}
+
+double kept_by_drag(const GroundClass& ground, double speed, double h) {
+  return std::exp(-ground.drag_per_time * h) * (1 / (1 + ground.drag_per_way * speed * h));
+}
+
+}  // namespace talus
