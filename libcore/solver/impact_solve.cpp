@@ -298,7 +298,7 @@ struct Solver {
     for (int cut = 0; cut < 8; ++cut, share /= 2) {
       w.tried = w.velocity + share * w.step;
       next = balance(w.tried);
-      if (k < law::lone_free_steps || next < error) break;
+      if (k < law::free_steps || next < error) break;
     }
     return next;
   }

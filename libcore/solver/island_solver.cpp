@@ -280,7 +280,7 @@ struct Solve {
     if ((settings.continues || !inherits) && at_start <= tolerance) return true;
     double before = std::numeric_limits<double>::infinity();
     for (int steps = 0; result.passes < settings.max_passes; ++steps) {
-      const double residual = advance(steps >= law::island_free_steps);
+      const double residual = advance(steps >= law::free_steps);
       if (residual <= tolerance) return true;
       if (!std::isfinite(residual)) return false;
       if (steps % law::patience != law::patience - 1) continue;

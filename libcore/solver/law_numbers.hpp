@@ -22,9 +22,10 @@ namespace talus::law {
 /// this, and left unpressed; a contact that comes fast takes over no memory when it is deeper by
 /// more.
 inline constexpr double shallow = 1e-2;
-/// [thickness] Sunk in: overlap above this is pressed out whatever the force, in full from twice as
-/// much on; a contact is stiffer than the heaviest neighbour asks for; what a hit left deep is hit
-/// anew when a substep brings it in by so much; a hit cuts the substep that ends deeper by so much.
+/// [thickness] Sunk in, and behind a ridge gone through it: overlap above this is pressed out
+/// whatever the force, in full from twice as much on; a contact is stiffer than the heaviest
+/// neighbour asks for; what a hit left deep is hit anew when a substep brings it in by so much; a
+/// hit cuts the substep that ends deeper by so much.
 inline constexpr double sunk = 2e-2;
 /// [g h, or the resting speed] Speed that is no hit where the solver's error or a block's own
 /// motion may bring it about, and that a sweep of a mass may still change. Tried for masses: 0.05;
@@ -37,11 +38,13 @@ inline constexpr double largest_change = 4;
 /// [blocks] An island of at most so many is small; a mass of which no more are faster than g dt is
 /// calm.
 inline constexpr std::size_t few_blocks = 8;
-/// [-] Rounds of a substep until no contact is added that hits left to be stopped; cuts in a step
-/// where a block would end deep in something.
+/// [-] Rounds of a substep until no contact is added that hits left to be stopped; solutions of the
+/// first step until contacts are as stiff as they bear; cuts in a step where a block would end deep
+/// in something.
 inline constexpr int most_rounds_in_substep = 8;
 /// [-] Rounds of hits at one time, and two for each block that they hit; hits in a step of a lone
-/// block, or of an island whose hits end substeps; half of the looks at a pair in a substep.
+/// block, or of an island whose hits end substeps; flights of a lone block in a step; half of the
+/// looks at a pair in a substep.
 inline constexpr int most_hits = 40;
 /// [-] Repetitions of a substep: of a lone block, to find an event or to converge; where what gives
 /// way is used up.
@@ -53,31 +56,26 @@ inline constexpr int most_repetitions = 24;
 /// needles fail.
 inline constexpr double stiffest_lone = 400;
 /// [-] The same in an island whose matrix is cheap to factor, and of a mass that stands since the
-/// start, before a contact knows what it bears; 1 in all others. Tried: 1 for these; twin towers
-/// near the angle at which they topple sway and fall. 30 for all that rests; a mass that comes to
-/// rest is thrown up again and again. 400 for all; the forces of masses in motion are not found.
+/// start, before a contact knows what it bears; 1 in all others. D of a contact that only stops,
+/// over the mass that it feels. Tried: 1 for these; twin towers near the angle at which they topple
+/// sway and fall. 30 for all that rests; a mass that comes to rest is thrown up again and again.
+/// 400 for all; the forces of masses in motion are not found.
 inline constexpr double stiffest_at_rest = 30;
 /// [blocks] An island is small, too, of so many blocks that hang together without a ring: a column
 /// ...
 inline constexpr std::size_t small_tree = 64;
 /// [g times the sum of thicknesses] ... whose squared speeds are below this: it stands or topples.
 inline constexpr double column_falls = 0.1;
-/// [-] Stiffness of a contact that bears little, slips or opens: times that for its own mass.
-inline constexpr double bears_little = 3;
-/// [thickness] Overlap of a contact at rest under its load: it is as stiff as that asks ...
+/// [thickness] Overlap of a contact at rest under its load: it is as stiff as that asks. A tower
+/// leans by the sum of these. Tried: multipliers carried from step to step; they shake towers down.
 inline constexpr double most_sag = 1e-6;
-/// [thickness] ... and in an island that is factored. A tower leans by the sum of these. Tried:
-/// multipliers carried from step to step; they shake towers down.
-inline constexpr double most_sag_in_small_island = 3e-7;
 /// [thickness] ... and of blocks in motion, else.
 inline constexpr double most_sag_in_motion = 1e-5;
 /// [g dt^2] Overlap of a contact that slips, opens or is hard to find the force of: it bears
-/// little, or is as stiff as that asks. Tried: none; small blocks under a large one that slides
-/// sink in.
+/// little, or is as stiff as that asks. [of that] It is stiffer than the heaviest neighbour asks
+/// for where it is sunk in, or at this overlap where that is more. Tried: none; small blocks under
+/// a large one that slides sink in.
 inline constexpr double soft_sag = 2;
-/// [soft sags] It is stiffer than the heaviest neighbour asks for where it is sunk in, or at this
-/// overlap where that is more.
-inline constexpr double far_sag = 4;
 /// [-] k_n dt^2 / m of the stiffest contact by its load.
 inline constexpr double stiffest_by_load = 4e5;
 /// [-] That is softer by so much where forces are not found, and stays so for `most_rests`. Tried:
@@ -85,7 +83,8 @@ inline constexpr double stiffest_by_load = 4e5;
 inline constexpr double easing = 4096;
 /// [-] ... then all of the island is soft, at once where a block moves; then substeps are halved.
 inline constexpr int most_eased = 2;
-/// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for.
+/// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for; one
+/// that bears little, slips or opens has that times the stiffness for its own mass.
 inline constexpr double stiffens = 2;
 /// [g dt] Speed of slip or of opening from which a contact does not rest, nor a block.
 inline constexpr double slow = 0.2;
@@ -97,8 +96,6 @@ inline constexpr double relief = 8;
 /// [steps] ... and no stiffer for so long. Tried: 5; a mass that topples takes half as many passes
 /// again.
 inline constexpr int most_rests = 40;
-/// [-] Solutions of the first step until contacts are as stiff as they bear.
-inline constexpr int most_settlings = 12;
 /// [-] Stiffness of a contact whose load asks for more: `stiffens` times what it needs; times that
 /// in the first step, in which all sag at once. Tried: 2; towers sway ...
 inline constexpr double ample_at_start = 8;
@@ -114,9 +111,6 @@ inline constexpr double recovery_steps = 3;
 
 // --- touching, and overlap that presses nothing ------------------------------------------------
 
-/// [radius] A contact with the ground touches below this gap, one of a pair below what is
-/// negligible.
-inline constexpr double touch_ratio = 1e-8;
 /// [g h] Speed at which overlap that presses nothing relaxes: slower than gravity, nothing hops ...
 inline constexpr double relaxes_by_gravity = 0.25;
 /// [m/s] ... and at most this, as deep overlap does in a mass. Tried for masses: all overlap;
@@ -152,43 +146,26 @@ inline constexpr double rebounds_by_gravity = 2;
 /// [m/s] ... and in between those faster than this. Tried: 2 g dt at any step; what rocks lose by
 /// the rebounds that are left out shortens a slide at large steps.
 inline constexpr double rebound_matters = 0.1;
-/// [size] Corners of a pair, and pairs, whose gaps differ by less are hit at one time. Tried: 1e-6
-/// to 1e-4; a tilt beyond it is a hit of one corner.
-inline constexpr double hit_window = 1e-5;
 /// [-] Looks at true gaps to find the time of a hit.
 inline constexpr int most_looks_for_time = 5;
-/// [h] A look that found no hit looks on after this time. Tried: none; the next corner of a pair
-/// that parts is missed, and stopped without rebound.
-inline constexpr double walk_on = 1.0 / 16;
 /// [m g v_r] Power above which a support drives a block: it ends before.
 inline constexpr double support_drives = 0.1;
 /// [in a substep] Hits of a pair; beyond, it is stopped.
 inline constexpr int most_pair_hits = 20;
-/// [-] D of a contact that only stops, over the mass that it feels.
-inline constexpr double stopping_stiffness = 30;
-/// [h] What is left after a hit is taken as no shorter.
-inline constexpr double shortest_rest = 1e-3;
-/// [h] So shortly after a hit nobody knows what supports a block.
-inline constexpr double short_after_hit = 0.05;
-/// [in a step] Flights of a lone block.
-inline constexpr int most_flights = 16;
 /// [rad] Longest turn of a flight: bounds what its attitude costs.
 inline constexpr double longest_turn = 60;
 
 // --- check of a substep, and repetitions -------------------------------------------------------
 
-/// [-] Halvings of an island's substep that does not converge.
+/// [-] Halvings of an island's substep that does not converge; repetitions of a lone block's once
+/// no forces were found in the step, so that it ends.
 inline constexpr int most_halvings = 4;
-/// [thickness] A hit that ends deeper than this cuts the substep: health allows `deep_share`.
-inline constexpr double deep_end = 0.08;
-/// [h] So long after the hit the substep ends.
+/// [h] So long after the hit the substep ends, and a look that found no hit looks on; so shortly
+/// after it nobody knows what supports a block, and what is left after it is no shorter. Tried for
+/// looks: none; the next corner of a pair that parts is missed, and stopped without rebound.
 inline constexpr double after_hit = 1.0 / 32;
-/// [-] Repetitions of a lone block's substep once no forces were found in the step, so that it
-/// ends.
-inline constexpr int tries_once_unconverged = 6;
-/// [thickness] A lone block has gone through a ridge when it is so deep behind it.
-inline constexpr double deep_past_ridge = 0.03;
-/// [thickness] A block is deep above this overlap: health counts it.
+/// [thickness] A block is deep above this overlap: health counts it, and a hit that ends so cuts
+/// the substep.
 inline constexpr double deep_share = 0.1;
 
 // --- what gives way ----------------------------------------------------------------------------
@@ -204,26 +181,21 @@ inline constexpr double island_tolerance = 1e-2;
 /// below what is negligible of g h.
 /// Tried for these: 1e-2; two to four times the steps.
 inline constexpr double relative_tolerance = 1e-3;
-/// [g h] The same in an island that is factored.
-inline constexpr double small_tolerance = 1e-8;
-/// [-] Newton steps before the line search looks at them.
-inline constexpr int island_free_steps = 3;
-/// [-] Halvings of a Newton step.
+/// [-] Newton steps before the line search looks at them, of all solvers. Tried for a lone block:
+/// bounds of friction held and renewed; they rarely settle.
+inline constexpr int free_steps = 3;
+/// [-] Halvings of a Newton step, of a lone block too.
 inline constexpr int most_step_halvings = 8;
 /// [slip stiffness] Change before a pair's tangent is summed again.
 inline constexpr double slack = 0.5;
-/// [-] In so many steps the smallest residual has to fall by half; else motion is relaxed.
+/// [-] In so many steps the smallest residual has to fall by half; else motion is relaxed. A mass
+/// that so many steps in a row leave unsettled is exact for mass::calm_time.
 inline constexpr int patience = 6;
 /// [residual] The next step of pseudo-time is as long as leaves so much of its own equation.
 inline constexpr double usually_left = 0.1;
 
 // --- solution of a lone block ------------------------------------------------------------------
 
-/// [-] Newton steps before the line search looks at them. Tried: bounds of friction held and
-/// renewed; they rarely settle.
-inline constexpr int lone_free_steps = 6;
-/// [-] Halvings of a Newton step.
-inline constexpr int lone_halvings = 9;
 /// [promised gain] Least gain of a Newton step.
 inline constexpr double least_gain = 0.1;
 

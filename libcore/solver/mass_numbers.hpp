@@ -32,8 +32,6 @@ inline constexpr int sweeps = 12;
 /// [-] A first step that needs more is exact: six layers. 3,900 blocks in seven take twice as long
 /// by sweeps.
 inline constexpr int most_first_sweeps = 1000;
-/// [steps] A mass that so many steps in a row leave unsettled is exact for calm_time.
-inline constexpr int patience = 5;
 /// [-] D_t / W: part of the mean tangential mobility by turning that a sweep counts with.
 inline constexpr float turning_share = 0.75F;
 

@@ -200,7 +200,7 @@ template <int Dof>
   for (int steps = 0;; ++steps) {
     result.converged = is_small(system, r);
     if (result.converged || result.passes >= max_passes) return result;
-    const bool is_free = steps < lone_free_steps;
+    const bool is_free = steps < free_steps;
     const double size = is_free ? 0 : size_of(system, r);
     const Vec<Dof> from = system.velocity, step = newton_step<Dof>(system, rows, r, 1);
     double fraction = 1;
@@ -208,7 +208,7 @@ template <int Dof>
       system.velocity = from + fraction * step;
       r = residual(system, rows);
       ++result.passes;
-      if (is_free || i == lone_halvings) break;
+      if (is_free || i == most_step_halvings) break;
       if (size_of(system, r) < (1 - least_gain * fraction) * size) break;
     }
   }

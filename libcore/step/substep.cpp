@@ -19,7 +19,7 @@ namespace {
 using std::size_t;
 
 using law::least_speed, law::shallow, law::most_of_thickness, law::rebound_matters,
-    law::recovery_steps, law::same_law, law::stiffest_lone, law::touch_ratio;
+    law::recovery_steps, law::same_law, law::stiffest_lone;
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
@@ -69,7 +69,7 @@ double stiffness_to_bear(const ContactRow& row, double sag) {
 double softest_by_load(const BlockNumbers& c, double sag, double least, double stiffest,
                        const ContactRow& row) {
   const double k = std::clamp(stiffness_to_bear(row, sag), std::min(least, stiffest), stiffest);
-  const double far = std::max(law::sunk * c.thickness, law::far_sag * sag);
+  const double far = std::max(law::sunk * c.thickness, law::soft_sag * sag);
   return row.last_force > far * stiffest ? std::max(k, stiffness_to_bear(row, far)) : k;
 }
 
@@ -184,7 +184,7 @@ BlockNumbers numbers_of(const Scene& scene, int b) {
           scene.blocks.shapes.thickness[i],
           stiffest_lone * scene.blocks.mass[i] / (dt * dt),
           recovery_steps * dt,
-          touch_ratio * radius,
+          rounding * radius,
           resting_speed(scene.settings, g),
           resting_speed(scene.settings, g),
           g,

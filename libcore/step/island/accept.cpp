@@ -183,7 +183,7 @@ struct SubstepAcceptance {
   // How contacts bear a member from now on. Shortly after a hit nobody knows.
   void renew_support(size_t k) {
     const double since = free.h - hits.members[k].clock;
-    if (since < law::short_after_hit * free.h) return;
+    if (since < law::after_hit * free.h) return;
     set_support(scene, members.blocks[k], end.ground_impulse[k] / (members.numbers[k].mass * since),
                 state);
   }

@@ -13,7 +13,7 @@ namespace {
 
 using std::size_t;
 
-using law::shortest_rest, law::stopping_stiffness, law::shallow;
+using law::after_hit, law::stiffest_at_rest, law::shallow;
 
 // Where member k is at the end of the substep without contact forces.
 PlacedMotion free_end(const FreeMotions& free, size_t k) {
@@ -68,7 +68,7 @@ void stop(const IslandMembers& members, const FreeMotions& free, size_t r, doubl
   contact.waits = false;
   note_hit(r, free.h - rest, system, hits);
   const Mobility W = relative_mobility(members, free, system, r);
-  row.begin_open(stopping_stiffness / W.normal, stopping_stiffness / W.tangent);
+  row.begin_open(stiffest_at_rest / W.normal, stiffest_at_rest / W.tangent);
   set_drift(drift_of(free, system, r), std::max(0.0, gap) / rest, Vec3::Zero(), row);
   note_change(system, r);
 }
@@ -143,7 +143,7 @@ PairRest rest_of(const HitLooks& looks, const IslandSystem& system, size_t p,
   if (rest.has_b) from = std::max(from, looks.hits.members[kb].clock);
   const std::vector<std::uint8_t>& is_pressed = looks.hits.is_pressed;
   if (is_pressed[ka] != 0 || (rest.has_b && is_pressed[kb] != 0)) from = 0;
-  rest.length = std::max(free.h - from, shortest_rest * free.h);
+  rest.length = std::max(free.h - from, after_hit * free.h);
   rest.a = looks.member_at(ka, from).placed;
   rest.end_a = free_end(free, ka);
   if (!rest.has_b) return rest;

@@ -18,7 +18,7 @@ namespace {
 
 using std::size_t;
 
-using law::after_hit, law::deep_end, law::sunk, law::most_rounds_in_substep, law::most_halvings,
+using law::after_hit, law::deep_share, law::sunk, law::most_rounds_in_substep, law::most_halvings,
     law::most_repetitions;
 
 /// Checks a substep; a struct so that its parts share what they all read.
@@ -45,7 +45,7 @@ struct SubstepCheck {
       const double gap_end =
           contact.gap_start + row_of(system, r).normal().dot(path_of_contact(system, end, r));
       const double thickness = thickness_of(members, contact);
-      if (gap_end < std::min(-deep_end * thickness, contact.gap_start - sunk * thickness))
+      if (gap_end < std::min(-deep_share * thickness, contact.gap_start - sunk * thickness))
         first = std::min(first, contact.hit_time + after_hit * free.h);
     }
     return first;
@@ -66,13 +66,14 @@ struct SubstepCheck {
   [[nodiscard]] bool ends_in_ground(size_t k) const {
     const BlockNumbers& c = members.numbers[k];
     const Vec6 by = end.displacement[k] + hits.thrown[k];
-    if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < deep_end * c.thickness) return false;
+    if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < deep_share * c.thickness)
+      return false;
     (void)find_contacts(scene.ground, scene.blocks.shapes, members.blocks[k],
                         end_of(members, free, system, end, k).pose, Mat3::Identity(), 0,
                         making.world_vertices, making.found, &near_ground[members.block(k)]);
     return std::any_of(making.found.begin(), making.found.end(), [&](const Contact& contact) {
-      return contact.gap < -deep_end * c.thickness &&
-             !foresaw(k, contact, deep_end / 2 * c.thickness);
+      return contact.gap < -deep_share * c.thickness &&
+             !foresaw(k, contact, deep_share / 2 * c.thickness);
     });
   }
 

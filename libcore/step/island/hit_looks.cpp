@@ -17,7 +17,7 @@ namespace {
 
 using std::size_t;
 
-using law::hit_window, law::most_looks_for_time, law::support_drives, law::walk_on;
+using law::after_hit, law::most_looks_for_time, law::support_drives;
 
 // When a gap of `g` > 0 that closes at `v` and is `gap_end` after `h` is zero, its speed taken as
 // linear.
@@ -194,7 +194,7 @@ void HitLooks::look_ahead(size_t p, double from, double not_before) const {
   const PlacedMotion* b = pair.b < 0 ? nullptr : &member_at(kb, from).placed;
   const PlacedMotion& end_a = end_of_member(ka);
   const PlacedMotion* end_b = pair.b < 0 ? nullptr : &end_of_member(kb);
-  const double resting = members.numbers[ka].resting_speed, open = hit_window * size_of(p);
+  const double resting = members.numbers[ka].resting_speed, open = negligible * size_of(p);
   PairLook look;
   look.time = h + 1;
   for (const size_t r : contacts_of(system, p)) {
@@ -250,7 +250,7 @@ void HitLooks::take_due(std::vector<PairLook>& due) const {
     }
     if (!due.empty()) {
       const double after = next.time - due.front().time;
-      if (after > rounding * free.h && after * next.speed > hit_window * size_of(p)) return;
+      if (after > rounding * free.h && after * next.speed > negligible * size_of(p)) return;
     }
     PairLook look = pop();
     if (!due.empty()) look.time = due.front().time;
@@ -350,8 +350,8 @@ void HitLooks::find_touching(size_t p, double time) const {
 void HitLooks::look_at(const PairLook& look) const {
   const auto p = static_cast<size_t>(look.pair);
   const BodyPair& pair = system.island.pairs[p];
-  const double h = free.h, open = hit_window * size_of(p);
-  const auto look_on = [&] { look_ahead(p, look.time, look.time + walk_on * h); };
+  const double h = free.h, open = negligible * size_of(p);
+  const auto look_on = [&] { look_ahead(p, look.time, look.time + after_hit * h); };
   find_touching(p, look.time);
   if (hits.touching.empty()) return look_on();
   const auto ka = static_cast<size_t>(pair.a);

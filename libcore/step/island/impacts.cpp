@@ -11,8 +11,7 @@ namespace {
 
 using std::size_t;
 
-using law::island_tolerance, law::relative_tolerance, law::most_rounds_in_substep,
-    law::small_tolerance;
+using law::island_tolerance, law::relative_tolerance, law::most_rounds_in_substep;
 
 double fastest(const FreeMotions& free) {
   double speed = 0;
@@ -29,7 +28,7 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
   settings.continues = continues;
   settings.down = scene.gravity;
   const double by_gravity = scene.gravity.norm() * free.h;
-  settings.tolerance = small_tolerance * by_gravity;
+  settings.tolerance = rounding * by_gravity;
   settings.direct_bodies = members.is_small ? static_cast<int>(members.size()) : 0;
   if (!members.is_small) {
     settings.tolerance = std::clamp(relative_tolerance * fastest(free), negligible * by_gravity,
@@ -92,7 +91,7 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
   for (int round = 0; round < most_rounds_in_substep; ++round) {
     if (!solve_on(round > 0)) return;
     // at the start nobody knows what contacts bear
-    const int settlings = round == 0 && free.t == 0 ? law::most_settlings : 0;
+    const int settlings = round == 0 && free.t == 0 ? most_rounds_in_substep : 0;
     for (int i = 0; i < settlings && stiffen_to_load(members, free.h, system); ++i)
       if (!solve_on(true)) return;
     if (round == 0 && renew_friction(scene, state, members, free, hits, system) && !solve_on(true))

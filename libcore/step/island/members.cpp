@@ -11,8 +11,8 @@ namespace {
 
 using std::size_t;
 
-using law::bears_little, law::most_sag, law::most_sag_in_small_island, law::slow, law::few_blocks,
-    law::small_tree, law::stiffest_by_load, law::stiffest_at_rest;
+using law::most_sag, law::slow, law::few_blocks, law::small_tree, law::stiffest_by_load,
+    law::stiffest_at_rest;
 
 }  // namespace
 
@@ -77,7 +77,6 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
     b = std::max(b, members.of(m.block_a).mass);
   }
   const double g = scene.gravity.norm(), dt = scene.settings.dt;
-  const double sag = members.is_small ? most_sag_in_small_island : most_sag;
   const bool is_first = members.is_small || state.time == 0;
   const auto moves = [&](int b) {
     return state.motion[static_cast<size_t>(b)].velocity.norm() > slow * g * dt;
@@ -101,9 +100,9 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
     const bool is_stiff = members.is_small || (c.rests && state.time > 0 && !is_soft);
     const double per_mass = (is_stiff ? stiffest_at_rest : 1) / (dt * dt);
     c.stiffness = per_mass * members.bearing[k];
-    c.least_stiffness = is_first ? no_normal_limit : bears_little * per_mass * c.mass;
+    c.least_stiffness = is_first ? no_normal_limit : law::stiffens * per_mass * c.mass;
     c.most_stiffness = is_soft ? 0 : stiffest / (dt * dt) * c.mass;
-    c.sag = (c.rests ? sag : std::max(sag, law::most_sag_in_motion)) * c.thickness;
+    c.sag = (c.rests ? most_sag : law::most_sag_in_motion) * c.thickness;
   }
 }
 

@@ -208,7 +208,7 @@ struct Advance {
       }
       note_unconverged(b, report);
       report.flags = report.flags | StepFlag::unconverged;
-      most_tries = law::tries_once_unconverged;
+      most_tries = law::most_halvings;
     }
     const Solved<Dof> solved = solved_motion(c, s, system);
     load_bonds(s, solved);
@@ -261,7 +261,7 @@ struct Advance {
     for (const ContactRow& row : work.rows)
       if (came_through_ridge(scene, c, s, work.contacts[row.contact], row)) return true;
     return depth_past_ridge(scene.ground, scene.blocks.shapes, b, work.world_vertices,
-                            work.contacts, law::deep_past_ridge * c.thickness) > 0;
+                            work.contacts, law::sunk * c.thickness) > 0;
   }
 
   /// How the ground bears a block: by how many contacts, up to three, and whether one of them holds
@@ -461,7 +461,7 @@ struct Advance {
       }
       const double t = state.local_time[i()];
       if ((flew || may_take_off(t, was_hit && was_fast)) && may_fly &&
-          ++flights <= law::most_flights) {
+          ++flights <= law::most_hits) {
         // without spin a flight ends where the block touches
         const bool touches = flew && motion().angular_momentum.isZero(0);
         const double at_once = c.touch / (top_speed() + c.gravity * scene.settings.dt + 1e-300);

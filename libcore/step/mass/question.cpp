@@ -92,7 +92,7 @@ bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& stat
         faster_than(members, state, by_gravity) <= static_cast<int>(law::few_blocks);
     all.calm = is_calm ? all.calm + 1 : 0;
     // contacts that grow soft sag at first: that does not make it a mass again
-    if (all.calm >= calm_steps(scene) || all.unsettled >= mass::patience)
+    if (all.calm >= calm_steps(scene) || all.unsettled >= law::patience)
       return leave(calm_steps(scene));
   } else {
     if (all.barred > 0) return leave(all.barred - 1);
