@@ -23,13 +23,6 @@ using law::least_speed, law::shallow, law::most_of_thickness, law::rebound_matte
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-// Below this approach there is no impact [m/s].
-double resting_speed(const Settings& settings, double g) {
-  const double by_gravity = g * settings.dt;
-  return std::max({std::clamp(rebound_matters, by_gravity, law::rebounds_by_gravity * by_gravity),
-                   least_speed * settings.tolerance_factor * by_gravity, 1e-6});
-}
-
 // The row that a remembered contact continues: same features, nearest normal.
 int row_of(const ContactMemory& memory, std::span<const Contact> contacts) {
   int best = -1;
@@ -174,6 +167,12 @@ double clearance_at_start(const Scene& scene, const Contact& contact, const Subs
 }
 
 }  // namespace
+
+double resting_speed(const Settings& settings, double g) {
+  const double by_gravity = g * settings.dt;
+  return std::max({std::clamp(rebound_matters, by_gravity, law::rebounds_by_gravity * by_gravity),
+                   least_speed * settings.tolerance_factor * by_gravity, 1e-6});
+}
 
 BlockNumbers numbers_of(const Scene& scene, int b) {
   const auto i = static_cast<size_t>(b);

@@ -28,6 +28,8 @@ namespace talus {
 /// it open [m].
 [[nodiscard]] double search_margin(const BlockNumbers& c, double h);
 
+/// Below this approach there is no impact [m/s]. `g`: of gravity [m/s^2].
+[[nodiscard]] double resting_speed(const Settings& settings, double g);
 /// Approach of a contact that ends a substep, of a block of which no point is faster than `speed`
 /// [m/s]. A slower one closes within the substep, which errs by up to that speed in what the block
 /// does next, and by that times the substep in where it is.

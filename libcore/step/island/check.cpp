@@ -201,13 +201,14 @@ struct SubstepCheck {
 
   // --- sleep -----------------------------------------------------------------------------------
 
-  // Whether members asleep have to be awake in the substep. What is hit wakes.
+  // Whether members asleep have to be awake in the substep. What is hit wakes with its pile.
   [[nodiscard]] bool wakes_any() const {
     if (!asks_for_presses(state, members)) return false;
     list_presses(members, free.h, system, end.presses);
     for (const int k : hits.hit_members.items)
       if (phase_of(state, members.blocks[k]) == Phase::asleep)
         end.woken.push_back(members.blocks[k]);
+    add_piles(state, end.woken);
     find_woken(scene, state, members, end);
     return !end.woken.empty();
   }

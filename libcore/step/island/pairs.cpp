@@ -365,7 +365,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
     search_marked(scene, scene.settings.dt, state, search);
     join_pairs(scene, state, search);
     find_islands(n, search.joined, {}, search.groups);
-  } while (wake_deserted(state, search));
+  } while (wake_before_step(scene, state, search));
   search.moving.assign(n, 0);
   search.is_of_step = true;
 }

@@ -1,6 +1,7 @@
 // Which blocks of an island sleep. One asleep stands as fast as the ground, for as long as the
 // others press it as they did when it fell asleep. A substep that needs it awake is made again.
 #include <algorithm>
+#include <utility>
 
 #include "scene/sleep.hpp"
 #include "solver/law_numbers.hpp"
@@ -112,6 +113,25 @@ void list_presses(const IslandMembers& members, double h, const MassScratch& w,
   }
 }
 
+void add_piles(const State& state, std::vector<int>& woken) {
+  if (woken.empty()) return;
+  std::vector<std::pair<int, int>> touches;  // of blocks asleep, both ways
+  for (int b = 0; b < std::ssize(state.memory); ++b)
+    for (const ContactMemory& memory : state.memory[b]) {
+      const int other = memory.key.body_b;
+      if (other < 0 || !sleeps(state, b) || !sleeps(state, other)) continue;
+      touches.emplace_back(b, other);
+      touches.emplace_back(other, b);
+    }
+  std::sort(touches.begin(), touches.end());
+  std::vector<char> is_woken(state.memory.size(), 0);
+  for (const int b : woken) is_woken[b] = 1;
+  for (size_t i = 0; i < woken.size(); ++i)
+    for (auto at = std::lower_bound(touches.begin(), touches.end(), std::pair(woken[i], 0));
+         at != touches.end() && at->first == woken[i]; ++at)
+      if (!std::exchange(is_woken[at->second], 1)) woken.push_back(at->second);
+}
+
 void find_woken(const Scene& scene, const State& state, const IslandMembers& members,
                 SubstepEnd& end) {
   end.load_change.assign(members.size(), Vec6::Zero());  // by neighbours awake
@@ -145,20 +165,29 @@ void wake_members(const Scene& scene, double t, std::span<const int> woken, Stat
   let_stand(state, state.time + scene.settings.dt, members);
 }
 
-bool wake_deserted(State& state, PairSearch& search) {
+bool wake_before_step(const Scene& scene, State& state, PairSearch& search) {
   const std::vector<int>& island_of = search.groups.island_of;
-  std::vector<int> deserted;
+  std::vector<int> to_wake;
+  const double slow = scene.settings.dt * resting_speed(scene.settings, scene.gravity.norm());
+  const auto may_hit = [&](int by, int b) {
+    return !is_fixed(scene, b) && sleeps(state, b) && !sleeps(state, by) &&
+           search.step[by].norm() + search.turn[by] > slow;
+  };
+  for (const PairManifold& m : search.pairs.manifolds) {
+    if (may_hit(m.block_a, m.block_b)) to_wake.push_back(m.block_b);
+    if (!is_fixed(scene, m.block_b) && may_hit(m.block_b, m.block_a)) to_wake.push_back(m.block_a);
+  }
+  add_piles(state, to_wake);
   for (const SleepLoad& load : state.carried)
-    if (!sleeps(state, load.by) && island_of[load.by] != island_of[load.block] &&
-        (deserted.empty() || deserted.back() != load.block))
-      deserted.push_back(load.block);
-  for (const int b : deserted) {
+    if (!sleeps(state, load.by) && island_of[load.by] != island_of[load.block])
+      to_wake.push_back(load.block);
+  for (const int b : to_wake) {
     if (!sleeps(state, b)) continue;  // woken with another
     std::vector<int> woken;
     wake_bonded(b, state.time, state, woken);
     for (const int of : woken) search.awake[of] = 1;
   }
-  return !deserted.empty();
+  return !to_wake.empty();
 }
 
 void forget_contacts(const IslandMembers& members, State& state) {

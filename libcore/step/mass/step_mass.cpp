@@ -55,8 +55,13 @@ bool wakes_any(const Scene& scene, double h, const State& state, Work& work) {
   end.presses.clear();
   end.woken.clear();
   if (!asks_for_presses(state, work.island.members)) return false;
-  list_presses(work.island.members, h, work.mass, end.presses);
-  find_woken(scene, state, work.island.members, end);
+  const IslandMembers& members = work.island.members;
+  list_presses(members, h, work.mass, end.presses);
+  for (std::size_t k = 0; k < members.size(); ++k)
+    if (work.mass.changes[k].was_hit && phase_of(state, members.blocks[k]) == Phase::asleep)
+      end.woken.push_back(members.blocks[k]);
+  add_piles(state, end.woken);
+  find_woken(scene, state, members, end);
   return !end.woken.empty();
 }
 
