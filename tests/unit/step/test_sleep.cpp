@@ -233,6 +233,7 @@ TEST(Sleepers, APileThatIsHitWakesBeforeTheHit) {
     step(scene, state, work);
   }
   EXPECT_EQ(n_asleep(state), 0);
+  ASSERT_EQ(n_asleep(before), 30);
   EXPECT_EQ(with_and_without_sleep(scene, before, 0.5).apart, 0);
 }
 
