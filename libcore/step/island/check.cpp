@@ -207,10 +207,10 @@ struct SubstepCheck {
     list_presses(members, free.h, system, end.presses);
     for (const int k : hits.hit_members.items)
       if (phase_of(state, members.blocks[k]) == Phase::asleep)
-        end.woken.push_back(members.blocks[k]);
-    add_piles(state, end.woken);
+        end.sleep.blocks.push_back(members.blocks[k]);
+    add_piles(state, end.sleep);
     find_woken(scene, state, members, end);
-    return !end.woken.empty();
+    return !end.sleep.blocks.empty();
   }
 
   // --- in this order ---------------------------------------------------------------------------
@@ -219,7 +219,7 @@ struct SubstepCheck {
     using enum SubstepCut;
     const double h = free.h;
     end.presses.clear();
-    end.woken.clear();
+    end.sleep.blocks.clear();
     if (!converged && can_ease(members, tries)) return SubstepVerdict::again(unconverged, h);
     if (!converged && tries.halvings < most_halvings)
       return SubstepVerdict::again(unconverged, h / 2);

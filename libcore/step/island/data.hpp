@@ -35,6 +35,15 @@ namespace talus {
 
 // --- of a step ---------------------------------------------------------------------------------
 
+/// Scratch of who wakes with whom, and who falls asleep.
+struct SleepScratch {
+  std::vector<int> blocks, woken;            ///< that are to wake; that did, with what bonds hold
+  std::vector<std::pair<int, int>> touches;  ///< of blocks asleep, both ways
+  std::vector<std::uint8_t> is_known;        ///< among `blocks`                        (n_blocks)
+  std::vector<int> sleepers;                 ///< that fall asleep
+  std::vector<int> borne, beside_motion;     ///< that others press; that press what moves
+};
+
 /// Which blocks meet, and what they meet. Bodies are those of Blocks::hulls.
 struct PairSearch {  // clang-format off
   // form_islands for all blocks; 2 find_pairs anew for those of an island
@@ -57,6 +66,7 @@ struct PairSearch {  // clang-format off
   std::vector<int> joined_manifold;         ///< of each                                 (n_joined)
   std::vector<std::uint8_t> near_fixed;     ///< 1: within reach of a fixed body         (n_blocks)
   IslandGroups groups;
+  SleepScratch sleep;
 };  // clang-format on
 
 /// What the step of a lone block may change, as it was before.
@@ -251,7 +261,7 @@ struct SubstepEnd {  // clang-format off
   std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
   std::vector<PairPress> presses;           ///< where they tell who sleeps
   std::vector<Vec6> load_change;            ///< of those asleep                        (n_members)
-  std::vector<int> woken;                   ///< blocks asleep that have to be awake in it
+  SleepScratch sleep;                         ///< its `blocks` have to be awake in it
   // 9 accept
   std::vector<std::uint8_t> pressed;        ///< 1: by a contact                         (n_members)
   std::vector<Vec3> ground_impulse;        ///< hits aside [N s]                        (n_members)

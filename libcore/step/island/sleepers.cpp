@@ -48,9 +48,11 @@ void add_press(int a, int b, const Vec6& on_a, const Vec6& on_b, std::vector<Pai
 
 // Of the blocks that have stayed in place, those that fall asleep: something bears them, and what
 // they press and what bonds hold them to has stayed in place, too.
-void find_sleepers(const State& state, std::span<const PairPress> presses,
-                   std::vector<int>& sleepers) {
-  std::vector<int> borne, beside_motion;
+void find_sleepers(const State& state, std::span<const PairPress> presses, SleepScratch& scratch) {
+  std::vector<int>&sleepers = scratch.sleepers, &borne = scratch.borne,
+  &beside_motion = scratch.beside_motion;
+  borne.clear();
+  beside_motion.clear();
   const auto see = [&](int b, int other) {
     borne.push_back(b);
     if (!sleeps(state, other) && !has_rested(state, other)) beside_motion.push_back(b);
@@ -113,23 +115,25 @@ void list_presses(const IslandMembers& members, double h, const MassScratch& w,
   }
 }
 
-void add_piles(const State& state, std::vector<int>& woken) {
-  if (woken.empty()) return;
-  std::vector<std::pair<int, int>> touches;  // of blocks asleep, both ways
+void add_piles(const State& state, SleepScratch& wake) {
+  if (wake.blocks.empty()) return;
+  wake.touches.clear();
   for (int b = 0; b < std::ssize(state.memory); ++b)
     for (const ContactMemory& memory : state.memory[b]) {
       const int other = memory.key.body_b;
       if (other < 0 || !sleeps(state, b) || !sleeps(state, other)) continue;
-      touches.emplace_back(b, other);
-      touches.emplace_back(other, b);
+      wake.touches.emplace_back(b, other);
+      wake.touches.emplace_back(other, b);
     }
-  std::sort(touches.begin(), touches.end());
-  std::vector<char> is_woken(state.memory.size(), 0);
-  for (const int b : woken) is_woken[b] = 1;
-  for (size_t i = 0; i < woken.size(); ++i)
-    for (auto at = std::lower_bound(touches.begin(), touches.end(), std::pair(woken[i], 0));
-         at != touches.end() && at->first == woken[i]; ++at)
-      if (!std::exchange(is_woken[at->second], 1)) woken.push_back(at->second);
+  std::sort(wake.touches.begin(), wake.touches.end());
+  wake.is_known.assign(state.memory.size(), 0);
+  for (const int b : wake.blocks) wake.is_known[b] = 1;
+  for (size_t i = 0; i < wake.blocks.size(); ++i) {
+    const int b = wake.blocks[i];
+    for (auto at = std::lower_bound(wake.touches.begin(), wake.touches.end(), std::pair(b, 0));
+         at != wake.touches.end() && at->first == b; ++at)
+      if (std::exchange(wake.is_known[at->second], 1) == 0) wake.blocks.push_back(at->second);
+  }
 }
 
 void find_woken(const Scene& scene, const State& state, const IslandMembers& members,
@@ -145,15 +149,16 @@ void find_woken(const Scene& scene, const State& state, const IslandMembers& mem
   for (const int b : members.blocks) {
     if (!sleeps(state, b)) continue;
     for (const SleepLoad& then : carried_by(state, b)) add(b, then.by, -then.load);
-    if (moves_block(scene, state, b, end.load_change[members.at(b)])) end.woken.push_back(b);
+    if (moves_block(scene, state, b, end.load_change[members.at(b)])) end.sleep.blocks.push_back(b);
   }
 }
 
-void wake_members(const Scene& scene, double t, std::span<const int> woken, State& state,
+void wake_members(const Scene& scene, double t, SleepScratch& wake, State& state,
                   IslandMembers& members) {
   const int lead = members.moving.front();
-  std::vector<int> blocks;
-  for (const int b : woken)
+  std::vector<int>& blocks = wake.woken;
+  blocks.clear();
+  for (const int b : wake.blocks)
     if (sleeps(state, b)) wake_bonded(b, t, state, blocks);
   if (!state.mass.empty())
     for (const int b : blocks) state.mass[b] = state.mass[lead];
@@ -167,7 +172,8 @@ void wake_members(const Scene& scene, double t, std::span<const int> woken, Stat
 
 bool wake_before_step(const Scene& scene, State& state, PairSearch& search) {
   const std::vector<int>& island_of = search.groups.island_of;
-  std::vector<int> to_wake;
+  std::vector<int>& to_wake = search.sleep.blocks;
+  to_wake.clear();
   const double slow = scene.settings.dt * resting_speed(scene.settings, scene.gravity.norm());
   const auto may_hit = [&](int by, int b) {
     return !is_fixed(scene, b) && sleeps(state, b) && !sleeps(state, by) &&
@@ -177,15 +183,15 @@ bool wake_before_step(const Scene& scene, State& state, PairSearch& search) {
     if (may_hit(m.block_a, m.block_b)) to_wake.push_back(m.block_b);
     if (!is_fixed(scene, m.block_b) && may_hit(m.block_b, m.block_a)) to_wake.push_back(m.block_a);
   }
-  add_piles(state, to_wake);
+  add_piles(state, search.sleep);
   for (const SleepLoad& load : state.carried)
     if (!sleeps(state, load.by) && island_of[load.by] != island_of[load.block])
       to_wake.push_back(load.block);
   for (const int b : to_wake) {
     if (!sleeps(state, b)) continue;  // woken with another
-    std::vector<int> woken;
-    wake_bonded(b, state.time, state, woken);
-    for (const int of : woken) search.awake[of] = 1;
+    search.sleep.woken.clear();
+    wake_bonded(b, state.time, state, search.sleep.woken);
+    for (const int of : search.sleep.woken) search.awake[of] = 1;
   }
   return !to_wake.empty();
 }
@@ -198,8 +204,10 @@ void forget_contacts(const IslandMembers& members, State& state) {
     });
 }
 
-void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& work) {
-  std::vector<int> sleepers;
+void put_island_to_sleep(const Scene& scene, int k, State& state, Work& work) {
+  SleepScratch& scratch = work.search.sleep;
+  std::vector<int>& sleepers = scratch.sleepers;
+  sleepers.clear();
   for (const int b : blocks_of(work.search.groups, k)) {
     if (does_not_move(phase_of(state, b))) continue;
     watch_rest(scene, static_cast<size_t>(b), state);
@@ -207,7 +215,7 @@ void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& wo
   }
   if (sleepers.empty()) return;
   const std::vector<PairPress>& presses = work.island.end.presses;
-  find_sleepers(state, presses, sleepers);
+  find_sleepers(state, presses, scratch);
   for (const int b : sleepers) {
     fall_asleep(scene, static_cast<size_t>(b), state);
     if (!state.mass.empty()) state.mass[b] = {};

@@ -141,15 +141,17 @@ void set_displacements(double h, const IslandSystem& system, const SubstepHits& 
 [[nodiscard]] bool asks_for_presses(const State& state, const IslandMembers& members);
 void list_presses(const IslandMembers& members, double h, const IslandSystem& system,
                   std::vector<PairPress>& presses);
-/// Adds the blocks asleep that these touch, and so on: a blow goes through all of a pile.
-void add_piles(const State& state, std::vector<int>& woken);
-/// Adds to the woken of `end` the members asleep that do not carry what they fell asleep under.
+/// Adds to the blocks that are to wake those asleep that these touch, and so on: a blow goes
+/// through all of a pile.
+void add_piles(const State& state, SleepScratch& wake);
+/// Adds to the blocks of `end` that are to wake the members asleep that do not carry what they fell
+/// asleep under.
 void find_woken(const Scene& scene, const State& state, const IslandMembers& members,
                 SubstepEnd& end);
 /// Clears the memory of the members' contacts, but for those between members that stand.
 void forget_contacts(const IslandMembers& members, State& state);
 /// They move with the others, from `t` on.
-void wake_members(const Scene& scene, double t, std::span<const int> woken, State& state,
+void wake_members(const Scene& scene, double t, SleepScratch& wake, State& state,
                   IslandMembers& members);
 /// Wakes before a step the blocks asleep of which a neighbour awake is in no island with them any
 /// more, and the piles that a block may hit in the step. Whether there are any.

@@ -197,7 +197,7 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
   if (was_mass && !is_mass) work.search.is_of_step = false;  // points that do not close are missing
   if (is_mass && !was_mass) release_exact_step(w);
   while (t < t_end && !w.members.moving.empty()) {
-    w.end.woken.clear();
+    w.end.sleep.blocks.clear();
     const double longest = prepare_substep(scene, k, is_mass, t, ahead, state, work);
     const bool is_tried = t == 0 && begins_as_mass(scene, longest, state, work);
     if (is_tried) is_mass = true;
@@ -205,8 +205,8 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
       make_mass_substep(scene, t, longest, is_tried, state, work, report);
     else
       make_substep(scene, t, std::min(longest, w.tries.longest), state, work, report);
-    if (!w.end.woken.empty()) {
-      wake_members(scene, t, w.end.woken, state, w.members);
+    if (!w.end.sleep.blocks.empty()) {
+      wake_members(scene, t, w.end.sleep, state, w.members);
       work.search.is_of_step = false;
     }
     t = state.local_time[w.members.moving.front()];

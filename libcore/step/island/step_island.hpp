@@ -24,6 +24,6 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
                     StepReport& report);
 
 /// Puts the blocks of island `k` to sleep when all have stayed in place long enough.
-void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& work);
+void put_island_to_sleep(const Scene& scene, int k, State& state, Work& work);
 
 }  // namespace talus

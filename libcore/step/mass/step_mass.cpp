@@ -53,16 +53,16 @@ void solve_contacts(const Scene& scene, const MassSettings& settings, const Stat
 bool wakes_any(const Scene& scene, double h, const State& state, Work& work) {
   SubstepEnd& end = work.island.end;
   end.presses.clear();
-  end.woken.clear();
+  end.sleep.blocks.clear();
   if (!asks_for_presses(state, work.island.members)) return false;
   const IslandMembers& members = work.island.members;
   list_presses(members, h, work.mass, end.presses);
   for (std::size_t k = 0; k < members.size(); ++k)
     if (work.mass.changes[k].was_hit && phase_of(state, members.blocks[k]) == Phase::asleep)
-      end.woken.push_back(members.blocks[k]);
-  add_piles(state, end.woken);
+      end.sleep.blocks.push_back(members.blocks[k]);
+  add_piles(state, end.sleep);
   find_woken(scene, state, members, end);
-  return !end.woken.empty();
+  return !end.sleep.blocks.empty();
 }
 
 }  // namespace
