@@ -1,8 +1,8 @@
 #!/bin/sh
-# clean.sh OUT MARK PATTERNS FOLDERS: removes from OUT what the pipeline made: files by PATTERNS (one
-# argument, parted by blanks), then MARK, then FOLDERS (patterns too) and OUT where nothing is left in them. Without
-# MARK nothing in OUT is the pipeline's, and nothing goes. A file that site.toml names stays, whatever its name. Says
-# what stays.
+# clean.sh OUT MARK PATTERNS FOLDERS: removes from OUT what the pipeline made: files by PATTERNS
+# (one argument, parted by blanks), then MARK, then FOLDERS (patterns too) and OUT where nothing is
+# left in them. Without MARK nothing in OUT is the pipeline's, and nothing goes. A file that
+# site.toml names stays, whatever its name. Says what stays.
 set -eu
 out=$1 mark=$2 patterns=$3 folders=$4
 [ -d "$out" ] || exit 0
@@ -11,9 +11,12 @@ if ! grep -q '^# written by talus-site' "$out/$mark" 2>/dev/null; then
   exit 0
 fi
 # Of the texts in site.toml those that are files in OUT, a line each; no tool is needed for it.
-inputs=$([ ! -f site.toml ] || grep -o "\"[^\"]*\"\|'[^']*'" site.toml | sed 's/^.//; s/.$//; s/|.*//' |
+inputs=$([ ! -f site.toml ] || grep -o "\"[^\"]*\"\|'[^']*'" site.toml |
+  sed 's/^.//; s/.$//; s/|.*//' |
   while read -r name; do
-    case $(realpath -- "$name" 2>/dev/null) in "$(realpath "$out")"/*) [ ! -f "$name" ] || printf '%s\n' "$name" ;; esac
+    case $(realpath -- "$name" 2>/dev/null) in
+      "$(realpath "$out")"/*) [ ! -f "$name" ] || printf '%s\n' "$name" ;;
+    esac
   done)
 is_input() {
   [ -n "$inputs" ] || return 1

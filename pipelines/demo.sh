@@ -11,13 +11,16 @@ site=${1:-maungawhau}
 }
 
 sh pipelines/install_packages.sh build
-export CCACHE_SLOPPINESS=pch_defines,time_macros  # lets ccache keep files that use a precompiled header
+# lets ccache keep files that use a precompiled header
+export CCACHE_SLOPPINESS=pch_defines,time_macros
 cmake --preset release -DTALUS_TESTS=OFF -DTALUS_BENCH=OFF -B build/demo >/dev/null
 compiled=$(ls build/demo/tools/talus-report 2>/dev/null || true)
-[ -n "$compiled" ] || echo "Building the tools: 5 to 10 minutes on two cores, once. Then the site: a minute or two."
+[ -n "$compiled" ] || echo "Building the tools: 5 to 10 minutes on two cores, once." \
+  "Then the site: a minute or two."
 cmake --build build/demo --target pipeline
 goals=all
-grep -q '^\[fence_search' "sample_sites/$site/site.toml" && goals='fence-search all'  # in this order neither has nothing to do
+# in this order neither has nothing to do
+grep -q '^\[fence_search' "sample_sites/$site/site.toml" && goals='fence-search all'
 code=0
 # shellcheck disable=SC2086  # a list of words
 make -j"$(nproc)" -C "sample_sites/$site" BIN="$PWD/build/demo/tools/" $goals || code=$?
@@ -25,7 +28,8 @@ out=sample_sites/$site/out
 [ -f "$out/report.html" ] || exit "$code"
 echo
 echo "The results are in $out. Look at:"
-echo "  $out/report.html   maps, fence verdicts, 3-D animation, health, what was assumed (any browser)"
+echo "  $out/report.html   maps, fence verdicts, 3-D animation, health, what was assumed" \
+  "(any browser)"
 echo "  $out/site.qgz      the same as a QGIS project (QGIS 3.22 or later)"
 echo "Your own slope: docs/guide/tutorial.md"
 exit "$code"

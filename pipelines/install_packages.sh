@@ -3,9 +3,10 @@
 # tools, or for building and testing them. As root, or through sudo; says so where neither works.
 set -eu
 
-build="g++ cmake ninja-build make ccache libgdal-dev libcgal-dev libboost-dev libeigen3-dev libhdf5-dev
-  libsqlite3-dev libsqlitecpp-dev libssl-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev gdal-bin proj-data git help2man
-  python3 pkgconf libpango1.0-dev fonts-dejavu-core"
+build="g++ cmake ninja-build make ccache libgdal-dev libcgal-dev libboost-dev libeigen3-dev
+  libhdf5-dev libsqlite3-dev libsqlitecpp-dev libssl-dev libcli11-dev libtomlplusplus-dev
+  nlohmann-json3-dev gdal-bin proj-data git help2man python3 pkgconf libpango1.0-dev
+  fonts-dejavu-core"
 test="libgtest-dev librapidcheck-dev clang-format-14 sqlite3 hdf5-tools procps"
 # without these their tests are skipped, with a line that says so
 optional="slurm-wlm munge parallel"
@@ -36,7 +37,8 @@ elif command -v sudo >/dev/null 2>&1 && [ -t 0 ]; then
   as_root=sudo
 else
   [ -n "$missing" ] || exit 0
-  echo "These packages are missing and cannot be installed without root or sudo. Ask an administrator for:" >&2
+  echo "These packages are missing and cannot be installed without root or sudo." \
+    "Ask an administrator for:" >&2
   echo "  apt-get install --no-install-recommends$missing" >&2
   exit 1
 fi

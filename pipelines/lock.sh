@@ -25,8 +25,8 @@ case $how in
 esac
 if ! flock $kind -w $wait_s 9; then
   read -r holder on since <"$lock" || true
-  echo "another make works in $out: process ${holder:-?} on ${on:-?}, since ${since:-?}: wait for it," \
-    "end it, or name another folder: make OUT=..."
+  echo "another make works in $out: process ${holder:-?} on ${on:-?}, since ${since:-?}:" \
+    "wait for it, end it, or name another folder: make OUT=..."
   exit 0
 fi
 printf '%-99s\n' "$make $(uname -n) $(date '+%Y-%m-%d %H:%M:%S')" 2>/dev/null >&9 || true

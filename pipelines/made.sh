@@ -9,5 +9,6 @@ for _ in 1 2 3; do
   if [ -s "$file" ] && [ "$(stat -c '%i %Z' "$file")" != "$before" ]; then exit 0; fi
   sleep 1
 done
-echo "make: $tool ended without an error and yet did not write $file: what starts it (BIN) lost it; make again" >&2
+echo "make: $tool ended without an error and yet did not write $file: what starts it (BIN) lost \
+it; make again" >&2
 exit 1

@@ -5,7 +5,8 @@ $(eval $(call remember,maps,$(MAPS_FLAGS)))
 map_files := $(addprefix $(OUT)/,$(map_products))
 maps: $(map_files) ## runs -> velocity, energy, height, reach
 $(eval $(call together,$(map_files)))
-maps_tool = $(BIN)talus-maps $1 --trn $(ground_of_runs) --pages png,pdf $(MAPS_FLAGS) --overwrite $(DB)
+maps_tool = $(BIN)talus-maps $1 --trn $(ground_of_runs) --pages png,pdf $(MAPS_FLAGS) \
+  --overwrite $(DB)
 $(OUT)/maps/reach.tif: $(OUT)/runs/ensemble.json $(STAGES)/maps.flags $(STAGES)/maps.files
 	$(call say,maps: runs -> maps)
 	$(Q)$(call maps_tool,$(OUT)/runs) -o $(OUT)/maps

@@ -2,8 +2,9 @@
 #   snakemake -s TALUS/pipelines/shards.smk --cores 8 --config shards=40 make="RUNS=400 OUT=out"
 # config: shards  how many jobs; make  the variables for make; goals  of the last job (all);
 #   cores  of each shard (1)
-# Make decides what is to be made, so every job is begun each time, and one with nothing to do ends at
-# once. Jobs of a run each would be too many: a scheduler takes longer over one than some runs do.
+# Make decides what is to be made, so every job is begun each time, and one with nothing to do ends
+# at once. Jobs of a run each would be too many: a scheduler takes longer over one than some
+# runs do.
 variables = str(config.get("make", ""))
 n_shards = int(config["shards"])
 goals = str(config.get("goals", "all"))
