@@ -257,7 +257,7 @@ template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
       {"in_place", &S::in_place, "the mesh has map coordinates and is not moved"},
       {"scale", &S::scale, "factor on the mesh", positive},
       {"shape", &S::shape, "shape instead of a mesh", any, "box|prism|eota|rock"},
-      {"size_m", &S::size_m, "box, rock, eota: extents x, y, z; prism: diameter, length", positive, "", "", 1, 3},
+      {"size_m", &S::size_m, "box, rock, eota: extents x, y, z; prism: diameter, length along y", positive, "", "", 1, 3},
       {"volume_m3", &S::volume_m3, "volume that the body is scaled to", positive},
       {"n_sides", &S::n_sides, "sides of a prism", {3, 64}},
       {"n_points", &S::n_points, "points of a rock", {4, 500}},
