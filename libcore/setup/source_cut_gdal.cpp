@@ -360,7 +360,7 @@ void plan_sets(InputLog& log, BlocksWork& work) {
     if (section.measured_file.empty()) continue;
     const std::string path = resolved(work.site, section.measured_file);
     log.read_also("joints." + section.name, path);
-    OrientationList list = read_orientations(read_file(path), path, section.measured_notation);
+    OrientationList list = read_orientations(read_file(path), path);
     log.info(path + ": " + counted(static_cast<std::int64_t>(list.poles.size()), "orientation") +
              " from " + list.taken_from);
     if (list.is_computed && north_turn(work.site, section).declination_deg != 0)

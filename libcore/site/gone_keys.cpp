@@ -32,6 +32,7 @@ constexpr GoneKey gone_keys[] = {
     {"forest", "stems_where", R"(stems_file = "FILE|subset=FILTER")"},
     {"place", "polygon_layer", R"(polygon_file = "FILE|layername=LAYER")"},
     {"place", "polygon_where", R"(polygon_file = "FILE|subset=FILTER")"},
+    {"joints", "measured_notation", "the names of the columns in the first line of the list"},
     {"object", "layer", R"(file = "FILE|layername=LAYER")"},
     {"object", "where", R"(file = "FILE|subset=FILTER")"},
 };

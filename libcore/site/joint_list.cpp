@@ -15,32 +15,17 @@
 namespace talus {
 namespace {
 
-constexpr const char* pair_hint =
-    "each pair is dip direction, dip in degrees; measured_notation names another order";
 constexpr const char* names_hint =
-    "name them Dip direction and Dip, Strike and Dip, or Trend and Plunge (of the pole)";
+    "a first line names them: Dip direction and Dip, Strike (Right) or Strike (Left) and Dip, or "
+    "Trend and Plunge (of the pole)";
+constexpr const char* number_hint =
+    "write degrees clockwise from north: N45E is 45, S45W is 225; where a dip goes to is said by "
+    "Strike (Right), Strike (Left) or Dip direction";
 
-enum class Notation {
-  direction_dip,
-  dip_direction,
-  strike_right_dip,
-  strike_left_dip,
-  trend_plunge
-};
-
-// As [joints.NAME] measured_notation has them.
-Notation notation_of(const std::string& name) {
-  if (name == "dip/dip_direction") return Notation::dip_direction;
-  if (name == "strike_right/dip") return Notation::strike_right_dip;
-  if (name == "strike_left/dip") return Notation::strike_left_dip;
-  if (name == "pole_trend/plunge") return Notation::trend_plunge;
-  return Notation::direction_dip;
-}
+enum class Notation { direction_dip, strike_right_dip, strike_left_dip, trend_plunge };
 
 const char* words_for(Notation notation) {
   switch (notation) {
-    case Notation::dip_direction:
-      return "dip, dip direction";
     case Notation::strike_right_dip:
       return "strike, dip by the right-hand rule";
     case Notation::strike_left_dip:
@@ -63,25 +48,10 @@ void check_angle(const char* name, double angle, double highest, const Where& wh
                    std::string(name) + " is " + text(angle) + ", expected 0 to " + text(highest),
                    angle > highest && angle <= highest / 0.9
                        ? "in gon? Then name the columns Dip direction [gon] and Dip [gon]"
-                       : pair_hint);
+                       : names_hint);
 }
 
 // --- words ---------------------------------------------------------------------------------------
-
-// Azimuth of the compass letters of a dip ("SE"); NaN: none.
-double quadrant_azimuth(std::string_view letters) {
-  constexpr std::array<std::pair<std::string_view, double>, 8> known = {{{"n", 0},
-                                                                         {"ne", 45},
-                                                                         {"e", 90},
-                                                                         {"se", 135},
-                                                                         {"s", 180},
-                                                                         {"sw", 225},
-                                                                         {"w", 270},
-                                                                         {"nw", 315}}};
-  for (const auto& [name, azimuth] : known)
-    if (lower(letters) == name) return azimuth;
-  return std::nan("");
-}
 
 // One angle: a number, with a degree sign if need be.
 bool parse_angle(const ColumnText& list, std::string word, double& value) {
@@ -90,46 +60,10 @@ bool parse_angle(const ColumnText& list, std::string word, double& value) {
   return parse_number(list, word, value);
 }
 
-// N45E: from north or south by so much to east or west.
-bool parse_bearing(const ColumnText& list, const std::string& word, double& value) {
-  if (word.size() < 3) return parse_angle(list, word, value);
-  const std::string small = lower(word);
-  const bool is_bearing = (small.front() == 'n' || small.front() == 's') &&
-                          (small.back() == 'e' || small.back() == 'w');
-  if (!is_bearing) return parse_angle(list, word, value);
-  if (!parse_angle(list, small.substr(1, small.size() - 2), value) || !(value >= 0 && value <= 90))
-    return false;
-  const double turn = small.back() == 'e' ? value : -value;
-  value = around(small.front() == 'n' ? turn : 180 - turn);
-  return true;
-}
-
-// A dip with the side that it goes to, 30SE; side: NaN where none is said.
-bool parse_dip(const ColumnText& list, const std::string& word, double& value, double& side) {
-  const std::size_t letters = word.find_last_not_of("NSEWnsew");
-  if (letters == std::string::npos) return false;
-  side = letters + 1 < word.size() ? quadrant_azimuth(word.substr(letters + 1)) : std::nan("");
-  if (letters + 1 < word.size() && std::isnan(side)) return false;
-  return parse_angle(list, word.substr(0, letters + 1), value);
-}
-
 // --- one orientation -----------------------------------------------------------------------------
-
-// Of the two ways down from a strike, the one nearer to the side that is said.
-Vec3 pole_by_side(double strike_deg, double dip_deg, double side_deg, const Where& where) {
-  const double apart = std::cos((strike_deg + 90 - side_deg) * degree);
-  if (std::abs(apart) < 0.25)
-    throw InputError(
-        where,
-        "the plane strikes " + text(strike_deg) + " degrees and its dip goes nearly along that",
-        "mend the letters behind the dip");
-  return checked_pole(around(apart > 0 ? strike_deg + 90 : strike_deg - 90), dip_deg, where);
-}
 
 Vec3 pole_by(Notation notation, double first, double second, const Where& where) {
   switch (notation) {
-    case Notation::dip_direction:
-      return checked_pole(second, first, where);
     case Notation::strike_right_dip:
     case Notation::strike_left_dip:
       check_angle("strike", first, 360, where);
@@ -144,29 +78,15 @@ Vec3 pole_by(Notation notation, double first, double second, const Where& where)
   }
 }
 
-// With letters behind the dip the first angle is a strike, unless a name says otherwise.
-Vec3 pole_of_pair(const ColumnText& list, Notation notation, bool is_named,
-                  const std::string& first, const std::string& second, const Where& where) {
-  double a = 0, b = 0, side = std::nan("");
-  const bool strikes =
-      notation == Notation::strike_right_dip || notation == Notation::strike_left_dip;
-  const auto refuse = [&](const std::string& word) {
-    throw InputError(where, "\"" + word + "\" is not a number", pair_hint);
-  };
-  if (!parse_bearing(list, first, a)) refuse(first);
-  if (!parse_dip(list, second, b, side)) refuse(second);
-  const bool is_bearing = !parse_angle(list, first, a) && parse_bearing(list, first, a);
-  if (!std::isnan(side) && (strikes || !is_named)) {
-    check_angle("strike", a, 360, where);
-    return pole_by_side(a, b, side, where);
+Vec3 pole_of_pair(const ColumnText& list, Notation notation, const std::string& first,
+                  const std::string& second, const Where& where) {
+  double angles[2] = {};
+  for (const int k : {0, 1}) {
+    const std::string& word = k == 0 ? first : second;
+    if (!parse_angle(list, word, angles[k]))
+      throw InputError(where, "\"" + word + "\" is not a number", number_hint);
   }
-  if (!std::isnan(side) && !(std::cos((a - side) * degree) > 0.25))
-    throw InputError(where, "\"" + second + "\" contradicts the direction " + text(a),
-                     "mend the letters behind the dip");
-  if (is_bearing && !strikes)
-    throw InputError(where, "\"" + first + "\" is a strike, and nothing says where the plane dips",
-                     "write the side behind the dip (30SE), or set measured_notation");
-  return pole_by(notation, a, b, where);
+  return pole_by(notation, angles[0], angles[1], where);
 }
 
 // --- lists with names ----------------------------------------------------------------------------
@@ -264,24 +184,20 @@ int quantity_of(const ColumnText& list, std::size_t row, int column) {
 
 std::string name_at(const ColumnText& list, int column) { return list.names[column]; }
 
-OrientationList read_named(const ColumnText& list, const std::string& notation) {
+OrientationList read_named(const ColumnText& list) {
   const NamedPair pair = find_pair(list);
   const std::array<int, 3> normal = find_normal(list);
   const bool by_normal = pair.first < 0 && is_whole(normal);
   if (pair.first < 0 && !by_normal)
     throw InputError({list.file}, "no columns of orientations are among: " + list_of_names(list),
                      names_hint);
-  if (notation != "auto" && !by_normal && notation_of(notation) != pair.notation &&
-      !(notation == "dip/dip_direction" && pair.notation == Notation::direction_dip))
-    throw InputError({list.file},
-                     "its columns are named " + name_at(list, pair.first) + ", " +
-                         name_at(list, pair.second) + ", measured_notation is " + notation,
-                     "leave measured_notation away: columns are found by their names");
-  const bool strikes =
-      pair.notation == Notation::strike_right_dip || pair.notation == Notation::strike_left_dip;
+  const int quadrant = find_column(list, {"quadrant", "dipquadrant", "quad", "dipquad"});
+  if (quadrant >= 0 && pair.notation != Notation::direction_dip)
+    throw InputError(
+        {list.file},
+        "column " + name_at(list, quadrant) + " says where strikes dip, which is not read",
+        number_hint);
   const int quantity = find_column(list, {"quantity", "qty"});
-  const int quadrant =
-      strikes ? find_column(list, {"quadrant", "dipquadrant", "quad", "dipquad"}) : -1;
   OrientationList found;
   found.is_computed = is_whole(normal);
   for (std::size_t row = 0; row < list.rows.size(); ++row) {
@@ -290,10 +206,10 @@ OrientationList read_named(const ColumnText& list, const std::string& notation) 
     if (by_normal) {
       axis = pole_of_normal(list, row, normal);
     } else {
-      const std::string side = quadrant < 0 ? std::string() : word_at(list, row, quadrant);
-      axis = pole_of_pair(
-          list, pair.notation, true, in_degrees(list, word_at(list, row, pair.first), pair.first),
-          in_degrees(list, word_at(list, row, pair.second), pair.second) + side, where);
+      const auto angle_in = [&](int column) {
+        return in_degrees(list, word_at(list, row, column), column);
+      };
+      axis = pole_of_pair(list, pair.notation, angle_in(pair.first), angle_in(pair.second), where);
     }
     found.poles.insert(found.poles.end(),
                        static_cast<std::size_t>(quantity_of(list, row, quantity)), axis);
@@ -301,9 +217,8 @@ OrientationList read_named(const ColumnText& list, const std::string& notation) 
   std::string names = by_normal ? name_at(list, normal[0]) + ", " + name_at(list, normal[1]) +
                                       ", " + name_at(list, normal[2])
                                 : name_at(list, pair.first) + ", " + name_at(list, pair.second);
-  for (const int column : {quadrant, quantity})
-    if (column >= 0) names += ", " + name_at(list, column);
-  const int n_taken = (by_normal ? 3 : 2) + (quantity >= 0 ? 1 : 0) + (quadrant >= 0 ? 1 : 0);
+  if (quantity >= 0) names += ", " + name_at(list, quantity);
+  const int n_taken = (by_normal ? 3 : 2) + (quantity >= 0 ? 1 : 0);
   const auto n_others = static_cast<std::int64_t>(list.names.size()) - n_taken;
   found.taken_from = "columns " + names;
   if (!by_normal) found.taken_from += std::string(" (") + words_for(pair.notation) + ")";
@@ -323,39 +238,31 @@ std::vector<std::string> pair_of_words(const ColumnText& list, std::size_t row) 
   }
   if (words.size() == 2) return words;
   throw InputError({list.file, list.line[row]},
-                   std::to_string(words.size()) + " numbers, expected 2",
-                   words.size() > 2 ? std::string("a first line with the names of the columns "
-                                                  "says which are meant: ") +
-                                          names_hint
-                                    : std::string(pair_hint));
+                   std::to_string(words.size()) + " numbers, expected 2", names_hint);
 }
 
-int n_whole_digits(const std::string& word) {
-  return static_cast<int>(
-      std::find_if_not(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; }) -
-      word.begin());
+// 60/045: an azimuth has three digits, a dip two.
+bool looks_swapped(const std::vector<std::string>& pair) {
+  const auto n_digits = [](const std::string& word) {
+    return std::find_if_not(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; }) -
+           word.begin();
+  };
+  return n_digits(pair[0]) == 2 && n_digits(pair[1]) == 3;
 }
 
-// 45/120: two digits, then three, in all pairs. 045/60, 5/120 and 45/12 leave the usual order.
-bool is_dip_first(const std::vector<std::vector<std::string>>& pairs) {
-  return std::all_of(pairs.begin(), pairs.end(), [](const std::vector<std::string>& pair) {
-    return n_whole_digits(pair[0]) == 2 && n_whole_digits(pair[1]) == 3;
-  });
-}
-
-OrientationList read_pairs(const ColumnText& list, const std::string& name) {
-  std::vector<std::vector<std::string>> pairs;
-  for (std::size_t row = 0; row < list.rows.size(); ++row)
-    pairs.push_back(pair_of_words(list, row));
-  const bool has_slash =
-      list.rows.front().size() == 1 && list.rows.front()[0].find('/') != std::string::npos;
-  Notation notation = notation_of(name);
-  if (name == "auto" && has_slash && is_dip_first(pairs)) notation = Notation::dip_direction;
+OrientationList read_pairs(const ColumnText& list) {
   OrientationList found;
-  for (std::size_t row = 0; row < pairs.size(); ++row)
-    found.poles.push_back(pole_of_pair(list, notation, false, pairs[row][0], pairs[row][1],
-                                       {list.file, list.line[row]}));
-  found.taken_from = std::string("pairs of ") + words_for(notation);
+  for (std::size_t row = 0; row < list.rows.size(); ++row) {
+    const std::vector<std::string> pair = pair_of_words(list, row);
+    if (looks_swapped(pair))
+      throw InputError({list.file, list.line[row]},
+                       "\"" + pair[0] + "\", \"" + pair[1] +
+                           "\" look like dip, dip direction; expected dip direction, dip",
+                       names_hint);
+    found.poles.push_back(
+        pole_of_pair(list, Notation::direction_dip, pair[0], pair[1], {list.file, list.line[row]}));
+  }
+  found.taken_from = "pairs of dip direction, dip";
   return found;
 }
 
@@ -367,12 +274,11 @@ Vec3 checked_pole(double direction_deg, double dip_deg, const Where& where) {
   return pole(dip_deg * degree, direction_deg * degree);
 }
 
-OrientationList read_orientations(const std::string& text, const std::string& file,
-                                  const std::string& notation) {
+OrientationList read_orientations(const std::string& text, const std::string& file) {
   const ColumnText list = parse_columns(text, file);
   const bool has_names = !list.names.empty() && !list.names_in_remark;
   const bool names_tell = find_pair(list).first >= 0 || is_whole(find_normal(list));
-  return has_names || names_tell ? read_named(list, notation) : read_pairs(list, notation);
+  return has_names || names_tell ? read_named(list) : read_pairs(list);
 }
 
 }  // namespace talus

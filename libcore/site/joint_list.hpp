@@ -1,6 +1,6 @@
 // libcore/site/joint_list.hpp: public
-// Measured orientations as compasses, point clouds and stereonets write them: columns by name, or
-// pairs in a notation.
+// Measured orientations as point clouds and stereonets write them: columns by name, or pairs of dip
+// direction and dip.
 // in:    the text of a list
 // out:   upward unit poles, azimuths as they stand in the list; what was taken, to be said
 #pragma once
@@ -19,15 +19,13 @@ struct OrientationList {
   bool is_computed = false;  ///< from normals or beside them: azimuths from a grid's north
 };
 
-/// `notation` says what the pairs of a list without names are: "auto" (dip direction, dip; 45/120
-/// by its digits), or one of the names of notations. Columns are found by their names: dip and dip
-/// direction, strike and dip (right-hand rule unless the name says left), trend and plunge of the
-/// pole, or the normal; a column Quantity repeats. Strikes may be N45E, and dips 30SE.
+/// Columns are found by their names: dip and dip direction, strike and dip (right-hand rule unless
+/// the name says left), trend and plunge of the pole, or the normal; a column Quantity repeats.
+/// Without names each line is dip direction, dip. Angles are numbers, degrees or what a name says:
+/// "Dip [gon]".
 ///
-/// Throws InputError with the line: text, other numbers of columns, angles out of their range, a
-/// list whose order its values contradict.
-[[nodiscard]] OrientationList read_orientations(const std::string& text, const std::string& file,
-                                                const std::string& notation = "auto");
+/// Throws InputError with the line: text, other numbers of columns, angles out of their range.
+[[nodiscard]] OrientationList read_orientations(const std::string& text, const std::string& file);
 
 /// The pole of dip direction, dip in degrees. Throws InputError when an angle is out of its range.
 [[nodiscard]] Vec3 checked_pole(double direction_deg, double dip_deg, const Where& where);

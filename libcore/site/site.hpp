@@ -88,7 +88,6 @@ struct JointSettings {
   double offset_m = 0;         ///< of the first plane from the source's middle, along the normal
   std::vector<Vec3> measured;  ///< dip direction, dip pairs that stand for the set(s)
   std::string measured_file;
-  std::string measured_notation = "auto";
   double declination_deg = not_given, convergence_deg = not_given;  ///< not given: of [joints]
   std::int64_t n_sets = 1;
   double friction_deg = not_given, cohesion_pa = 0, tension_pa = 0;

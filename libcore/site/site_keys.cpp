@@ -99,7 +99,6 @@ template <> const std::vector<SiteKey<JointSettings>>& keys_of() {
       {"offset_m", &S::offset_m, "distance of one joint from the middle of the source, along the normal"},
       {"measured", &S::measured, "measured dip direction, dip pairs instead of dip_deg and dip_direction_deg [deg]", any, "", "", 1},
       {"measured_file", &S::measured_file, "list of measured orientations: columns by name, or pairs of dip direction, dip [deg]"},
-      {"measured_notation", &S::measured_notation, "order of the pairs in a list without names of columns; auto: dip direction, dip, but 45/120 by its digits", any, "auto|dip_direction/dip|dip/dip_direction|strike_right/dip|strike_left/dip|pole_trend/plunge"},
       {"declination_deg", &S::declination_deg, "of this section; not given: that of [joints]", {-180, 180}},
       {"convergence_deg", &S::convergence_deg, "of this section; not given: that of [joints]", {-90, 90}},
       {"n_sets", &S::n_sets, "number of sets that measured pairs are grouped into", {1, 12}},
