@@ -25,9 +25,6 @@ constexpr int most_convex_rounds = 500;   // ... and in the convex form, where t
 constexpr double most_renewed = 20;       // of what a slip misses, and at least its inverse
 constexpr int most_steps = 30, most_convex_steps = 100;  // of Newton in a round
 
-using Vec2 = Eigen::Vector2d;
-using Mat2 = Eigen::Matrix2d;
-
 /// An impact being solved; a struct so that its parts share what they all need.
 struct Solver {
   std::span<const ImpactBody> bodies;
@@ -398,49 +395,6 @@ struct Solver {
     return gives;
   }
 
-  // One contact alone: it sticks, or slides along a direction in which what friction leaves of the
-  // slip points. False where that direction is not found.
-  bool solve_one() {
-    ImpactContact& c = contacts[0];
-    const Vec3& n = c.normal;
-    ++passes;
-    Mat3 W = response(bodies[c.a], c.arm_a, c.arm_a);
-    if (c.b >= 0) W += response(bodies[c.b], c.arm_b, c.arm_b);
-    const Vec3 u = point_velocity(w.before, c);
-    const double normal = n.dot(W * n), missing = c.target - n.dot(u);
-    if (!c.is_bond && missing <= 0) return true;
-    c.impulse = W.ldlt().solve(c.target * n - u);
-    const double p_n = n.dot(c.impulse);
-    if (c.is_bond || (p_n >= 0 && (c.impulse - p_n * n).norm() <= c.friction * p_n)) return true;
-    const Vec3 t = n.unitOrthogonal(), s = n.cross(t);
-    const Vec2 across(t.dot(u), s.dot(u)), coupling(t.dot(W * n), s.dot(W * n));
-    Mat2 A;
-    A << t.dot(W * t), t.dot(W * s), s.dot(W * t), s.dot(W * s);
-    // a contact that does not slip before slides where the push across its lever throws it
-    Vec2 direction = across.isZero(0) ? coupling : across;
-    for (int k = 0; k < most_rounds; ++k) {
-      ++passes;
-      direction.normalize();
-      if (!direction.allFinite()) return false;
-      const double gives = normal - c.friction * coupling.dot(direction);
-      if (!(gives > 0)) return false;
-      const double pressed = missing / gives;
-      const Vec2 per_pressed = coupling - c.friction * (A * direction);
-      const Vec2 slip = across + pressed * per_pressed, turned(-direction.y(), direction.x());
-      const double error = turned.dot(slip);
-      if (std::abs(error) <= tolerance * scale && direction.dot(slip) >= 0) {
-        c.impulse = pressed * (n - c.friction * (direction.x() * t + direction.y() * s));
-        return true;
-      }
-      const double pressed_by_turn = pressed * c.friction * coupling.dot(turned) / gives;
-      const double error_by_turn =
-          -direction.dot(slip) +
-          turned.dot(pressed_by_turn * per_pressed - pressed * c.friction * (A * turned));
-      direction -= (error / error_by_turn) * turned;
-    }
-    return false;
-  }
-
   void begin_rounds() {
     w.velocity = w.before;
     for (ImpactContact& c : contacts) c.expected.setZero(), c.slip = 0;
@@ -467,8 +421,7 @@ struct Solver {
 
   // From the impulses in the rows where contacts are few.
   bool solve_any() {
-    if (contacts.size() == 1 && w.turns.empty() && solve_one()) return true;
-    if (contacts.size() > 1 && contacts.size() <= FewContacts::most && w.turns.empty() &&
+    if (contacts.size() <= FewContacts::most && w.turns.empty() &&
         solve_few(bodies, contacts, w.before, scale, w.few, passes))
       return true;
     return solve();

@@ -101,7 +101,8 @@ fence, = [f for f in json.load(open('fence.json'))['fences'] if f['name'] == 'ne
 n = {name: v['n'] for name, v in fence['verdicts'].items()}
 assert n['stopped'] > 40 and n['pierced'] == 0 and fence['broken_panels'] == [], n
 assert fence['whole']['hits_in_that_second'] == 1 and fence['whole']['most_hits_in_a_run'] == 1
-assert fence['whole']['energy_in_one_second_kj'] == fence['whole']['energy_kj']['max']
+most = fence['whole']['energy_kj']['max']
+assert abs(fence['whole']['energy_in_one_second_kj'] - most) < 1e-12 * most  # one hit, summed
 assert any('fell one by one' in note for note in fence['notes']), fence['notes']
 assert not any('dam those' in note or 'sum of their' in note for note in fence['notes'])
 PY
