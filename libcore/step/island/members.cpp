@@ -40,6 +40,16 @@ void release_members(IslandMembers& members) {
   for (const int b : members.blocks) members.place[b] = -1;
 }
 
+void add_members(const Scene& scene, const State& state, std::vector<int>& blocks,
+                 IslandMembers& members) {
+  blocks.insert(blocks.end(), members.blocks.begin(), members.blocks.end());
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  release_members(members);
+  gather_members(scene, blocks, members);
+  let_stand(state, state.time + scene.settings.dt, members);
+}
+
 void see_size(const Scene& scene, const State& state, const PairSearch& search,
               std::span<const int> manifolds, IslandMembers& members) {
   const auto n_pairs = std::count_if(manifolds.begin(), manifolds.end(), [&](int i) {

@@ -196,13 +196,7 @@ void gather_sleepers(const Scene& scene, const State& state, const PairSearch& s
     add(m.block_a, m.block_b);
     add(m.block_b, m.block_a);
   }
-  if (blocks.empty()) return;
-  blocks.insert(blocks.end(), members.blocks.begin(), members.blocks.end());
-  std::sort(blocks.begin(), blocks.end());
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-  release_members(members);
-  gather_members(scene, blocks, members);
-  let_stand(state, state.time + scene.settings.dt, members);
+  if (!blocks.empty()) add_members(scene, state, blocks, members);
 }
 
 // Bounds how far a point of either part of a pair goes ahead as the other body sees it: of all

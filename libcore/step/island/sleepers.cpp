@@ -162,12 +162,7 @@ void wake_members(const Scene& scene, double t, SleepScratch& wake, State& state
     if (sleeps(state, b)) wake_bonded(b, t, state, blocks);
   if (!state.mass.empty())
     for (const int b : blocks) state.mass[b] = state.mass[lead];
-  blocks.insert(blocks.end(), members.blocks.begin(), members.blocks.end());
-  std::sort(blocks.begin(), blocks.end());
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-  release_members(members);
-  gather_members(scene, blocks, members);
-  let_stand(state, state.time + scene.settings.dt, members);
+  add_members(scene, state, blocks, members);
 }
 
 bool wake_before_step(const Scene& scene, State& state, PairSearch& search) {

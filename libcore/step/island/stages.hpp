@@ -25,6 +25,9 @@ void gather_members(const Scene& scene, std::span<const int> blocks, IslandMembe
 void let_stand(const State& state, double t_end, IslandMembers& members);
 /// The bodies of `members` are in no island any more.
 void release_members(IslandMembers& members);
+/// `blocks` belong to `members` too; they list all members afterwards.
+void add_members(const Scene& scene, const State& state, std::vector<int>& blocks,
+                 IslandMembers& members);
 
 // --- 2 find_pairs (step/island/pairs.cpp)
 /// Where blocks have each their own world: places the fixed bodies where block `b` has pushed them;
