@@ -90,8 +90,8 @@ bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& stat
   if (2 * n_in_mass > static_cast<int>(members.moving.size())) {
     const bool is_calm =
         faster_than(members, state, by_gravity) <= static_cast<int>(law::few_blocks);
-    all.calm = is_calm ? all.calm + 1 : 0;
-    // contacts that grow soft sag at first: that does not make it a mass again
+    // contacts that grow soft sag at first: that makes them grow so more slowly, and no mass again
+    all.calm = is_calm ? all.calm + 1 : std::max(0, all.calm - 1);
     if (all.calm >= calm_steps(scene) || all.unsettled >= law::patience)
       return leave(calm_steps(scene));
   } else {

@@ -174,6 +174,14 @@ Pair with_and_without_sleep(const Scene& scene, const State& state, double time)
 // wake them [m].
 double missed_in(double time) { return law::least_speed * g * time * time / 2; }
 
+// Layers of bricks that sag while their contacts grow soft come to rest as one layer does.
+TEST(Sleepers, AHighPileFallsAsleep) {
+  const Scene scene = on_level_ground(pyramid(8, 8));
+  State state = start(scene);
+  run_until(scene, 2, state);
+  EXPECT_EQ(n_asleep(state), n_blocks(scene));
+}
+
 // A force drags a block along the foot of bricks that rest. Work is that of the block and of what
 // it touches, whatever else sleeps, and it creeps as far as if all were awake.
 TEST(Sleepers, OneThatCreepsKeepsItsNeighboursAwakeAlone) {
