@@ -6,6 +6,7 @@
 
 #include "base/workers.hpp"
 #include "motion/rotation.hpp"
+#include "scene/fence.hpp"
 #include "scene/sleep.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/step.hpp"
@@ -182,20 +183,28 @@ TEST(Sleepers, AHighPileFallsAsleep) {
   EXPECT_EQ(n_asleep(state), n_blocks(scene));
 }
 
+// The last of the bodies is dragged by a force along the foot of the others, and presses them.
+void drag_last(Scene& scene) {
+  scene.ground.classes[0].drag_per_time = 5;
+  PointLoad load;
+  load.block = n_blocks(scene) - 1;
+  load.force = scene.blocks.mass[load.block] *
+               Vec3(0.075 + 1.02 * g * scene.ground.classes[0].friction, 0.02 * g, 0);
+  scene.loads = {load};
+}
+std::vector<Body> pyramid_and_creeper(int along) {
+  std::vector<Body> bodies = pyramid(along, 2);
+  bodies.push_back(body_of(box(Vec3(0.5, -1, 0), Vec3(1.5, 0, 0.5))));
+  return bodies;
+}
+
 // A force drags a block along the foot of bricks that rest. Work is that of the block and of what
 // it touches, whatever else sleeps, and it creeps as far as if all were awake.
 TEST(Sleepers, OneThatCreepsKeepsItsNeighboursAwakeAlone) {
   for (const int along : {8, 14}) {
-    std::vector<Body> bodies = pyramid(along, 2);
-    bodies.push_back(body_of(box(Vec3(0.5, -1, 0), Vec3(1.5, 0, 0.5))));
-    Scene scene = on_level_ground(bodies);
-    scene.ground.classes[0].drag_per_time = 5;
+    Scene scene = on_level_ground(pyramid_and_creeper(along));
+    drag_last(scene);
     const int creeper = n_blocks(scene) - 1;
-    const double friction = scene.ground.classes[0].friction;
-    PointLoad load;
-    load.block = creeper;
-    load.force = scene.blocks.mass[creeper] * Vec3(0.075 + 1.02 * g * friction, 0.02 * g, 0);
-    scene.loads = {load};
     State state = start(scene);
     run_until(scene, 2, state);
     const State before = state;
@@ -210,6 +219,98 @@ TEST(Sleepers, OneThatCreepsKeepsItsNeighboursAwakeAlone) {
     const double resolved = g * scene.settings.dt * scene.settings.dt;
     EXPECT_LT(with_and_without_sleep(scene, before, 1).apart, resolved) << along;
   }
+}
+
+double mechanical(const Scene& scene, const State& state) {
+  const Energies e = energies(scene, state);
+  return e.translation + e.rotation + e.potential;
+}
+double booked(const EnergyLedger& l) {
+  return l.friction + l.impact + l.contact + l.fence + l.drag + l.removed - l.base;
+}
+
+// Energy that the run from `state` lost and did not book, of what friction took [-].
+double imbalance(const Scene& scene, const State& state, double time) {
+  State next = state;
+  run_until(scene, state.time + time, next);
+  const double lost = mechanical(scene, state) - mechanical(scene, next),
+               friction = next.ledger.friction - state.ledger.friction;
+  EXPECT_GT(friction, 0);
+  return std::abs(lost - (booked(next.ledger) - booked(state.ledger))) / friction;
+}
+
+TEST(Sleepers, TheLedgerClosesBesideThem) {
+  Scene scene = on_level_ground(pyramid_and_creeper(8));
+  drag_last(scene);
+  State state = start(scene);
+  run_until(scene, 2, state);
+  EXPECT_GT(n_asleep(state), 100);
+  EXPECT_LT(imbalance(scene, state, 1), 1e-6);
+}
+
+// Ground whose friction falls with the way slid, below a block that creeps beside sleepers.
+TEST(Sleepers, GroundThatGivesWayBesideThem) {
+  Scene scene = on_level_ground(pyramid_and_creeper(8));
+  drag_last(scene);
+  scene.ground.classes[0].scar_friction = 0.9 * scene.ground.classes[0].friction;
+  scene.ground.classes[0].scar_rate = 0.5;
+  State state = start(scene);
+  run_until(scene, 2, state);
+  EXPECT_GT(n_asleep(state), 100);
+  const Pair runs = with_and_without_sleep(scene, state, 1);
+  EXPECT_GT(n_asleep(runs.slept), 100);
+  EXPECT_LT(runs.apart, g * scene.settings.dt * scene.settings.dt);
+  EXPECT_LT(imbalance(scene, state, 1), 1e-6);
+}
+
+// Two bricks that a bond holds together sleep and wake together; the creeper presses one of them.
+TEST(Sleepers, BondedBlocksWakeTogether) {
+  std::vector<Body> bodies = {body_of(box(Vec3(0, 0, 0), Vec3(1, 1, 0.5))),
+                              body_of(box(Vec3(0, 1, 0), Vec3(1, 2, 0.5))),
+                              body_of(box(Vec3(-1.5, -1, 0), Vec3(-0.5, 0, 0.5)))};
+  for (Body& body : bodies) body.parts[0].face_tag.assign(6, 0);
+  Scene scene = on_level_ground(bodies);
+  scene.joints.of_set = {ground_of(20)};
+  scene.joints.of_set[0].cohesion = scene.joints.of_set[0].tension = 1e6;
+  State state = start(scene);
+  ASSERT_EQ(std::ssize(state.bonds), 1);
+  run_until(scene, 2, state);
+  ASSERT_EQ(n_asleep(state), 3);
+  wake_bonded(2, state.time, state);
+  state.motion[2].velocity = Vec3(4, 0.05, 0);
+  long fewest = 3;
+  const State before = state;
+  Work work = make_work(scene);
+  for (int i = 0; i < 100; ++i) {
+    step(scene, state, work);
+    fewest = std::min(fewest, n_asleep(state));
+    EXPECT_EQ(state.phase[0] == Phase::asleep, state.phase[1] == Phase::asleep) << i;
+  }
+  EXPECT_EQ(fewest, 0);
+  EXPECT_LT(with_and_without_sleep(scene, before, 0.5).apart, missed_in(0.5));
+}
+
+// A block that leans on a fence sleeps; one that hits the same panel moves it, and wakes the block.
+TEST(Sleepers, AFenceThatGivesWayWakesWhatTouchesIt) {
+  std::vector<Body> bodies = {body_of(box(Vec3(-1.25, -2, 0), Vec3(-0.25, -1, 1))),
+                              body_of(box(Vec3(-9, 1, 0), Vec3(-8, 2, 1)))};
+  Scene scene = on_level_ground(bodies);
+  StandingFence fence;
+  fence.posts = {Vec3(0, -5, 0), Vec3(0, 5, 0)};
+  fence.depth = {0.5};
+  fence.height = 4;
+  fence.capacity = 2e5;
+  fence.deflection = 2;
+  add_fence(scene, fence);
+  State state = start(scene);
+  run_until(scene, 2, state);
+  ASSERT_EQ(n_asleep(state), 2);
+  wake_bonded(1, state.time, state);
+  state.motion[1].velocity = Vec3(12, 0, 0);
+  const Pair runs = with_and_without_sleep(scene, state, 1.5);
+  EXPECT_GT(runs.awake.ledger.fence, 1e3);
+  EXPECT_LT(runs.apart, missed_in(0.1));
+  EXPECT_NEAR(runs.slept.ledger.fence, runs.awake.ledger.fence, 1e-3 * runs.awake.ledger.fence);
 }
 
 // What stands on a foot that is pulled away wakes in that step, and falls as if it had not slept.
