@@ -43,6 +43,7 @@ struct MassShare {
   int calm = 0;             ///< steps in a row in which few of its blocks moved
   int unsettled = 0;        ///< steps in a row whose last sweep changed too much
   int barred = 0;           ///< steps for which it is no mass, since its forces were not found
+  int steady = 0;           ///< substeps in a row that a long step would have followed as well
 };
 
 /// What a block that sleeps carried when it fell asleep, of one neighbour.
@@ -134,6 +135,7 @@ struct Mishaps {
 /// Phases, local times and rest of the blocks are those of BlockLives.
 struct State : BlockLives {  // clang-format off
   double time = 0;                          ///< end of the last step [s]
+  std::int64_t stride = 1;                  ///< nominal steps that the next step takes at once
   std::vector<Motion> motion;               ///<                                     (n_blocks)
   std::vector<Vec3> acceleration;           ///< of the last step, by contact too [m/s2]  (n_blocks)
   std::vector<Vec3> spin_rate;              ///< angular acceleration, body axes [rad/s2] (n_blocks)

@@ -189,7 +189,8 @@ inline constexpr int most_step_halvings = 8;
 /// [slip stiffness] Change before a pair's tangent is summed again.
 inline constexpr double slack = 0.5;
 /// [-] In so many steps the smallest residual has to fall by half; else motion is relaxed. A mass
-/// that so many steps in a row leave unsettled is exact for mass::calm_time.
+/// that so many steps in a row leave unsettled is exact for mass::calm_time; one that so many
+/// substeps follow accurately takes long steps.
 inline constexpr int patience = 6;
 /// [residual] The next step of pseudo-time is as long as leaves so much of its own equation.
 inline constexpr double usually_left = 0.1;

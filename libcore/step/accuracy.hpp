@@ -33,6 +33,17 @@ struct WayError {
   return of.error / (of.way + law::shallow * thickness);
 }
 
+/// Of an island or a mass: the mean share, by momentum.
+struct MeanError {
+  double share = 0, momentum = 0;
+
+  void add(const BlockNumbers& c, const WayError& of) {
+    share += c.mass * of.way * share_of(of, c.thickness);
+    momentum += c.mass * of.way;
+  }
+  [[nodiscard]] double over_way() const { return momentum > 0 ? share / momentum : 0; }
+};
+
 /// Length of a substep whose error is allowed: `h` where `share`, that of `h`, is [s].
 [[nodiscard]] inline double accurate_substep(const Settings& settings, double share, double h) {
   const double excess = share / settings.accuracy, shortest = settings.dt / law::most_substeps;

@@ -47,7 +47,7 @@ double load_through(const BlockLoad& load) {
 void crush_blocks(const Scene& scene, State& state) {
   for (size_t b = 0; b < state.load.size(); ++b) {
     if (std::isinf(scene.crush_load[b]) || does_not_move(state.phase[b])) continue;
-    renew_mean(scene.settings.dt, state.load[b]);
+    renew_mean(step_length(scene, state), state.load[b]);
     // no axis bears more than half the trace
     if (state.load[b].press.trace() <= 2 * scene.crush_load[b]) continue;
     if (state.phase[b] != Phase::near_ground) continue;

@@ -15,6 +15,7 @@
 #include "step/island/step_island.hpp"
 #include "step/island/untouched.hpp"
 #include "step/lone/step_talus.hpp"
+#include "step/mass/step_mass.hpp"
 #include "step/mishaps.hpp"
 #include "step/settle.hpp"
 #include "step/substep.hpp"
@@ -103,7 +104,7 @@ Work make_work(const Scene& scene, Workers* workers) {
 namespace {
 
 void advance_talus(const Scene& scene, State& state, Work& work, StepReport& report) {
-  const double t_end = state.time + scene.settings.dt;
+  const double t_end = state.time + step_length(scene, state);
   const bool islands = (n_blocks(scene) > 1 && scene.settings.block_contacts) ||
                        n_fixed(scene) > 0 || !scene.forest.stems.empty();
   if (islands) {
@@ -127,7 +128,7 @@ void advance_talus(const Scene& scene, State& state, Work& work, StepReport& rep
 }  // namespace
 
 void end_step(const Scene& scene, State& state, Work& work, StepReport& report) {
-  state.time += scene.settings.dt;
+  state.time += step_length(scene, state);
   break_blocks(scene, state, work);
   crush_blocks(scene, state);
   note_deep_blocks(scene, state, work.deep, report);
@@ -144,6 +145,7 @@ StepReport step(const Scene& scene, State& state, Work& work) {
   work.segments.clear();
   advance_talus(scene, state, work, report);
   end_step(scene, state, work, report);
+  state.stride = next_stride(scene, state);
   return report;
 }
 

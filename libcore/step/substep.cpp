@@ -499,7 +499,7 @@ void watch_rest(const Scene& scene, size_t b, State& state) {
                                    law::rests_within * scene.blocks.shapes.thickness[b]);
   const double turn = 2 * (now.attitude.coeffs() - then.attitude.coeffs()).norm();
   const double path = (now.position - then.position).norm() + turn * scene.blocks.shapes.radius[b];
-  ++state.rest_steps[b];
+  state.rest_steps[b] += static_cast<int>(state.stride);
   if (path <= resolved) return;
   state.rest_pose[b] = now;
   state.rest_steps[b] = 0;

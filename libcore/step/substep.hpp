@@ -132,6 +132,10 @@ void end_flight(const Scene& scene, int b, double t, State& state, Work& work);
 /// Counts the steps for which no point of block b has gone farther than contacts resolve: g dt^2,
 /// by which its weight presses a block of an island in, or a thousandth of its thickness.
 void watch_rest(const Scene& scene, std::size_t b, State& state);
+/// Length of the step from state.time on [s].
+[[nodiscard]] inline double step_length(const Scene& scene, const State& state) {
+  return static_cast<double>(state.stride) * scene.settings.dt;
+}
 /// Block b is left out until something wakes it; what it still moved by is booked as lost in
 /// contacts.
 void fall_asleep(const Scene& scene, std::size_t b, State& state);

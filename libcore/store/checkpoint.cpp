@@ -16,7 +16,7 @@ namespace talus {
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 72 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 112 &&
               sizeof(HealthRow) == 208 + 8 * substep_cut_names.size());
-static_assert(sizeof(State) == 8 + 23 * 24 + sizeof(HitChain) + sizeof(EnergyLedger) +
+static_assert(sizeof(State) == 2 * 8 + 23 * 24 + sizeof(HitChain) + sizeof(EnergyLedger) +
                                    sizeof(RunCounters) + sizeof(PairState) + sizeof(PlacedHulls) +
                                    sizeof(FenceState) + sizeof(YieldingState) + sizeof(Mishaps));
 static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
@@ -29,7 +29,7 @@ static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(L
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
 static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
               sizeof(Mishaps) == 5 * 48);
-static_assert(sizeof(MassShare) == 16 && sizeof(SleepLoad) == 64);
+static_assert(sizeof(MassShare) == 20 && sizeof(SleepLoad) == 64);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
 template <class Archive>
@@ -119,7 +119,7 @@ void fields(Fields<Archive>& archive, SlidWay& slid) {
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, MassShare& share) {
-  archive(share.is_in_mass, share.calm, share.unsettled, share.barred);
+  archive(share.is_in_mass, share.calm, share.unsettled, share.barred, share.steady);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, SleepLoad& load) {
@@ -200,7 +200,7 @@ void fields(Fields<Archive>& archive, HealthRow& row) {
 template <class Archive>
 void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
   State& state = checkpoint.state;
-  archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
+  archive(state.time, state.stride, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.support, checkpoint.paper.rebound,
           state.rest_pose, state.rest_steps, state.strain, state.strain_rate, state.memory,
           state.mass, state.carried, state.pairs, state.placed, state.bonds, state.deep, state.slid,
@@ -212,7 +212,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x35316b6365686374;  // "tcheck15"
+constexpr std::uint64_t format = 0x36316b6365686374;  // "tcheck16"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

@@ -59,8 +59,7 @@ struct Run {
     return report;
   }
   void advance_to(double time) {
-    const long n = std::lround((time - state.time) / scene.settings.dt);
-    for (long i = 0; i < n; ++i) advance();
+    while (state.time < time - scene.settings.dt / 2) advance();
   }
   /// Of block b, now.
   [[nodiscard]] Motion motion(int b = 0) const { return motion_at(scene, state, b, state.time); }

@@ -166,37 +166,16 @@ struct SubstepCheck {
 
   // --- accuracy --------------------------------------------------------------------------------
 
-  // What the forces of member k leave. Nobody knows what pressed before where nothing did, or hits
-  // did, or blocks are let go.
-  [[nodiscard]] WayError error_of(size_t k) const {
-    const size_t b = members.block(k);
-    if (members.numbers[k].stands || hits.members[k].was_hit ||
-        state.acceleration[b] == scene.gravity)
-      return {};
-    const Substep& s = free.substeps[k];
-    const FreeTurn& turn = free.turns[k];
-    const Vec6 by_contact = change(system.island, k);
-    const double h = free.h;
-    const Vec3 spin_end = turn.spin_end + by_contact.tail<3>();
-    const Vec3 mean = (s.free.velocity + by_contact.head<3>() - s.start.velocity) / h,
-               spin_rate = (spin_end - turn.spin_start) / h;
-    const Vec3 path = s.free.pose.position - s.start.pose.position + end.displacement[k].head<3>();
-    return error_of_way(members.numbers[k], mean - state.acceleration[b],
-                        spin_rate - s.R * state.spin_rate[b], path,
-                        h / 2 * (turn.spin_start + spin_end), h, tries.last_h);
-  }
-
   // What the substep may err by, over the way of the mass that moves.
   [[nodiscard]] double error_over_way() const {
     if (free.t == 0) return 0;
-    double share = 0, momentum = 0;
-    for (size_t k = 0; k < members.size(); ++k) {
-      const BlockNumbers& c = members.numbers[k];
-      const WayError of = error_of(k);
-      share += c.mass * of.way * share_of(of, c.thickness);
-      momentum += c.mass * of.way;
-    }
-    return momentum > 0 ? share / momentum : 0;
+    MeanError error;
+    for (size_t k = 0; k < members.size(); ++k)
+      if (!hits.members[k].was_hit)
+        error.add(members.numbers[k],
+                  error_of_member(scene, state, members, free, k, change(system.island, k),
+                                  end.displacement[k].head<3>(), tries.last_h));
+    return error.over_way();
   }
 
   // --- sleep -----------------------------------------------------------------------------------
@@ -255,6 +234,23 @@ SubstepVerdict check_substep(const Scene& scene, const State& state, const PairS
   return SubstepCheck{scene, state, search,      members, free, system,
                       hits,  tries, near_ground, making,  end}
       .run(converged);
+}
+
+WayError error_of_member(const Scene& scene, const State& state, const IslandMembers& members,
+                         const FreeMotions& free, size_t k, const Vec6& change,
+                         const Vec3& displacement, double last_h) {
+  const size_t b = members.block(k);
+  if (members.numbers[k].stands || state.acceleration[b] == scene.gravity) return {};
+  const Substep& s = free.substeps[k];
+  const FreeTurn& turn = free.turns[k];
+  const double h = free.h;
+  const Vec3 spin_end = turn.spin_end + change.tail<3>();
+  const Vec3 mean = (s.free.velocity + change.head<3>() - s.start.velocity) / h,
+             spin_rate = (spin_end - turn.spin_start) / h;
+  const Vec3 path = s.free.pose.position - s.start.pose.position + displacement;
+  return error_of_way(members.numbers[k], mean - state.acceleration[b],
+                      spin_rate - s.R * state.spin_rate[b], path,
+                      h / 2 * (turn.spin_start + spin_end), h, last_h);
 }
 
 // Path per time of the points of contact `r` that its impulse works on, over the substep: their

@@ -47,7 +47,7 @@ void add_members(const Scene& scene, const State& state, std::vector<int>& block
   blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
   release_members(members);
   gather_members(scene, blocks, members);
-  let_stand(state, state.time + scene.settings.dt, members);
+  let_stand(state, state.time + step_length(scene, state), members);
 }
 
 void see_size(const Scene& scene, const State& state, const PairSearch& search,

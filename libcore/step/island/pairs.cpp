@@ -41,7 +41,7 @@ bool is_far_from_fixed(const Scene& scene, const State& state, int b, double mar
                        PairSearch& search) {
   const auto i = static_cast<size_t>(b);
   const Motion& m = state.motion[i];
-  const double h = scene.settings.dt;
+  const double h = step_length(scene, state);
   const double t = state.phase[i] == Phase::flight ? state.time - state.local_time[i] : 0;
   const Vec3 at = m.pose.position + t * (m.velocity + t / 2 * scene.gravity);
   const double step = h * (m.velocity + t * scene.gravity).norm(),
@@ -333,7 +333,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   const bool may_be_far = scene.settings.flight && scene.settings.trn_contacts &&
                           (n == 1 || !scene.settings.block_contacts);
   const bool none_placed = state.placed.turned.size() != size;
-  const double margin = pair_margin(scene, scene.settings.dt);
+  const double h = step_length(scene, state), margin = pair_margin(scene, h);
   int n_near = 0;
   for (int b = 0; b < n; ++b) {
     const auto i = static_cast<size_t>(b);
@@ -348,7 +348,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
     search.step[i].setZero();
     search.turn[i] = 0;
     if (search.moving[i] != 0)
-      set_motion_ahead(scene, b, motion_at(scene, state, b, state.time), scene.settings.dt, search);
+      set_motion_ahead(scene, b, motion_at(scene, state, b, state.time), h, search);
   }
   place_own_fixed(scene, -1, state, search);
   if (n_near == 0) {
@@ -356,7 +356,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
     return;
   }
   do {
-    search_marked(scene, scene.settings.dt, state, search);
+    search_marked(scene, h, state, search);
     join_pairs(scene, state, search);
     find_islands(n, search.joined, {}, search.groups);
   } while (wake_before_step(scene, state, search));

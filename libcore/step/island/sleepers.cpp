@@ -81,8 +81,9 @@ void find_sleepers(const State& state, std::span<const PairPress> presses, Sleep
 
 bool asks_for_presses(const State& state, const IslandMembers& members) {
   return members.moving.size() < members.size() ||
-         std::any_of(members.moving.begin(), members.moving.end(),
-                     [&](int b) { return state.rest_steps[b] + 1 >= law::steps_before_sleep; });
+         std::any_of(members.moving.begin(), members.moving.end(), [&](int b) {
+           return state.rest_steps[b] + state.stride >= law::steps_before_sleep;
+         });
 }
 
 void list_presses(const IslandMembers& members, double h, const IslandSystem& system,
@@ -169,7 +170,8 @@ bool wake_before_step(const Scene& scene, State& state, PairSearch& search) {
   const std::vector<int>& island_of = search.groups.island_of;
   std::vector<int>& to_wake = search.sleep.blocks;
   to_wake.clear();
-  const double slow = scene.settings.dt * resting_speed(scene.settings, scene.gravity.norm());
+  const double slow =
+      step_length(scene, state) * resting_speed(scene.settings, scene.gravity.norm());
   const auto may_hit = [&](int by, int b) {
     return !is_fixed(scene, b) && sleeps(state, b) && !sleeps(state, by) &&
            search.step[by].norm() + search.turn[by] > slow;

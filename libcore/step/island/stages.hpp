@@ -11,6 +11,7 @@
 
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
+#include "step/accuracy.hpp"
 #include "step/island/data.hpp"
 #include "step/report.hpp"
 #include "step/substep_end.hpp"
@@ -123,6 +124,12 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
                                            const SubstepTries& tries,
                                            std::vector<NearFeatures>& near_ground,
                                            ContactMaking& making, SubstepEnd& end);
+/// What the forces of member `k` leave, `change` being that of its velocity by contact and
+/// `displacement` that of its centroid. None where nobody knows what pressed before.
+[[nodiscard]] WayError error_of_member(const Scene& scene, const State& state,
+                                       const IslandMembers& members, const FreeMotions& free,
+                                       std::size_t k, const Vec6& change, const Vec3& displacement,
+                                       double last_h);
 /// Displacement of the members by contact over the substep of `h`, hits aside: each pair acts at
 /// its own time.
 void set_displacements(double h, const IslandSystem& system, const SubstepHits& hits,

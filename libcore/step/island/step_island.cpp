@@ -189,7 +189,8 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
   }
   w.end.presses.clear();
   w.tries.deep_cuts = w.tries.eased = w.tries.hits = 0;
-  w.tries.last_h = t_end - state.time;
+  const double dt = (t_end - state.time) / static_cast<double>(state.stride);
+  w.tries.last_h = dt;
   w.tries.longest = no_normal_limit;
   double t = state.time, ahead = t_end - t;
   const bool was_mass = is_any_in_mass(w.members, state);
@@ -204,7 +205,7 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
     if (is_mass)
       make_mass_substep(scene, t, longest, is_tried, state, work, report);
     else
-      make_substep(scene, t, std::min(longest, w.tries.longest), state, work, report);
+      make_substep(scene, t, std::min({longest, w.tries.longest, dt}), state, work, report);
     if (!w.end.sleep.blocks.empty()) {
       wake_members(scene, t, w.end.sleep, state, w.members);
       work.search.is_of_step = false;

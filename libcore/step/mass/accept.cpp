@@ -86,6 +86,24 @@ struct MassEnd {
             row.p_n,   path(pair, row), contact.is_hit, contact.yields};
   }
 
+  // What the step may err by, over the way of the mass. A hit counts as if its time were unknown:
+  // gravity acts before the rebound in part of the step alone.
+  [[nodiscard]] double error_over_way(const State& state) const {
+    const double h = free.h, by_hit = scene.gravity.norm() * h * h / 2;
+    MeanError error;
+    for (size_t k = 0; k < members.size(); ++k) {
+      const MassChange& by = w.changes[k];
+      const Substep& s = free.substeps[k];
+      Vec6 change;
+      change << by.velocity, by.spin;
+      error.add(members.numbers[k],
+                by.was_hit ? WayError{by_hit, (s.free.pose.position - s.start.pose.position).norm()}
+                           : error_of_member(scene, state, members, free, k, change,
+                                             h / 2 * by.velocity, h));
+    }
+    return error.over_way();
+  }
+
   // Calls visit(row number, pair, row in doubles) for all rows that press.
   template <class Visit>
   void for_each_pressed(const Visit& visit) const {
@@ -285,6 +303,7 @@ void find_mass_changes(const Scene& scene, const State& state, const PairSearch&
   const MassEnd end{scene, members, free, w};
   sum_impulses(end, w.changes);
   find_pushes(end, state, search, w.pushes);
+  w.error = end.error_over_way(state);
 }
 
 void accept_mass(const Scene& scene, const IslandMembers& members, const FreeMotions& free,

@@ -431,10 +431,12 @@ double mass_reach(const Scene& scene, double h) {
 double longest_mass_substep(const Scene& scene, const PairSearch& search,
                             const IslandMembers& members, std::span<const int> manifolds,
                             double h) {
-  double part = 0;
-  for (size_t k = 0; k < members.size(); ++k)
-    part = std::max(part,
-                    search.turn[members.block(k)] / (law::most_turn * members.numbers[k].radius));
+  double part = 0, farthest = 0;  // of the thickness
+  for (size_t k = 0; k < members.size(); ++k) {
+    const double turn = search.turn[members.block(k)];
+    part = std::max(part, turn / (law::most_turn * members.numbers[k].radius));
+    farthest = std::max(farthest, turn / members.numbers[k].thickness);
+  }
   for (const int i : manifolds) {
     const PairManifold& m = search.pairs.manifolds[i];
     const size_t a = static_cast<size_t>(m.block_a), b = static_cast<size_t>(m.block_b);
@@ -449,7 +451,9 @@ double longest_mass_substep(const Scene& scene, const PairSearch& search,
       travel += search.step[a].norm();
     }
     part = std::max(part, travel / (2 * law::deep_share * thickness));
+    farthest = std::max(farthest, travel / thickness);
   }
+  if (is_long_step(scene, h) && farthest > law::deep_share) part = std::max(part, 2.0);
   const double shortest = std::min(h, scene.settings.dt / law::most_substeps);
   return part > 1 ? std::max(h / std::ceil(part), shortest) : h;
 }

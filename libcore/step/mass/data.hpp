@@ -80,6 +80,7 @@ struct MassScratch {  // clang-format off
   // 4 check, 5 accept
   std::vector<MassChange> changes;          ///<                                        (n_members)
   std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
+  double error = 0;                         ///< estimated, as a share of the way [-]
 };  // clang-format on
 
 }  // namespace talus

@@ -6,13 +6,14 @@
 #include "solver/law_numbers.hpp"
 #include "solver/mass_numbers.hpp"
 #include "step/mass/stages.hpp"
+#include "step/mass/step_mass.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-constexpr double default_accuracy = Settings{}.accuracy;
+constexpr double default_accuracy = Settings{}.accuracy, default_step = Settings{}.dt;
 
 int faster_than(const IslandMembers& members, const State& state, double speed) {
   return static_cast<int>(std::count_if(members.moving.begin(), members.moving.end(), [&](int b) {
@@ -51,7 +52,7 @@ void become_mass(const IslandMembers& members, const MassShare& share, State& st
 }  // namespace
 
 bool has_settled(const Scene& scene, double h, double change) {
-  return change <= law::least_speed * scene.gravity.norm() * h;
+  return change <= law::least_speed * scene.gravity.norm() * std::min(h, scene.settings.dt);
 }
 
 bool is_any_in_mass(const IslandMembers& members, const State& state) {
@@ -80,22 +81,25 @@ bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& stat
   int n_in_mass = 0;
   if (!state.mass.empty()) {
     all.calm = calm_steps(scene);
+    all.steady = law::patience;
     for_each(members, state, [&](const MassShare& share) {
       if (!share.is_in_mass) return void(all.barred = std::max(all.barred, share.barred));
       ++n_in_mass;
       all.calm = std::min(all.calm, share.calm);
       all.unsettled = std::max(all.unsettled, share.unsettled);
+      all.steady = std::min(all.steady, share.steady);
     });
   }
   if (2 * n_in_mass > static_cast<int>(members.moving.size())) {
     const bool is_calm =
         faster_than(members, state, by_gravity) <= static_cast<int>(law::few_blocks);
+    const int n_steps = static_cast<int>(state.stride);
     // contacts that grow soft sag at first: that makes them grow so more slowly, and no mass again
-    all.calm = is_calm ? all.calm + 1 : std::max(0, all.calm - 1);
+    all.calm = is_calm ? all.calm + n_steps : std::max(0, all.calm - n_steps);
     if (all.calm >= calm_steps(scene) || all.unsettled >= law::patience)
       return leave(calm_steps(scene));
   } else {
-    if (all.barred > 0) return leave(all.barred - 1);
+    if (all.barred > 0) return leave(std::max(0, all.barred - static_cast<int>(state.stride)));
     if (faster_than(members, state, law::slow * by_gravity) <= mass::most_moving) return leave(0);
     all.calm = 0;
   }
@@ -127,11 +131,33 @@ double mass_compliance(const Scene& scene, const MassShare& share) {
   return mass::compliance * std::pow(in_island / mass::compliance, calm);
 }
 
-void note_solution(const Scene& scene, const IslandMembers& members, double h,
-                   const MassResult& solved, State& state, StepReport& report) {
-  const bool is_settled = has_settled(scene, h, solved.change);
-  for_each(members, state,
-           [&](MassShare& share) { share.unsettled = is_settled ? 0 : share.unsettled + 1; });
+int next_stride(const Scene& scene, const State& state) {
+  const double n_made = std::round(state.time / scene.settings.dt);  // long steps end on even ones
+  if (state.mass.empty() || scene.settings.dt > default_step || shakes(scene.base) ||
+      std::fmod(n_made, 2) != 0)
+    return 1;
+  int n_moving = 0, n_steady = 0;
+  for (size_t b = 0; b < state.mass.size(); ++b) {
+    if (does_not_move(phase_of(state, static_cast<int>(b)))) continue;
+    ++n_moving;
+    const MassShare& share = state.mass[b];
+    if (!share.is_in_mass) continue;
+    if (share.calm > 0 || share.steady < law::patience) return 1;
+    ++n_steady;
+  }
+  return 2 * n_steady > n_moving ? 2 : 1;
+}
+
+void note_solution(const Scene& scene, const IslandMembers& members, double h, const MassScratch& w,
+                   State& state, StepReport& report) {
+  const bool is_settled = has_settled(scene, h, w.solved.change);
+  // forces that change linearly err by h^3
+  const double in_long_step = w.error * std::pow(2 * scene.settings.dt / h, 3);
+  const bool is_steady = is_settled && in_long_step <= scene.settings.accuracy;
+  for_each(members, state, [&](MassShare& share) {
+    share.unsettled = is_settled ? 0 : share.unsettled + 1;
+    share.steady = is_steady ? share.steady + 1 : 0;
+  });
   if (is_settled) return;
   note_unconverged(members.moving.front(), report);
   report.flags = report.flags | StepFlag::unconverged;

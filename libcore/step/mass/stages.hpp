@@ -37,20 +37,25 @@ namespace talus {
 /// h. Then fills State::mass of the members.
 [[nodiscard]] bool leaves_as_mass(const Scene& scene, const IslandMembers& members,
                                   const FreeMotions& free, const MassScratch& w, State& state);
+/// Whether a substep of `h` is longer than the nominal step.
+[[nodiscard]] inline bool is_long_step(const Scene& scene, double h) {
+  return h > 1.5 * scene.settings.dt;
+}
 /// Sweeps at least, at an accuracy [-].
 [[nodiscard]] int mass_sweeps(double accuracy);
 /// [-] What a contact gives, of the mobility of its point: while the mass grows calm, step by step
 /// as much as in the exact step, so that nothing sags once that one has it.
 [[nodiscard]] double mass_compliance(const Scene& scene, const MassShare& share);
-/// Takes into State::mass how the substep of `h` was solved. What most sweeps do not settle counts
-/// in the report as not converged.
-void note_solution(const Scene& scene, const IslandMembers& members, double h,
-                   const MassResult& solved, State& state, StepReport& report);
+/// Takes into State::mass how the substep of `h` was solved, and whether a long step would have
+/// been accurate. What most sweeps do not settle counts in the report as not converged.
+void note_solution(const Scene& scene, const IslandMembers& members, double h, const MassScratch& w,
+                   State& state, StepReport& report);
 
 // --- 1 predict: as for the exact step (step/island/predict.cpp)
 // --- 2 make_mass_contacts (step/mass/contacts.cpp)
 /// Longest substep, up to `h`, in which no point goes by more than 2 law::deep_share of the
-/// thickness relative to a neighbour, or past the side of a stem.
+/// thickness relative to a neighbour, or past the side of a stem; a long one by half of that, on
+/// the ground too, since what a hit throws at others is seen only in the next.
 [[nodiscard]] double longest_mass_substep(const Scene& scene, const PairSearch& search,
                                           const IslandMembers& members,
                                           std::span<const int> manifolds, double h);
@@ -66,7 +71,7 @@ void note_solution(const Scene& scene, const IslandMembers& members, double h,
 
 // --- 3 solve (solver/mass_solver.cpp)
 // --- 4 find_mass_changes (step/mass/accept.cpp)
-/// Fills changes and pushes: the impulses in doubles.
+/// Fills changes, pushes and error: the impulses in doubles.
 void find_mass_changes(const Scene& scene, const State& state, const PairSearch& search,
                        const IslandMembers& members, const FreeMotions& free, MassScratch& w);
 

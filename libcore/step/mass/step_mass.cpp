@@ -16,11 +16,17 @@ MassSettings settings_of(const Scene& scene, const MassShare& share, double h, W
   MassSettings settings;
   settings.sweeps = mass_sweeps(scene.settings.accuracy);
   settings.most_sweeps = std::max(settings.sweeps, 8 * mass::sweeps);
-  settings.settled = law::least_speed * scene.gravity.norm() * h;
+  settings.settled = law::least_speed * scene.gravity.norm() * std::min(h, scene.settings.dt);
   settings.compliance = mass_compliance(scene, share);
   settings.shear_ratio = scene.settings.shear_ratio;
   settings.workers = workers;
   return settings;
+}
+
+// Overlap is pressed out over so many steps, long ones too: faster, the support of layers rings.
+void set_recovery_time(const Scene& scene, double h, IslandMembers& members) {
+  const double recovery_time = law::recovery_steps * std::max(h, scene.settings.dt);
+  for (BlockNumbers& c : members.numbers) c.recovery_time = recovery_time;
 }
 
 // Stages 1 and 2. False: a member is off the known ground.
@@ -74,11 +80,17 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
   island.system.outsider = -1;
   for (int cuts = 0;; ++cuts) {
     const MassShare& share = state.mass[island.members.moving.front()];
+    set_recovery_time(scene, h, island.members);
     if (!is_tried || cuts > 0) {
       if (!predict_contacts(scene, t, h, state, work)) return false;
       solve_contacts(scene, settings_of(scene, share, h, work.workers), state, work);
     }
     report.passes += w.solved.sweeps;
+    if (is_long_step(scene, h) && w.error > scene.settings.accuracy) {
+      ++report.cuts[static_cast<std::size_t>(SubstepCut::inaccurate)];
+      h /= 2;
+      continue;
+    }
     if (wakes_any(scene, h, state, work)) {
       ++report.cuts[static_cast<std::size_t>(SubstepCut::woken)];
       return false;
@@ -91,7 +103,7 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
       continue;
     }
     accept_mass(scene, island.members, island.free, w, state, work.segments, work.deep, report);
-    note_solution(scene, island.members, h, w.solved, state, report);
+    note_solution(scene, island.members, h, w, state, report);
     return true;
   }
 }

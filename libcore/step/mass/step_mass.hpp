@@ -22,4 +22,8 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
 /// exact.
 [[nodiscard]] bool begins_as_mass(const Scene& scene, double h, State& state, Work& work);
 
+/// Nominal steps that the next step takes at once: two, once most of what moves is in masses that
+/// such steps follow as well as the accuracy asks for, for law::patience substeps; else one.
+[[nodiscard]] int next_stride(const Scene& scene, const State& state);
+
 }  // namespace talus

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "base/error.hpp"
@@ -227,6 +228,51 @@ TEST(Runner, ResumedAnywhereGoesOnToTheSameBits) {
       EXPECT_EQ(whole.health[i].largest_penetration, resumed.health[i].largest_penetration);
     }
   }
+}
+
+void expect_same_frames(const RunFile& a, const RunFile& b) {
+  EXPECT_EQ(a.frames.time, b.frames.time);
+  EXPECT_EQ(a.frames.position, b.frames.position);
+  EXPECT_EQ(a.frames.attitude, b.frames.attitude);
+  EXPECT_EQ(a.frames.velocity, b.frames.velocity);
+}
+
+// A column of cubes sleeps until a block falls on it.
+TEST(Runner, ResumesWhileBlocksSleep) {
+  std::vector<Body> bodies;
+  for (int k = 0; k < 3; ++k)
+    bodies.push_back(body_of(box(Vec3(-0.5, -0.5, k), Vec3(0.5, 0.5, k + 1))));
+  bodies.push_back(body_of(box(Vec3(-0.4, -0.3, 35), Vec3(0.6, 0.7, 36))));
+  const Scene scene =
+      scene_of(plane_trn(slope_frame(0, 0), 0.5, 60), ground_of(30, 0.3), bodies, {});
+  RunOptions wanted = options(0.1);
+  wanted.duration = 2;
+  const RunFile asleep = computed(scene, wanted);
+  EXPECT_EQ(std::count(asleep.phase.begin(), asleep.phase.end(), Phase::asleep), 3);
+  wanted.duration = 3;
+  const RunFile whole = computed(scene, wanted);
+  EXPECT_EQ(std::count(whole.phase.begin(), whole.phase.end(), Phase::asleep), 0);
+  expect_same_frames(whole, computed(scene, wanted, {300, 400, 507, 520}));
+}
+
+// Steps are longer while most of what moves is a mass; a run goes on with them where it was.
+TEST(Runner, ResumesInAMassOfLongSteps) {
+  const SlopeFrame frame = slope_frame(40, 30);
+  std::vector<Body> bodies;
+  for (int i = 0; i < 48; ++i) {
+    const Vec3 low(i % 4, i / 4 % 4, i / 16);
+    bodies.push_back(body_of(box_in(frame, Vec3::Zero(), low, low + Vec3(1, 1, 1))));
+  }
+  const Scene scene = scene_of(plane_trn(frame, 4, 200), ground_of(25, 0.3), bodies, {});
+  RunOptions wanted = options(0.1);
+  wanted.duration = 1;
+  wanted.limits.max_deep_share = 1;
+  const RunFile whole = computed(scene, wanted);
+  EXPECT_EQ(whole.info.time, 1);
+  std::int64_t steps = 0;
+  for (const HealthRow& row : whole.health) steps += row.steps;
+  EXPECT_LT(steps, 150);
+  expect_same_frames(whole, computed(scene, wanted, {3, 50, 51, 77}));
 }
 
 // What a block rebounds with is found where it hits, and given to it where it lifts off.
