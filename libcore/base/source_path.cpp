@@ -106,6 +106,13 @@ std::string archive_prefix(const std::string& file) {
   return name.ends_with(".gz") ? "/vsigzip/" : "";
 }
 
+bool is_table_name(const std::string& path) {
+  const std::string name = lower(path);
+  for (const char* end : {".csv", ".tsv", ".txt", ".xyz", ".pts"})
+    if (name.ends_with(end)) return true;
+  return false;
+}
+
 SourcePath parse_source_path(const std::string& name) {
   std::size_t bar = exists(name) ? std::string::npos : next_part(name, 0);
   SourcePath path;

@@ -29,4 +29,7 @@ struct SourcePath {
 /// The prefix by which GDAL looks into an archive ("/vsizip/"); empty when it is none by its name.
 [[nodiscard]] std::string archive_prefix(const std::string& file);
 
+/// Whether a file of this name is read as a table of points: .csv, .tsv, .txt, .xyz, .pts.
+[[nodiscard]] bool is_table_name(const std::string& path);
+
 }  // namespace talus

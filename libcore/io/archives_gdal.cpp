@@ -12,7 +12,6 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "io/errors_gdal.hpp"
-#include "io/point_table.hpp"
 
 namespace talus {
 namespace fs = std::filesystem;

@@ -1,4 +1,4 @@
-// libcore/io/archives_gdal.hpp
+// libcore/io/archives_gdal.hpp: public
 // Archives (zip, tar) as they are downloaded, with one file of data.
 #pragma once
 

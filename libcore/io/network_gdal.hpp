@@ -1,4 +1,4 @@
-// libcore/io/network_gdal.hpp
+// libcore/io/network_gdal.hpp: public
 // Files of strangers must not make GDAL ask other machines, or read what nobody named.
 // in:    network_is_allowed() (base/network.hpp)
 #pragma once

@@ -1,4 +1,4 @@
-// libcore/io/raster_bands_gdal.hpp
+// libcore/io/raster_bands_gdal.hpp: public
 // Opens a raster. One band counts: what else a file may hold is its mask, or must be chosen.
 #pragma once
 

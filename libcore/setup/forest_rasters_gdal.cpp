@@ -4,9 +4,9 @@
 
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "import/dem_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_commands.hpp"
-#include "io/raster_gdal.hpp"
 #include "setup/forest_section.hpp"
 #include "setup/vector_inputs_gdal.hpp"
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "base/sha256.hpp"
+#include "import/class_raster_gdal.hpp"
 #include "io/areas_gdal.hpp"
-#include "io/class_raster_gdal.hpp"
 #include "setup/site_places_gdal.hpp"
 #include "setup/vector_inputs_gdal.hpp"
 #include "site/ground_classes.hpp"

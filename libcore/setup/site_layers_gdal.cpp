@@ -6,7 +6,7 @@
 
 #include "base/file_paths.hpp"
 #include "base/text.hpp"
-#include "io/feature_tables_gdal.hpp"
+#include "import/feature_tables_gdal.hpp"
 #include "site/site_layers.hpp"
 
 namespace talus {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/input_log.hpp"
-#include "io/contours_gdal.hpp"
-#include "io/vectors_gdal.hpp"
+#include "import/contours_gdal.hpp"
+#include "import/vectors_gdal.hpp"
 
 namespace talus {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "io/raster_gdal.hpp"
+#include "import/dem_gdal.hpp"
 #include "stability/random_blocks.hpp"
 
 namespace {

@@ -28,7 +28,7 @@
 
 #include "base/sha256.hpp"
 #include "io/crs_gdal.hpp"
-#include "io/raster_gdal.hpp"
+#include "io/trn_file_gdal.hpp"
 #include "record/run_file.hpp"
 #include "site/site.hpp"
 #include "unit/record/hand_made.hpp"

@@ -8,7 +8,7 @@
 #include "io/blocks_hdf5.hpp"
 #include "io/footprints_gdal.hpp"
 #include "io/mesh.hpp"
-#include "io/raster_gdal.hpp"
+#include "io/trn_file_gdal.hpp"
 
 namespace talus {
 namespace {

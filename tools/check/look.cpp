@@ -9,7 +9,7 @@
 #include "base/units.hpp"
 #include "geometry/convex_outline.hpp"
 #include "geometry/plan2d.hpp"
-#include "io/raster_gdal.hpp"
+#include "import/dem_gdal.hpp"
 #include "record/object_hits.hpp"
 #include "setup/run_settings.hpp"
 #include "setup/set_up_gdal.hpp"

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "base/text.hpp"
-#include "io/crs_place_gdal.hpp"
+#include "import/crs_place_gdal.hpp"
 #include "post/profile/line_sums.hpp"
 #include "post/reduce.hpp"
 #include "setup/vector_inputs_gdal.hpp"

@@ -1,10 +1,10 @@
 #include "tools/site/new_layers.hpp"
 
 #include "base/text.hpp"
+#include "import/feature_tables_gdal.hpp"
+#include "import/vectors_gdal.hpp"
 #include "io/crs_gdal.hpp"
-#include "io/feature_tables_gdal.hpp"
 #include "io/geopackage_gdal.hpp"
-#include "io/vectors_gdal.hpp"
 #include "site/site_layers.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/site/layer_form.hpp"

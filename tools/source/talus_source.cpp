@@ -8,7 +8,7 @@
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
-#include "io/raster_gdal.hpp"
+#include "import/dem_gdal.hpp"
 #include "setup/site_crs_gdal.hpp"
 #include "setup/sliding_sets.hpp"
 #include "setup/source_cut_gdal.hpp"

@@ -17,7 +17,7 @@
 #include "blocks/block_set.hpp"
 #include "io/blocks_hdf5.hpp"
 #include "io/crs_gdal.hpp"
-#include "io/raster_gdal.hpp"
+#include "io/trn_file_gdal.hpp"
 #include "site/site.hpp"
 #include "terrain/trn.hpp"
 

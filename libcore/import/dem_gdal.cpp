@@ -1,0 +1,517 @@
+#include "import/dem_gdal.hpp"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <gdal_priv.h>
+#include <gdal_utils.h>
+#include <ogr_spatialref.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "base/length_units.hpp"
+#include "base/memory.hpp"
+#include "base/text.hpp"
+#include "base/units.hpp"
+#include "import/crs_operation_gdal.hpp"
+#include "import/crs_place_gdal.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/errors_gdal.hpp"
+#include "io/judged_heights_gdal.hpp"
+#include "io/raster_bands_gdal.hpp"
+#include "io/raster_commands.hpp"
+#include "terrain/elevation.hpp"
+#include "terrain/lone_levels.hpp"
+#include "terrain/resample.hpp"
+
+namespace talus {
+namespace {
+
+constexpr int rows_at_once = 256;
+
+std::string size_text(int n_rows, int n_cols) {
+  return std::to_string(n_cols) + " x " + std::to_string(n_rows) + " cells";
+}
+
+// The system that heights in another unit are in says the unit too, so the copy is given the plan
+// alone.
+std::string metres_command(double unit_m, const std::string& crs, const std::string& path) {
+  return scale_command(unit_m, height_crs(crs).empty() ? std::string() : crs_code(crs), path);
+}
+
+// The unit of the heights as the band says it; empty where it says none.
+std::string said_unit(GDALRasterBand& band) {
+  const char* const unit = band.GetUnitType();
+  return unit == nullptr || is_no_unit(unit) ? std::string() : unit;
+}
+
+void check_band(GDALDataset& dataset, const std::string& path, bool has_heights) {
+  check_one_band(dataset, path);
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  if (GDALDataTypeIsComplex(band.GetRasterDataType()))
+    throw InputError({path}, "the band holds complex numbers, expected real ones");
+  if (!has_heights) return;
+  if (band.GetRasterDataType() == GDT_Byte)
+    throw InputError({path},
+                     "the values have 8 bits, 0 to 255, as the shades of a picture (a hillshade) "
+                     "have; expected elevations",
+                     "give the elevation model itself; if these are heights: " +
+                         translate_command("-ot Float32", path, "heights.tif"));
+  const std::string unit = said_unit(band);
+  const double metres = metres_in(unit);
+  if (unit.empty() || metres == 1) return;
+  throw InputError({path}, "the elevations are in \"" + unit + "\", expected metres",
+                   metres > 0 ? metres_command(metres, wkt_of(dataset.GetSpatialRef()), path)
+                              : "if they are metres: " + metres_command(1, "", path));
+}
+
+// Heights are in metres by the unit of the band (check_band), by the user's word, or by
+// height_unit_m of the CRS; another unit that the CRS says is refused with it (check_crs).
+void check_unit_of_heights(GDALDataset& dataset, const std::string& crs, const std::string& path,
+                           const DemOptions& options) {
+  if (!said_unit(*dataset.GetRasterBand(1)).empty() || !options.vertical_crs.empty()) return;
+  (void)height_unit_m(
+      crs, {path},
+      "in metres: --vertical-crs with their system, e.g. EPSG:5703 (NAVD88); in the units of the "
+      "plan: " +
+          metres_command(length_unit_m(crs), crs, path) + ", then the former of metres.tif");
+}
+
+// The lattice of the cell centres; refuses what no TRN can stand on.
+GridFrame frame_of_raster(GDALDataset& dataset, const std::string& path) {
+  const std::array<double, 6> g = north_up_place(dataset, path, CellKind::heights);
+  const int n_cols = dataset.GetRasterXSize(), n_rows = dataset.GetRasterYSize();
+  const double width = g[1], height = -g[5], smaller = std::min(width, height);
+  if (std::abs(width - height) * std::max(n_rows, n_cols) > lattice_tolerance * smaller)
+    throw InputError(
+        {path},
+        "the cells are " + text(width, 10) + " by " + text(height, 10) + ", expected squares",
+        warp_command(CellKind::heights, "-tr " + text(smaller, 6) + " " + text(smaller, 6), path,
+                     "north_up.tif"));
+  return {n_rows, n_cols, width, {g[0] + 0.5 * width, g[3] - 0.5 * width}};
+}
+
+// Outer edges of the cells; not finite where the raster has none.
+MapWindow edges_of(GDALDataset& dataset) {
+  std::array<double, 6> g{};
+  if (dataset.GetGeoTransform(g.data()) != CE_None) return {NAN, NAN, NAN, NAN};
+  std::vector<Vec3> corners;
+  for (const int col : {0, dataset.GetRasterXSize()})
+    for (const int row : {0, dataset.GetRasterYSize()})
+      corners.emplace_back(g[0] + col * g[1] + row * g[2], g[3] + col * g[4] + row * g[5], 0);
+  return window_of(corners);
+}
+
+bool is_finite(const MapWindow& w) { return std::isfinite(w.x_min + w.y_min + w.x_max + w.y_max); }
+
+// The file's CRS, or the one that the user gives for a file without, or with one that cannot be
+// true. The user may also say what system the heights of a file are in that names the plan alone.
+std::string effective_crs(GDALDataset& dataset, const std::string& path, const DemOptions& options,
+                          DemReading& reading) {
+  const std::string own = wkt_of(dataset.GetSpatialRef());
+  if (own.empty()) {
+    if (!options.crs_given && !options.crs_may_be_missing)
+      throw InputError({path}, "there is no CRS, expected a projected one in metres",
+                       "name it with --crs EPSG:code, or --crs none for local metres");
+    return options.crs;
+  }
+  if (!options.crs_given) return own;
+  if (same_crs(own, options.crs) && same_heights(own, options.crs))
+    return height_crs(own).empty() ? options.crs : own;
+  const MapWindow edges = edges_of(dataset);
+  const std::string reason =
+      is_finite(edges) ? reason_to_replace(own, options.crs, edges) : std::string();
+  if (reason.empty())
+    throw InputError({path}, "the CRS is " + crs_name(own) + ", not " + crs_name(options.crs),
+                     "leave --crs away; --t-srs reprojects");
+  reading.notes.push_back(path + ": the CRS is " + crs_name(own) + ", " + reason + "; taken as " +
+                          crs_name(options.crs));
+  return options.crs;
+}
+
+// What the user says of the heights of a file that does not.
+std::string with_vertical(const std::string& crs, const std::string& path,
+                          const DemOptions& options) {
+  if (options.vertical_crs.empty()) return crs;
+  return with_stated_heights(crs, options.vertical_crs, {path});
+}
+
+CPLStringList words_of(const std::vector<std::string>& words) {
+  CPLStringList list;
+  for (const std::string& word : words) list.AddString(word.c_str());
+  return list;
+}
+
+// A virtual raster of elevations that says unknown cells by NaN, with a ring of them around: what
+// is interpolated from it is unknown where an unknown cell has a share.
+Dataset with_unknown_ring(GDALDataset& source, const std::string& name) {
+  std::array<double, 6> g{};
+  source.GetGeoTransform(g.data());
+  const int n_cols = source.GetRasterXSize(), n_rows = source.GetRasterYSize();
+  const auto exact = [](double value) { return text(value); };
+  char* const escaped = CPLEscapeString(name.c_str(), -1, CPLES_XML);
+  const std::string size =
+      " xSize=\"" + std::to_string(n_cols) + "\" ySize=\"" + std::to_string(n_rows) + "\"/>";
+  const std::string xml =
+      "<VRTDataset rasterXSize=\"" + std::to_string(n_cols + 2) + "\" rasterYSize=\"" +
+      std::to_string(n_rows + 2) + "\"><GeoTransform>" + exact(g[0] - g[1] - g[2]) + "," +
+      exact(g[1]) + "," + exact(g[2]) + "," + exact(g[3] - g[4] - g[5]) + "," + exact(g[4]) + "," +
+      exact(g[5]) +
+      "</GeoTransform><VRTRasterBand dataType=\"Float64\" band=\"1\"><NoDataValue>nan</NoDataValue>"
+      "<ComplexSource><SourceFilename relativeToVRT=\"0\">" +
+      escaped + "</SourceFilename><SourceBand>1</SourceBand><SrcRect xOff=\"0\" yOff=\"0\"" + size +
+      "<DstRect xOff=\"1\" yOff=\"1\"" + size +
+      "<UseMaskBand>true</UseMaskBand></ComplexSource></VRTRasterBand></VRTDataset>";
+  CPLFree(escaped);
+  return Dataset(GDALDataset::Open(xml.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+}
+
+Dataset warp(GDALDataset& source, const std::string& path, const CrsOperation& operation,
+             const std::vector<std::string>& more) {
+  std::vector<std::string> words = {"-of",    "VRT",        "-r",         "bilinear",
+                                    "-et",    "0",          "-dstnodata", "nan",
+                                    "-ot",    "Float64",    "-s_srs",     operation.from,
+                                    "-t_srs", operation.to, "-ct",        operation.text};
+  words.insert(words.end(), more.begin(), more.end());
+  GdalErrors errors;
+  GDALWarpAppOptions* const options = GDALWarpAppOptionsNew(words_of(words).List(), nullptr);
+  GDALDatasetH handle = &source;
+  Dataset warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &handle, options, nullptr)));
+  GDALWarpAppOptionsFree(options);
+  if (!warped)
+    throw InputError(
+        {path}, "cannot be reprojected to " + crs_name(operation.to) + ": " + errors.failure());
+  return warped;
+}
+
+// A virtual raster that reprojects what is read from it. Exact transformation (-et 0): the default
+// eighth of a cell is a metre of height on a steep slope. Both systems are in plan alone: heights
+// stay as they are. The cells are those that GDAL proposes for the raster without its ring.
+Dataset reprojected(GDALDataset& source, GDALDataset& ringed, const std::string& path,
+                    const CrsOperation& operation) {
+  const Dataset proposed = warp(source, path, operation, {});
+  std::array<double, 6> g{};
+  proposed->GetGeoTransform(g.data());
+  const int n_cols = proposed->GetRasterXSize(), n_rows = proposed->GetRasterYSize();
+  return warp(ringed, path, operation,
+              {"-srcnodata", "None", "-te", text(g[0]), text(g[3] + n_rows * g[5]),
+               text(g[0] + n_cols * g[1]), text(g[3]), "-ts", std::to_string(n_cols),
+               std::to_string(n_rows)});
+}
+
+// The command that makes metres of the plan and the heights of a local system.
+std::string local_metres_command(double unit_m, const MapWindow& w, const std::string& path) {
+  const auto metres = [unit_m](double value) { return text(value * unit_m, 12); };
+  return translate_command("-a_srs 'LOCAL_CS[\"metres\",UNIT[\"metre\",1]]' -a_ullr " +
+                               metres(w.x_min) + " " + metres(w.y_max) + " " + metres(w.x_max) +
+                               " " + metres(w.y_min) + " -ot Float64 -scale 0 10000 0 " +
+                               metres(10000),
+                           path, "metres.tif");
+}
+
+void check_crs(const std::string& crs, const std::string& path, const MapWindow& edges) {
+  if (crs.empty()) return;
+  const Vec2 place(0.5 * (edges.x_min + edges.x_max), 0.5 * (edges.y_min + edges.y_max));
+  const CrsProblem problem = find_crs_problem(crs, place);
+  if (problem.finding.empty()) return;
+  if (problem.height_unit_m != 1)
+    throw InputError({path}, problem.finding, metres_command(problem.height_unit_m, crs, path));
+  if (is_local(crs))
+    throw InputError({path}, problem.finding,
+                     local_metres_command(length_unit_m(crs), edges, path) +
+                         " makes metres of plan and heights; then --crs none");
+  const std::string to = problem.mend_to.empty() ? "EPSG:code" : problem.mend_to;
+  throw InputError({path}, problem.finding,
+                   "--t-srs " + to + ", or " +
+                       warp_command(CellKind::heights, "-t_srs " + to, path, "projected.tif"));
+}
+
+}  // namespace
+
+struct DemFile::Impl {
+  std::string path, crs;
+  std::string name;  // that GDAL opens: the path, or a virtual raster
+  double nodata = std::numeric_limits<double>::quiet_NaN();  // beside a mask, which GDAL prefers
+  GridFrame frame;
+  DemReading reading;
+  std::unique_ptr<HeightOperation> to_vertical;
+  Dataset source, ringed, warped;  // warped reads from ringed and is closed first
+  GDALRasterBand* band = nullptr;
+  double scale = 1, offset = 0;
+  bool has_heights = true;
+  mutable std::optional<bool> accepts_doubts;  // asked once: it may take a look at all heights
+
+  [[nodiscard]] Where where(std::size_t index, int row, int col, int n_cols) const {
+    const int r = row + static_cast<int>(index / static_cast<std::size_t>(n_cols));
+    const int c = col + static_cast<int>(index % static_cast<std::size_t>(n_cols));
+    return {path, 0,
+            "row " + std::to_string(r) + ", column " + std::to_string(c) + " (" +
+                text(frame.x(c), 10) + ", " + text(frame.y(r), 10) + ")"};
+  }
+  void open();
+  void check_value(double raw, const Where& place) const;
+  void check_most_values(const double* raw, std::size_t n) const;
+  void check_place_of(const MapWindow& edges, const std::string& work_crs, bool has_options);
+  void take_to(const std::string& target, bool accept_ballpark, const MapWindow& edges);
+  void take_heights_to(const DemOptions& options);
+  void shift_heights(int row, int n_rows, int col, int n_cols, double* elevation) const;
+};
+
+DemFile::DemFile(const std::string& path, const DemOptions& options)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->path = path;
+  impl_->has_heights = options.has_heights;
+  impl_->open();
+  GDALDataset* dataset = impl_->source.get();
+  if (options.accepts_doubts || !options.has_heights) impl_->accepts_doubts = true;
+  DemReading& reading = impl_->reading;
+  impl_->crs = with_vertical(effective_crs(*dataset, path, options, reading), path, options);
+  const MapWindow edges = edges_of(*dataset);
+  if (!options.t_srs.empty()) {
+    check_unit_of_heights(*dataset, impl_->crs, path, options);
+    if (impl_->crs.empty())
+      throw InputError({path}, "there is no CRS to reproject from", "name it with --crs EPSG:code");
+    impl_->take_to(options.t_srs, options.accept_ballpark, edges);
+    if (impl_->warped) dataset = impl_->warped.get();
+  }
+  check_crs(impl_->crs, path, edges_of(*dataset));
+  impl_->frame = frame_of_raster(*dataset, path);
+  if (!impl_->warped) {
+    const MapWindow read = intersection(edges, options.window);
+    const bool is_beside = read.x_min > read.x_max || read.y_min > read.y_max;
+    impl_->check_place_of(is_beside ? edges : read, impl_->crs, !options.crs_may_be_missing);
+  }
+  if (!options.t_vertical.empty()) impl_->take_heights_to(options);
+  impl_->band = dataset->GetRasterBand(1);
+  impl_->scale = impl_->source->GetRasterBand(1)->GetScale();
+  impl_->offset = impl_->source->GetRasterBand(1)->GetOffset();
+}
+
+// An alpha band becomes the mask of the elevations.
+void DemFile::Impl::open() {
+  source = open_raster(path);
+  name = source->GetDescription();
+  check_band(*source, path, has_heights);
+  check_placed(*source, path, has_heights ? CellKind::heights : CellKind::values);
+  const std::string masked = with_alpha_as_mask(*source);
+  if (masked.empty()) return;
+  int has_nodata = 0;
+  const double value = source->GetRasterBand(1)->GetNoDataValue(&has_nodata);
+  if (has_nodata != 0) nodata = value;
+  name = masked;
+  const GdalErrors errors;
+  source.reset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+  if (!source) throw InputError({path}, "its alpha band cannot be read: " + errors.failure());
+}
+
+void DemFile::Impl::check_place_of(const MapWindow& edges, const std::string& work_crs,
+                                   bool has_options) {
+  if (crs.empty() || !is_finite(edges)) return;
+  CrsExtent place{crs, edges, work_crs};
+  place.has_crs_option = has_options;
+  place.is_raster = true;
+  for (std::string& warning : check_place(place, {path}))
+    reading.warnings.push_back(std::move(warning));
+}
+
+// Reprojects in plan, unless it is there already.
+void DemFile::Impl::take_to(const std::string& target, bool accept_ballpark,
+                            const MapWindow& edges) {
+  const std::string wanted = with_heights_of(crs, target, {path});
+  if (same_crs(crs, target)) return;
+  check_place_of(edges, target, true);
+  const CrsOperation operation = find_operation(crs, target, edges, {path}, accept_ballpark);
+  reading.notes.push_back(path + ": " + sentence_on(operation));
+  if (const std::string doubt = doubt_on(operation); !doubt.empty())
+    reading.warnings.push_back(path + ": " + doubt);
+  ringed = with_unknown_ring(*source, name);
+  if (!ringed) throw InputError({path}, "cannot be reprojected");
+  warped = reprojected(*source, *ringed, path, operation);
+  crs = wanted;
+}
+
+void DemFile::Impl::take_heights_to(const DemOptions& options) {
+  const std::string from = options.vertical_crs == ellipsoidal_heights
+                               ? options.vertical_crs
+                               : stated_heights(crs, {path});
+  if (from == options.t_vertical || same_system(from, options.t_vertical)) return;
+  to_vertical =
+      std::make_unique<HeightOperation>(crs, from, options.t_vertical, extent(frame), Where{path});
+  reading.notes.push_back(path + ": " + to_vertical->sentence());
+  crs = with_heights(horizontal_crs(crs), options.t_vertical, {path});
+}
+
+DemFile::~DemFile() = default;
+
+const std::string& DemFile::path() const { return impl_->path; }
+const GridFrame& DemFile::frame() const { return impl_->frame; }
+const std::string& DemFile::crs_wkt() const { return impl_->crs; }
+const DemReading& DemFile::reading() const { return impl_->reading; }
+bool DemFile::accepts_doubts() const {
+  if (!impl_->accepts_doubts) impl_->accepts_doubts = were_heights_judged(impl_->path);
+  return *impl_->accepts_doubts;
+}
+double DemFile::raw_of(double z) const { return (z - impl_->offset) / impl_->scale; }
+Where DemFile::where_of_cell(int row, int col) const {
+  return impl_->where(0, row, col, impl_->frame.n_cols);
+}
+
+// Most cells of a strip above every summit: whole numbers of a smaller unit.
+void DemFile::Impl::check_most_values(const double* raw, std::size_t n) const {
+  std::size_t n_known = 0, n_beyond = 0;
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double z = raw[i] * scale + offset;
+    if (std::isnan(z) || raw[i] == nodata || is_usual_nodata(raw[i])) continue;
+    ++n_known;
+    if (std::abs(z) > highest_elevation) ++n_beyond;
+    low = std::min(low, z), high = std::max(high, z);
+  }
+  if (2 * n_beyond <= n_known || low == high) return;
+  constexpr double highest_summit = 8850;
+  const double unit_m = high * 0.1 < highest_summit    ? 0.1
+                        : high * 0.01 < highest_summit ? 0.01
+                                                       : 0.001;
+  const char* const name = unit_m == 0.1    ? "decimetres"
+                           : unit_m == 0.01 ? "centimetres"
+                                            : "millimetres";
+  throw InputError({path},
+                   "the elevations are " + text(low, 8) + " to " + text(high, 8) +
+                       ", expected metres; as " + name + " they would be " + text(low * unit_m, 8) +
+                       " to " + text(high * unit_m, 8) + " m",
+                   "if they are " + std::string(name) + ": " + metres_command(unit_m, crs, path));
+}
+
+void DemFile::Impl::check_value(double raw, const Where& place) const {
+  const double z = raw * scale + offset;
+  if (std::abs(z) <= highest_elevation && !is_usual_nodata(raw)) return;
+  throw InputError(place,
+                   "the elevation is " + text(z, 10) +
+                       " m, which the file does not declare as "
+                       "nodata",
+                   "if it stands for nodata: " +
+                       translate_command("-a_nodata " + text(raw), path, "declared.tif"));
+}
+
+void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) const {
+  const std::size_t n = static_cast<std::size_t>(n_rows) * static_cast<std::size_t>(n_cols);
+  const GdalErrors errors;
+  std::vector<unsigned char> mask;
+  const int mask_flags = impl_->band->GetMaskFlags();
+  // half transparent cells hold values that are mixed with unknown ones
+  const unsigned char least_known = (mask_flags & GMF_ALPHA) != 0 ? 255 : 1;
+  CPLErr status = impl_->band->RasterIO(GF_Read, col, row, n_cols, n_rows, elevation, n_cols,
+                                        n_rows, GDT_Float64, 0, 0, nullptr);
+  if (status == CE_None && mask_flags != GMF_ALL_VALID) {
+    mask.resize(n);
+    status = impl_->band->GetMaskBand()->RasterIO(GF_Read, col, row, n_cols, n_rows, mask.data(),
+                                                  n_cols, n_rows, GDT_Byte, 0, 0, nullptr);
+  }
+  if (status != CE_None || errors.failed()) {
+    const bool names_other_format = errors.failure().find("not recognized") != std::string::npos;
+    throw InputError(
+        {impl_->path},
+        "reading rows " + std::to_string(row) + " to " + std::to_string(row + n_rows - 1) + " of " +
+            size_text(impl_->frame.n_rows, impl_->frame.n_cols) + " failed: " + errors.failure(),
+        names_other_format ? translate_command("", impl_->path, "one.tif") + " makes one file of it"
+                           : "the file is damaged or cut short: fetch it again");
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    double& z = elevation[i];
+    if (std::isnan(z) || z == impl_->nodata || (!mask.empty() && mask[i] < least_known)) {
+      z = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
+    if (impl_->has_heights && !(std::abs(z) < 9999)) {
+      if (z > highest_elevation) impl_->check_most_values(elevation + i, n - i);
+      impl_->check_value(z, impl_->where(i, row, col, n_cols));
+    }
+    if (impl_->scale != 1 || impl_->offset != 0) z = z * impl_->scale + impl_->offset;
+  }
+  if (impl_->to_vertical) impl_->shift_heights(row, n_rows, col, n_cols, elevation);
+}
+
+void DemFile::Impl::shift_heights(int row, int n_rows, int col, int n_cols,
+                                  double* elevation) const {
+  const auto n = static_cast<std::size_t>(n_cols);
+  std::vector<double> x(n), y(n);
+  for (int c = 0; c < n_cols; ++c) x[c] = frame.x(col + c);
+  for (int r = 0; r < n_rows; ++r) {
+    std::fill(y.begin(), y.end(), frame.y(row + r));
+    to_vertical->apply(n, x.data(), y.data(), elevation + static_cast<std::size_t>(r) * n);
+  }
+}
+
+namespace {
+
+// Calls visit(row) for each row of the DEM that `part` needs, in order.
+template <class Visit>
+void for_each_row(const DemFile& dem, const RowResampler& part, const ProgressFunction& progress,
+                  const Visit& visit) {
+  const int first = part.first_row(), last = part.last_row();
+  const auto n_cols = static_cast<std::size_t>(part.n_cols());
+  constexpr double bytes_per_cell = 16;  // as read, and as GDAL keeps it
+  require_memory(bytes_per_cell * rows_at_once * static_cast<double>(n_cols), {dem.path()},
+                 "rows of " + std::to_string(n_cols) + " cells", "choose a smaller window");
+  std::vector<double> strip(rows_at_once * n_cols);
+  for (int row = first, n_rows = 0; row <= last; row += n_rows) {
+    // strips end where rows of tiles do, so that no tile is unpacked twice
+    n_rows = std::min(rows_at_once - row % rows_at_once, last - row + 1);
+    dem.read(row, n_rows, part.first_col(), part.n_cols(), strip.data());
+    for (int i = 0; i < n_rows; ++i) visit(strip.data() + static_cast<std::size_t>(i) * n_cols);
+    if (progress) progress(static_cast<double>(row + n_rows - first) / (last - first + 1));
+  }
+}
+
+// Refuses an area of one value that stands far off the cells beside it.
+void refuse_lone_level(const DemFile& dem, const RowResampler& part,
+                       const std::set<double>& values) {
+  const double step = impossible_step(dem.frame().cell_size);
+  LoneLevels levels(part.n_cols(), step, values);
+  for_each_row(dem, part, {}, [&](const double* row) { levels.add_row(row); });
+  const std::optional<LoneLevel> found = levels.worst();
+  if (!found) return;
+  const int row = part.first_row() + found->row, col = part.first_col() + found->col;
+  throw InputError(
+      dem.where_of_cell(row, col),
+      "the elevation is " + text(found->value, 10) + " m in " + counted(found->n_cells, "cell") +
+          " side by side, more than " + text(step, 6) + " m off " + std::to_string(found->n_far) +
+          " of the " + std::to_string(found->n_beside) +
+          " beside them, and the file does not declare it as nodata (talus-trn "
+          "--accept-doubts takes it as ground, make TRN_FLAGS=--accept-doubts)",
+      "if it stands for nodata: " + translate_command("-a_nodata " + text(dem.raw_of(found->value)),
+                                                      dem.path(), "declared.tif"));
+}
+
+}  // namespace
+
+std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
+                             const ProgressFunction& progress) {
+  RowResampler resampler(dem.frame(), frame);
+  if (resampler.first_row() > resampler.last_row() || resampler.n_cols() < 1)
+    return resampler.take();
+  StepFinder steps(resampler.n_cols(), impossible_step(dem.frame().cell_size));
+  for_each_row(dem, resampler, progress, [&](const double* row) {
+    steps.add_row(row);
+    resampler.add_row(row);
+  });
+  if (!steps.values().empty() && !dem.accepts_doubts())
+    refuse_lone_level(dem, resampler, steps.values());
+  return resampler.take();
+}
+
+Trn read_trn(const std::string& path) {
+  DemOptions options;
+  options.crs_may_be_missing = true;
+  const DemFile dem(path, options);
+  check_size(dem.frame(), path);
+  Trn trn = make_trn(dem.frame(), dem.crs_wkt(), read_dem(dem, dem.frame()));
+  check_trn(trn, path);
+  return trn;
+}
+
+}  // namespace talus

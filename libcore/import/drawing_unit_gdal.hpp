@@ -1,0 +1,34 @@
+// libcore/import/drawing_unit_gdal.hpp
+// The unit that a drawing is drawn in, as its header says it.
+// in:    a DXF file, also inside an archive (/vsizip/)
+// out:   metres in one unit
+// refs:  Autodesk, DXF reference, HEADER section ($INSUNITS)
+#pragma once
+
+#include <string>
+
+#include "base/error.hpp"
+
+namespace talus {
+
+struct DrawingUnit {
+  int code = 0;       ///< $INSUNITS; 0: the drawing does not say
+  double metres = 0;  ///< in one unit; 0: not said, or not a length of maps
+  std::string name;   ///< "feet"
+};
+
+/// Reads the header. A file that is no DXF drawing says nothing.
+[[nodiscard]] DrawingUnit drawing_unit(const std::string& path);
+
+/// What to warn of: a header that says inches. GDAL (up to 3.10) and QGIS write that into every
+/// drawing, and no map is drawn in inches, so it is taken to say nothing. Empty: no doubt.
+[[nodiscard]] std::string doubt_on_unit(const std::string& path, double user_unit_m);
+
+/// Metres in one unit of a drawing: what the user says (not 0), else 1. Throws InputError at
+/// `where` when the user says nothing and the header says another unit than that of the plan: a
+/// metre, or `plan_unit_m` of the CRS. `way_out` names the option, or the command, that scales.
+[[nodiscard]] double scale_of_drawing(const std::string& path, double user_unit_m,
+                                      double plan_unit_m, const Where& where,
+                                      const std::string& way_out);
+
+}  // namespace talus

@@ -1,0 +1,25 @@
+// libcore/import/layer_reading.hpp
+// What was taken from a vector source, for people and for programs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+struct LayerReading {
+  std::string file;   ///< as it was named
+  std::string layer;  ///< or layers, "index, intermediate"
+  std::string where;  ///< filter; empty: all features
+  std::string noun;   ///< of what was taken: "polygon"
+  std::int64_t n_features = 0;
+  int n_parts = 0;                   ///< points, lines or polygons as they were read
+  int n_passed_over = 0;             ///< parts of another kind in the same layer
+  std::string passed_over;           ///< in words: "2 points, 1 open line"; empty: none
+  std::string elevation_from;        ///< "Z" or "field ELEV"; empty: no heights are read
+  double unit_m = 1;                 ///< metres in one unit of the heights
+  std::vector<std::string> remarks;  ///< sentences: closed lines that are areas, stroked curves
+};
+
+}  // namespace talus

@@ -1,0 +1,371 @@
+#include "import/tin_files_gdal.hpp"
+
+#include <cpl_minixml.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <tuple>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/file_paths.hpp"
+#include "base/length_units.hpp"
+#include "base/read_file.hpp"
+#include "base/source_path.hpp"
+#include "base/text.hpp"
+#include "import/contour_heights_gdal.hpp"
+#include "import/contour_layer_gdal.hpp"
+#include "import/drawing_unit_gdal.hpp"
+#include "io/errors_gdal.hpp"
+#include "io/tin_ply.hpp"
+
+namespace talus {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+std::string extension_of(const std::string& path) {
+  return lower(std::filesystem::path(path).extension().string());
+}
+
+std::string first_bytes(const std::string& path, std::size_t n) {
+  std::string head(n, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(n));
+  head.resize(std::max<std::streamsize>(file.gcount(), 0));
+  return head;
+}
+
+bool is_ply(const std::string& path) {
+  const std::string head = first_bytes(path, 4);
+  return extension_of(path) == ".ply" || head.starts_with("ply\n") || head.starts_with("ply\r");
+}
+
+bool is_landxml(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (extension != ".xml" && extension != ".landxml") return false;
+  return first_bytes(path, 4096).find("LandXML") != std::string::npos;
+}
+
+// --- triangles from faces ------------------------------------------------------------------------
+
+// Points in one place become one; map coordinates until the end.
+class FaceCollector {
+ public:
+  int point(const Vec3& p) {
+    const auto [at, is_new] =
+        number_.try_emplace(std::tuple(p.x(), p.y(), p.z()), static_cast<int>(tin_.points.size()));
+    if (is_new) tin_.points.push_back(p);
+    return at->second;
+  }
+  int new_point(const Vec3& p) {
+    tin_.points.push_back(p);
+    return static_cast<int>(tin_.points.size()) - 1;
+  }
+  // Counter-clockwise; without an area in plan it is no ground.
+  void triangle(int a, int b, int c) {
+    const Vec3 &p = tin_.points[index(a)], &q = tin_.points[index(b)], &r = tin_.points[index(c)];
+    const double area = (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
+    if (area > 0)
+      tin_.triangles.push_back({a, b, c});
+    else if (area < 0)
+      tin_.triangles.push_back({a, c, b});
+    else
+      ++n_upright;
+  }
+  Tin take() {
+    Vec3 low = tin_.points.front();
+    for (const Vec3& p : tin_.points) low = low.cwiseMin(p);
+    tin_.origin = Vec3(std::floor(low.x() / 100) * 100, std::floor(low.y() / 100) * 100, 0);
+    for (Vec3& p : tin_.points) p -= tin_.origin;
+    return std::move(tin_);
+  }
+  [[nodiscard]] std::int64_t n_triangles() const {
+    return static_cast<std::int64_t>(tin_.triangles.size());
+  }
+
+  std::int64_t n_upright = 0;
+
+ private:
+  Tin tin_;
+  std::map<std::tuple<double, double, double>, int> number_;
+};
+
+void note_upright(const FaceCollector& faces, TinFile& file, const std::string& path) {
+  if (faces.n_upright > 0)
+    file.notes.push_back(path + ": " + counted(faces.n_upright, "triangle") +
+                         " without an area in plan left out");
+}
+
+// --- drawings ------------------------------------------------------------------------------------
+
+constexpr LayerRole faces_role{LayerShape::face, "faces"};
+
+struct DrawingCounts {
+  std::int64_t n_faces = 0, n_quads = 0, n_others = 0;
+};
+
+void add_ring(const OGRLinearRing& ring, double unit_m, FaceCollector& faces, DrawingCounts& counts,
+              const Where& where) {
+  std::vector<int> corners;
+  for (int i = 0; i < ring.getNumPoints(); ++i) {
+    const Vec3 point(ring.getX(i), ring.getY(i), ring.getZ(i));
+    check_finite(point, where);
+    const int id = faces.point(unit_m * point);
+    if (std::find(corners.begin(), corners.end(), id) == corners.end()) corners.push_back(id);
+  }
+  if (corners.size() != 3 && corners.size() != 4) {
+    ++counts.n_others;
+    return;
+  }
+  ++counts.n_faces;
+  faces.triangle(corners[0], corners[1], corners[2]);
+  if (corners.size() == 3) return;
+  ++counts.n_quads;
+  faces.triangle(corners[0], corners[2], corners[3]);
+}
+
+void add_face(const OGRGeometry& geometry, double unit_m, FaceCollector& faces,
+              DrawingCounts& counts, const Where& where) {
+  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+  if (type != wkbPolyhedralSurface && type != wkbTIN)
+    return add_ring(*geometry.toPolygon()->getExteriorRing(), unit_m, faces, counts, where);
+  for (const OGRGeometry* part : *geometry.toPolyhedralSurface())
+    add_face(*part, unit_m, faces, counts, where);
+}
+
+double unit_of_faces(const LayerChoice& choice, TinFile& file) {
+  const std::string drawing = file_of(choice.path);
+  if (const std::string doubt = doubt_on_unit(drawing, choice.unit_m); !doubt.empty())
+    file.warnings.push_back(drawing + ": " + doubt);
+  const DrawingUnit unit = drawing_unit(drawing);
+  return scale_of_drawing(drawing, choice.unit_m, 1, {drawing},
+                          "--unit-m " + (unit.metres > 0 ? text(unit.metres) : "METRES") +
+                              " scales plan and heights; --unit-m 1 if it is in metres whatever "
+                              "its header says");
+}
+
+std::string sentence_on(const DrawingCounts& counts) {
+  std::string words = counted(counts.n_faces, "face");
+  if (counts.n_quads > 0)
+    words += ", " + std::to_string(counts.n_quads) + " of them of four corners, cut in two";
+  if (counts.n_others > 0)
+    words += "; " + std::to_string(counts.n_others) +
+             " that are neither triangles nor of four corners passed over";
+  return words;
+}
+
+TinFile read_drawing(const LayerChoice& choice) {
+  TinFile file;
+  const double unit_m = unit_of_faces(choice, file);
+  OpenLayer source = open_layer(choice, faces_role);
+  FaceCollector faces;
+  DrawingCounts counts;
+  for_each_part(choice, source, [&](const OGRGeometry& part, const OGRFeature& feature) {
+    add_face(part, unit_m, faces, counts, where_of_feature(choice, source, feature));
+  });
+  file.taken = reading_of(choice, source);
+  file.taken.unit_m = unit_m;
+  file.taken.elevation_from = "Z";
+  if (faces.n_triangles() == 0)
+    throw InputError(where_of_layer(choice, source), "no face has an area in plan");
+  file.notes.push_back(choice.path + ": layer " + source.name + ", " + sentence_on(counts));
+  add_remarks(file.taken, file.notes);
+  note_upright(faces, file, choice.path);
+  file.tin = faces.take();
+  return file;
+}
+
+// --- LandXML -------------------------------------------------------------------------------------
+
+struct XmlTree {
+  explicit XmlTree(CPLXMLNode* tree) : root(tree, CPLDestroyXMLNode) {}
+  std::unique_ptr<CPLXMLNode, decltype(&CPLDestroyXMLNode)> root;
+};
+
+// Calls visit(node) for the elements of that name below a node, however deep.
+template <class Visit>
+void for_each_element(const CPLXMLNode* node, const char* name, const Visit& visit) {
+  for (const CPLXMLNode* child = node; child != nullptr; child = child->psNext) {
+    if (child->eType != CXT_Element) continue;
+    if (std::strcmp(child->pszValue, name) == 0)
+      visit(child);
+    else
+      for_each_element(child->psChild, name, visit);
+  }
+}
+
+std::vector<std::string> words_of(const CPLXMLNode* node) {
+  std::istringstream stream(CPLGetXMLValue(node, nullptr, ""));
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+// Metres in one unit of plan and heights: what the user says, else the file must say metres.
+double unit_of_landxml(const CPLXMLNode* root, const std::string& path, double user_unit_m) {
+  if (user_unit_m > 0) return user_unit_m;
+  const auto check = [&](const CPLXMLNode* units, const char* attribute, const char* otherwise) {
+    const std::string unit = CPLGetXMLValue(units, attribute, otherwise);
+    const double metres = metres_in(unit);
+    if (metres == 1) return;
+    throw InputError(
+        {path}, std::string(attribute) + " is " + unit + ", expected meter",
+        "--unit-m " + (metres > 0 ? text(metres, 10) : "METRES") + " scales plan and heights");
+  };
+  for_each_element(root, "Imperial",
+                   [&](const CPLXMLNode* units) { check(units, "linearUnit", "foot"); });
+  for_each_element(root, "Metric", [&](const CPLXMLNode* units) {
+    check(units, "linearUnit", "meter");
+    check(units, "elevationUnit", "meter");
+  });
+  return 1;
+}
+
+// The only surface, or that called `layer`.
+const CPLXMLNode* chosen_surface(const CPLXMLNode* root, const std::string& path,
+                                 const std::string& layer) {
+  std::vector<const CPLXMLNode*> surfaces;
+  std::string names, first;
+  for_each_element(root, "Surface", [&](const CPLXMLNode* surface) {
+    const std::string name = CPLGetXMLValue(surface, "name", "unnamed");
+    if (layer.empty() || layer == name) surfaces.push_back(surface);
+    if (first.empty()) first = name;
+    names += (names.empty() ? "" : ", ") + name;
+  });
+  if (surfaces.size() != 1)
+    throw InputError({path},
+                     std::to_string(surfaces.size()) + " surfaces" +
+                         (layer.empty() ? "" : " called " + layer) + ", expected one" +
+                         (names.empty() ? "" : "; there are: " + names),
+                     names.empty() ? "export the ground as a surface"
+                                   : "choose one: '" + path + "|layername=" + first + "'");
+  return surfaces.front();
+}
+
+std::map<std::string, int> read_landxml_points(const CPLXMLNode* surface, const std::string& path,
+                                               double unit_m, FaceCollector& faces) {
+  std::map<std::string, int> number_of;
+  for_each_element(surface->psChild, "P", [&](const CPLXMLNode* node) {
+    const std::string id = CPLGetXMLValue(node, "id", "");
+    const std::vector<std::string> words = words_of(node);
+    Vec3 point = Vec3::Zero();  // written as northing, easting, elevation
+    const bool is_point = words.size() == 3 && parse_double(words[0], point.y()) &&
+                          parse_double(words[1], point.x()) && parse_double(words[2], point.z());
+    if (!is_point)
+      throw InputError(
+          {path, 0, "point " + id},
+          std::to_string(words.size()) + " words, expected northing, easting, elevation");
+    number_of[id] = faces.new_point(unit_m * point);
+  });
+  return number_of;
+}
+
+std::int64_t read_landxml_faces(const CPLXMLNode* surface, const std::string& path,
+                                const std::map<std::string, int>& number_of, FaceCollector& faces) {
+  std::int64_t n_invisible = 0;
+  for_each_element(surface->psChild, "F", [&](const CPLXMLNode* node) {
+    if (std::string(CPLGetXMLValue(node, "i", "0")) == "1") {
+      ++n_invisible;
+      return;
+    }
+    std::vector<int> corners;
+    for (const std::string& id : words_of(node)) {
+      const auto found = number_of.find(id);
+      if (found == number_of.end())
+        throw InputError({path}, "a face has the point " + id + ", which is not there");
+      corners.push_back(found->second);
+    }
+    if (corners.size() != 3)
+      throw InputError(
+          {path}, "a face has " + std::to_string(corners.size()) + " points, expected triangles");
+    faces.triangle(corners[0], corners[1], corners[2]);
+  });
+  return n_invisible;
+}
+
+std::string crs_of_landxml(const CPLXMLNode* root) {
+  std::string crs;
+  for_each_element(root, "CoordinateSystem", [&](const CPLXMLNode* node) {
+    const std::string code = CPLGetXMLValue(node, "epsgCode", "");
+    const bool is_code = !code.empty() && code.find_first_not_of("0123456789") == std::string::npos;
+    if (is_code && code != "0") crs = "EPSG:" + code;
+  });
+  return crs;
+}
+
+TinFile read_landxml(const std::string& path, const std::string& layer, double user_unit_m) {
+  const GdalErrors errors;
+  const XmlTree tree(CPLParseXMLFile(path.c_str()));
+  if (!tree.root) throw InputError({path}, "is no whole XML: " + errors.failure());
+  CPLStripXMLNamespace(tree.root.get(), nullptr, TRUE);
+  const double unit_m = unit_of_landxml(tree.root.get(), path, user_unit_m);
+  const CPLXMLNode* const surface = chosen_surface(tree.root.get(), path, layer);
+  FaceCollector faces;
+  const std::map<std::string, int> number_of = read_landxml_points(surface, path, unit_m, faces);
+  const std::int64_t n_invisible = read_landxml_faces(surface, path, number_of, faces);
+  if (faces.n_triangles() == 0)
+    throw InputError({path}, "the surface has no faces, expected a TIN",
+                     "export the surface with its triangles (Faces), not its points alone");
+  TinFile file;
+  file.notes.push_back(path + ": surface " + CPLGetXMLValue(surface, "name", "unnamed") + ", " +
+                       counted(faces.n_triangles(), "triangle") +
+                       (n_invisible > 0
+                            ? "; " + std::to_string(n_invisible) + " invisible ones left out"
+                            : std::string()));
+  note_upright(faces, file, path);
+  file.tin = faces.take();
+  file.tin.crs_wkt = crs_of_landxml(tree.root.get());
+  return file;
+}
+
+TinFile read_ply(const std::string& path) {
+  TinFile file;
+  file.tin = read_tin(path);
+  return file;
+}
+
+}  // namespace
+
+bool is_tin_file(const std::string& source) {
+  const std::string path = file_of(source);
+  return is_ply(path) || is_landxml(path) || extension_of(path) == ".dxf";
+}
+
+TinFile read_tin_file(const LayerChoice& choice) {
+  const std::string path = file_of(choice.path);
+  const bool is_surface = is_landxml(path);
+  if (!is_ply(path) && !is_surface) return read_drawing(choice);
+  const SourcePath named = parse_source_path(choice.path);
+  if (!is_surface && (path != choice.path || choice.unit_m != 0))
+    throw InputError({path}, "has no layers, filter and unit to choose, only a drawing has",
+                     "omit --unit-m and what follows the file");
+  if (!named.subset.empty())
+    throw InputError({path}, "has no filter to choose, only a drawing has", "omit |subset=");
+  return is_surface ? read_landxml(path, named.layer, choice.unit_m) : read_ply(path);
+}
+
+FoldedEdges find_folded_edges(const Tin& tin) {
+  std::vector<std::array<int, 2>> edges;  // as their triangles go round
+  edges.reserve(3 * tin.triangles.size());
+  for (const auto& corners : tin.triangles)
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back({corners[k], corners[(k + 1) % 3]});
+  std::sort(edges.begin(), edges.end());
+  FoldedEdges folded;
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    if (edges[i] != edges[i - 1]) continue;  // two on one side, or the third of an edge
+    const auto [a, b] = edges[i];
+    if (folded.n++ == 0) folded.first = (tin.points[index(a)] + tin.points[index(b)]) / 2;
+  }
+  return folded;
+}
+
+}  // namespace talus

@@ -1,0 +1,47 @@
+// libcore/import/vectors_gdal.hpp: public
+// Areas, lines and points from any vector source that OGR reads, in map coordinates of a wanted
+// CRS.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+#include "import/layer_reading.hpp"
+
+namespace talus {
+
+enum class VectorKind { points, lines, areas };
+
+/// What is asked for.
+struct VectorQuery {
+  std::string path;  ///< with layers and a filter where need be: base/source_path.hpp
+  VectorKind kind = VectorKind::areas;
+  std::vector<std::string> fields = {};  ///< attributes to read of each point
+};
+
+/// Shapes of one kind. Single points each make a shape of one vertex. Areas are rings, even-odd:
+/// polygons that overlap, touch or lie in one another are united before, so that a ring in a ring
+/// is a hole of one polygon, never a polygon repeated. Closed lines are areas where a layer has no
+/// polygon, and in a drawing always.
+struct VectorShapes : LayerReading {
+  std::vector<std::vector<Vec3>> shapes;  ///< points, lines, or closed rings without the last point
+  /// Of points: the fields asked for, as text; empty where a layer does not have one or it is not
+  /// set.                                                                     (n_shapes x n_fields)
+  std::vector<std::vector<std::string>> attributes;
+  std::string source_crs;             ///< WKT when the shapes were reprojected, else empty
+  std::string operation;              ///< sentence: how they were reprojected; empty: they were not
+  std::vector<std::string> warnings;  ///< places beside their CRS, a better operation
+  int n_united = 0;                   ///< polygons that met another one ...
+  int n_made = 0;                     ///< ... and the polygons made of them
+  double area_m2 = 0;                 ///< of all polygons, in the wanted CRS
+};
+
+/// Throws InputError: source cannot be opened, no such layer or several that may be meant, nothing
+/// of the kind in it, empty or missing geometries, polygons that are not sound, coordinates that
+/// are not finite, cannot be what their CRS says (check_place) or cannot be reprojected, a drawing
+/// that is not in metres. A source or target without a CRS is taken to be in the
+/// other's.
+[[nodiscard]] VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt);
+
+}  // namespace talus
