@@ -19,6 +19,7 @@
 #include "base/units.hpp"
 #include "import/crs_operation_gdal.hpp"
 #include "import/crs_place_gdal.hpp"
+#include "import/crs_said_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
 #include "io/judged_heights_gdal.hpp"
@@ -107,31 +108,6 @@ MapWindow edges_of(GDALDataset& dataset) {
 }
 
 bool is_finite(const MapWindow& w) { return std::isfinite(w.x_min + w.y_min + w.x_max + w.y_max); }
-
-// The file's CRS, or the one that the user gives for a file without, or with one that cannot be
-// true. The user may also say what system the heights of a file are in that names the plan alone.
-std::string effective_crs(GDALDataset& dataset, const std::string& path, const DemOptions& options,
-                          DemReading& reading) {
-  const std::string own = wkt_of(dataset.GetSpatialRef());
-  if (own.empty()) {
-    if (!options.crs_given && !options.crs_may_be_missing)
-      throw InputError({path}, "there is no CRS, expected a projected one in metres",
-                       "name it with --crs EPSG:code, or --crs none for local metres");
-    return options.crs;
-  }
-  if (!options.crs_given) return own;
-  if (same_crs(own, options.crs) && same_heights(own, options.crs))
-    return height_crs(own).empty() ? options.crs : own;
-  const MapWindow edges = edges_of(dataset);
-  const std::string reason =
-      is_finite(edges) ? reason_to_replace(own, options.crs, edges) : std::string();
-  if (reason.empty())
-    throw InputError({path}, "the CRS is " + crs_name(own) + ", not " + crs_name(options.crs),
-                     "leave --crs away; --t-srs reprojects");
-  reading.notes.push_back(path + ": the CRS is " + crs_name(own) + ", " + reason + "; taken as " +
-                          crs_name(options.crs));
-  return options.crs;
-}
 
 // What the user says of the heights of a file that does not.
 std::string with_vertical(const std::string& crs, const std::string& path,
@@ -269,8 +245,11 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
   GDALDataset* dataset = impl_->source.get();
   if (options.accepts_doubts || !options.has_heights) impl_->accepts_doubts = true;
   DemReading& reading = impl_->reading;
-  impl_->crs = with_vertical(effective_crs(*dataset, path, options, reading), path, options);
   const MapWindow edges = edges_of(*dataset);
+  impl_->crs = with_vertical(crs_said(wkt_of(dataset->GetSpatialRef()),
+                                      {options.crs_given, options.crs_may_be_missing, options.crs},
+                                      edges, path, reading.notes),
+                             path, options);
   if (!options.t_srs.empty()) {
     check_unit_of_heights(*dataset, impl_->crs, path, options);
     if (impl_->crs.empty())

@@ -14,24 +14,16 @@
 
 #include "base/error.hpp"
 #include "base/progress.hpp"
+#include "import/request.hpp"
 #include "terrain/grid_frame.hpp"
 
 namespace talus {
 
-/// What the user says about a DEM that the file does not, or not as wanted.
-struct DemOptions {
-  bool crs_given = false;  ///< `crs` replaces a missing CRS, or one that says no heights; refused
-                           ///< when the file has another one
-  std::string crs;         ///< WKT; empty: local metres, no place on the map
-  std::string t_srs;       ///< WKT; not empty: reproject to it in plan (bilinear, at the file's
-                           ///< resolution); heights stay, and so does the system that they are
-                           ///< in; where an unknown cell has a share, the value is unknown
+/// What the user says about a DEM. It is reprojected bilinearly, at the file's resolution; where an
+/// unknown cell has a share, the value is unknown.
+struct DemOptions : SystemsByUser {
   bool accepts_doubts = false;      ///< areas of one value that stand far off are ground
   bool crs_may_be_missing = false;  ///< no CRS and none given means local metres
-  std::string vertical_crs;         ///< what heights are in whose file does not say it: WKT of a
-                                    ///< vertical system, or ellipsoidal_heights
-  std::string t_vertical;           ///< WKT; not empty: take heights to this vertical system
-  bool accept_ballpark = false;     ///< reproject though nothing is known of the datum
   bool has_heights = true;          ///< false: other numbers, to which no rule of heights applies
   /// Part that is read, in map coordinates: only this must lie where the CRS is used. Not looked at
   /// with t_srs.

@@ -1,4 +1,4 @@
-// The part of import/contour_layer_gdal.hpp that walks the features of a layer and hands on their
+// The part of import/open_layer_gdal.hpp that walks the features of a layer and hands on their
 // parts.
 #include <ogrsf_frmts.h>
 
@@ -7,9 +7,9 @@
 
 #include "base/source_path.hpp"
 #include "base/text.hpp"
-#include "import/contour_layer_gdal.hpp"
 #include "import/layer_names.hpp"
 #include "import/layer_shapes_gdal.hpp"
+#include "import/open_layer_gdal.hpp"
 #include "io/errors_gdal.hpp"
 
 namespace talus {
@@ -200,31 +200,31 @@ std::string in_words(const std::map<std::string, std::int64_t>& counts) {
   return words;
 }
 
-std::string way_to_shape(const OpenLayer& source, const LayerChoice& choice) {
+std::string way_to_shape(const OpenLayer& source) {
   const auto has = [&source](const char* kind) { return source.passed_over.count(kind) > 0; };
   const bool are_contours =
       std::string(source.role.input) == "contours" && source.role.shape == LayerShape::line;
   if (are_contours) {
     if (source.is_drawing && has("face"))
-      return "a surface of faces needs no contours: talus-trn " + command_words(choice.path) +
+      return "a surface of faces needs no contours: talus-trn " + command_words(source.ref.path) +
              " -o terrain.tif --crs EPSG:code";
     if (has("point")) return "--points makes a TIN of points of the ground";
   }
   if (source.role.shape == LayerShape::line && has("polygon"))
     return (are_contours ? "outlines that each stand at one height: " : "their outlines: ") +
-           ("ogr2ogr -nlt MULTILINESTRING lines.gpkg " + command_words(choice.path)) +
+           ("ogr2ogr -nlt MULTILINESTRING lines.gpkg " + command_words(source.ref.path)) +
            (are_contours ? "; bands between two heights are no contours" : "");
   if (source.role.shape == LayerShape::face && has("line"))
-    return "contours make a TIN: talus-tin " + command_words(choice.path) + " -o tin.ply";
+    return "contours make a TIN: talus-tin " + command_words(source.ref.path) + " -o tin.ply";
   if (source.role.shape == LayerShape::polygon && has("open line"))
     return "end each line where it begins";
   return "";
 }
 
 // Nothing of the shape is there.
-InputError without_parts(const LayerChoice& choice, const OpenLayer& source) {
+InputError without_parts(const OpenLayer& source) {
   const std::string shape = plural(source.role.shape);
-  const Where where = where_of_layer(choice, source);
+  const Where where = where_of_layer(source);
   if (source.n_features == 0 && source.filter.empty())
     return InputError(where, "the layer is empty, expected " + shape);
   if (source.n_features == 0)
@@ -234,14 +234,14 @@ InputError without_parts(const LayerChoice& choice, const OpenLayer& source) {
   return InputError(where,
                     "holds no " + shape + ", but " + in_words(source.passed_over) + "; expected " +
                         shape + closed,
-                    way_to_shape(source, choice));
+                    way_to_shape(source));
 }
 
 // A layer that was named gives something: else one of several is left out without a word.
-void check_named(const LayerChoice& choice, const OpenLayer& source) {
+void check_named(const OpenLayer& source) {
   if (!source.filter.empty()) return;
   const auto refuse = [&](const std::string& name) {
-    return InputError({choice.path, 0, "layer " + name},
+    return InputError({source.ref.path, 0, "layer " + name},
                       std::string("holds no ") + plural(source.role.shape),
                       "leave it out, or choose another one");
   };
@@ -261,16 +261,15 @@ void check_named(const LayerChoice& choice, const OpenLayer& source) {
   }
 }
 
-InputError no_such_drawing_layer(const LayerChoice& choice, const OpenLayer& source,
-                                 const std::vector<std::string>& names) {
-  return InputError({choice.path},
+InputError no_such_drawing_layer(const OpenLayer& source, const std::vector<std::string>& names) {
+  return InputError({source.ref.path},
                     "the drawing has nothing in a layer \"" + list_of(source.wanted) +
                         "\"; its layers are: " + list_of(names),
                     hint_to_choose(names));
 }
 
 // A drawing of which no layer is named has one that holds the shape.
-void check_one_drawing_layer(const LayerChoice& choice, OpenLayer& source) {
+void check_one_drawing_layer(OpenLayer& source) {
   const bool is_chosen = !source.wanted.empty() || names_field(source.filter, source.drawing_field);
   if (is_chosen || source.parts_of.size() < 2) return;
   std::vector<std::string> names, numbers;
@@ -278,7 +277,7 @@ void check_one_drawing_layer(const LayerChoice& choice, OpenLayer& source) {
     names.push_back(name);
     numbers.push_back(name + " (" + std::to_string(n) + ")");
   }
-  throw InputError({choice.path},
+  throw InputError({source.ref.path},
                    std::to_string(names.size()) + " layers of the drawing hold " +
                        plural(source.role.shape) + ", expected one; they are: " + list_of(numbers),
                    hint_to_choose(names));
@@ -292,45 +291,44 @@ void name_drawing_layers(OpenLayer& source) {
 
 }  // namespace
 
-Where where_of_layer(const LayerChoice& choice, const OpenLayer& source) {
-  return {choice.path, 0, (source.layers.size() > 1 ? "layers " : "layer ") + source.name};
+Where where_of_layer(const OpenLayer& source) {
+  return {source.ref.path, 0, (source.layers.size() > 1 ? "layers " : "layer ") + source.name};
 }
 
-Where where_of_feature(const LayerChoice& choice, const OpenLayer& source,
-                       const OGRFeature& feature) {
+Where where_of_feature(const OpenLayer& source, const OGRFeature& feature) {
   const std::string layer = source.is_drawing ? text_field(feature, source.drawing_field.c_str())
                                               : source.layers[source.current]->GetName();
-  return {choice.path, 0, "layer " + layer + ", feature " + std::to_string(feature.GetFID())};
+  return {source.ref.path, 0, "layer " + layer + ", feature " + std::to_string(feature.GetFID())};
 }
 
-void for_each_part(const LayerChoice& choice, OpenLayer& source, const Visit& visit) {
+void for_each_part(OpenLayer& source, const Visit& visit) {
   const GdalErrors errors;
   PartReader reader(source, visit);
   reader.read();
   if (source.is_drawing && !source.wanted.empty() && source.n_features == 0 &&
       source.filter.empty())
-    throw no_such_drawing_layer(choice, source, reader.drawing_layers());
+    throw no_such_drawing_layer(source, reader.drawing_layers());
   if (source.n_features > 0 && reader.n_null() > 0)
-    throw InputError(where_of_layer(choice, source),
+    throw InputError(where_of_layer(source),
                      std::to_string(reader.n_null()) + " of " + std::to_string(source.n_features) +
                          " features have no geometry, expected none: is the file truncated?",
                      "copy the file anew; features that are meant to be empty must be deleted");
   if (errors.failed())
     throw InputError(
-        where_of_layer(choice, source),
+        where_of_layer(source),
         (source.filter.empty() ? "reading failed: "
                                : "reading with the filter \"" + source.filter + "\" failed: ") +
             errors.failure());
-  if (source.n_parts == 0) throw without_parts(choice, source);
-  check_named(choice, source);
+  if (source.n_parts == 0) throw without_parts(source);
+  check_named(source);
   if (!source.is_drawing) return;
-  check_one_drawing_layer(choice, source);
+  check_one_drawing_layer(source);
   name_drawing_layers(source);
 }
 
-LayerReading reading_of(const LayerChoice& choice, const OpenLayer& source) {
+LayerReading reading_of(const OpenLayer& source) {
   LayerReading reading;
-  reading.file = without_layer(choice.path);
+  reading.file = without_layer(source.ref.path);
   reading.layer = source.name;
   reading.where = source.filter;
   reading.noun = singular(source.role.shape);
@@ -344,6 +342,14 @@ LayerReading reading_of(const LayerChoice& choice, const OpenLayer& source) {
   if (source.n_curves > 0)
     reading.remarks.push_back(counted(source.n_curves, "curve") + " stroked to lines");
   return reading;
+}
+
+void add_remarks(const LayerReading& taken, std::vector<std::string>& notes) {
+  if (!taken.where.empty()) notes.push_back(taken.file + ": filter " + taken.where);
+  for (const std::string& remark : taken.remarks) notes.push_back(taken.file + ": " + remark);
+  if (taken.n_passed_over > 0)
+    notes.push_back(taken.file + ": layer " + taken.layer + " also holds " + taken.passed_over +
+                    ", passed over");
 }
 
 void check_finite(const Vec3& point, const Where& where) {

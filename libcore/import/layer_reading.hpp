@@ -1,5 +1,5 @@
-// libcore/import/layer_reading.hpp
-// What was taken from a vector source, for people and for programs.
+// libcore/import/layer_reading.hpp: public
+// What was taken from vector sources, for people and for programs.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 namespace talus {
 
 struct LayerReading {
+  std::string role;   ///< "contours", "reference_points"
   std::string file;   ///< as it was named
   std::string layer;  ///< or layers, "index, intermediate"
   std::string where;  ///< filter; empty: all features
@@ -20,6 +21,14 @@ struct LayerReading {
   std::string elevation_from;        ///< "Z" or "field ELEV"; empty: no heights are read
   double unit_m = 1;                 ///< metres in one unit of the heights
   std::vector<std::string> remarks;  ///< sentences: closed lines that are areas, stroked curves
+};
+
+/// What was found in all layers of a request, in their order. Sentences are for the user.
+struct ImportReading {
+  std::vector<LayerReading> layers;
+  std::vector<std::string> notes;
+  std::vector<std::string> operations;  ///< how places and heights were taken over
+  std::vector<std::string> warnings;    ///< places beside their CRS, better operations without grid
 };
 
 }  // namespace talus

@@ -21,9 +21,8 @@
 #include "base/read_file.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
-#include "import/contour_heights_gdal.hpp"
-#include "import/contour_layer_gdal.hpp"
 #include "import/drawing_unit_gdal.hpp"
+#include "import/open_layer_gdal.hpp"
 #include "io/errors_gdal.hpp"
 #include "io/tin_ply.hpp"
 
@@ -142,7 +141,7 @@ void add_face(const OGRGeometry& geometry, double unit_m, FaceCollector& faces,
     add_face(*part, unit_m, faces, counts, where);
 }
 
-double unit_of_faces(const LayerChoice& choice, TinFile& file) {
+double unit_of_faces(const LayerRef& choice, TinFile& file) {
   const std::string drawing = file_of(choice.path);
   if (const std::string doubt = doubt_on_unit(drawing, choice.unit_m); !doubt.empty())
     file.warnings.push_back(drawing + ": " + doubt);
@@ -163,20 +162,20 @@ std::string sentence_on(const DrawingCounts& counts) {
   return words;
 }
 
-TinFile read_drawing(const LayerChoice& choice) {
+TinFile read_drawing(const LayerRef& choice) {
   TinFile file;
   const double unit_m = unit_of_faces(choice, file);
   OpenLayer source = open_layer(choice, faces_role);
   FaceCollector faces;
   DrawingCounts counts;
-  for_each_part(choice, source, [&](const OGRGeometry& part, const OGRFeature& feature) {
-    add_face(part, unit_m, faces, counts, where_of_feature(choice, source, feature));
+  for_each_part(source, [&](const OGRGeometry& part, const OGRFeature& feature) {
+    add_face(part, unit_m, faces, counts, where_of_feature(source, feature));
   });
-  file.taken = reading_of(choice, source);
+  file.taken = reading_of(source);
   file.taken.unit_m = unit_m;
   file.taken.elevation_from = "Z";
   if (faces.n_triangles() == 0)
-    throw InputError(where_of_layer(choice, source), "no face has an area in plan");
+    throw InputError(where_of_layer(source), "no face has an area in plan");
   file.notes.push_back(choice.path + ": layer " + source.name + ", " + sentence_on(counts));
   add_remarks(file.taken, file.notes);
   note_upright(faces, file, choice.path);
@@ -340,7 +339,7 @@ bool is_tin_file(const std::string& source) {
   return is_ply(path) || is_landxml(path) || extension_of(path) == ".dxf";
 }
 
-TinFile read_tin_file(const LayerChoice& choice) {
+TinFile read_tin_file(const LayerRef& choice) {
   const std::string path = file_of(choice.path);
   const bool is_surface = is_landxml(path);
   if (!is_ply(path) && !is_surface) return read_drawing(choice);

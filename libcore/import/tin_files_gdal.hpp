@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "import/contour_sources.hpp"
+#include "import/layer_reading.hpp"
+#include "import/request.hpp"
 #include "terrain/tin.hpp"
 
 namespace talus {
@@ -28,7 +29,7 @@ struct TinFile {
 /// without its invisible faces. Other units than metres are refused unless they are said (`unit_m`,
 /// which scales plan and heights). Triangles without an area in plan are left out and counted.
 /// Throws InputError, also for layers or a unit of a file that has none.
-[[nodiscard]] TinFile read_tin_file(const LayerChoice& choice);
+[[nodiscard]] TinFile read_tin_file(const LayerRef& choice);
 
 /// Edges at which triangles lie over one another: more than two meet, or both on one side.
 struct FoldedEdges {

@@ -29,7 +29,6 @@ struct VectorShapes : LayerReading {
   /// Of points: the fields asked for, as text; empty where a layer does not have one or it is not
   /// set.                                                                     (n_shapes x n_fields)
   std::vector<std::vector<std::string>> attributes;
-  std::string source_crs;             ///< WKT when the shapes were reprojected, else empty
   std::string operation;              ///< sentence: how they were reprojected; empty: they were not
   std::vector<std::string> warnings;  ///< places beside their CRS, a better operation
   int n_united = 0;                   ///< polygons that met another one ...

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "base/input_log.hpp"
-#include "import/contours_gdal.hpp"
 #include "import/vectors_gdal.hpp"
 
 namespace talus {

@@ -1,7 +1,7 @@
 // libcore/terrain/contours.hpp: public
 // A contour map as plain data, and its cleaning: what meets at one height is joined and counted,
 // what meets at two heights is refused with the place.
-// in:    lines read by import/contours_gdal
+// in:    lines read by import/import_inputs_gdal
 // out:   points and segments that a constrained triangulation can take as they are
 #pragma once
 

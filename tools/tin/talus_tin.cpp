@@ -8,16 +8,16 @@
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
-#include "import/contours_gdal.hpp"
-#include "import/crs_operation_gdal.hpp"
+#include "import/import_inputs_gdal.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/geopackage_gdal.hpp"
 #include "io/tin_ply.hpp"
-#include "setup/vector_inputs_gdal.hpp"
 #include "terrain/flat.hpp"
 #include "terrain/outliers.hpp"
 #include "terrain/point_tin.hpp"
 #include "terrain/tin_mesh.hpp"
 #include "tools/frame/command_line.hpp"
+#include "tools/frame/import_options.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/tin/doubts.hpp"
 
@@ -32,27 +32,13 @@ using talus::Tool;
 using talus::UsageError;
 
 struct Options {
-  talus::ContourSources sources;
-  std::vector<std::string> fields, units;  // "elev", "spots=hoehe"; "0.3048", "spots=0.3048"
-  std::string out, crs, t_srs, vertical_crs, t_vertical, report, hold_out;
+  talus::ImportOptions inputs;
+  std::string out, report, hold_out;
   std::string flat = "fill";
   double fill_spacing_m = 0;
   int hold_out_every = 0;
-  bool of_points = false;
   talus::DoubtOptions doubts;
 };
-
-std::string check_not_negative(const std::string& word) {
-  double value = 0;
-  if (talus::parse_double(word, value) && value >= 0) return {};
-  return word + " is no distance, expected metres, 0 or more";
-}
-
-std::string check_positive(const std::string& word) {
-  double value = 0;
-  if (talus::parse_double(word, value) && value > 0) return {};
-  return word + " is no unit, expected metres above 0";
-}
 
 std::string check_every(const std::string& word) {
   double value = 0;
@@ -60,80 +46,22 @@ std::string check_every(const std::string& word) {
   return word + " is no step, expected a whole number of 2 or more";
 }
 
-// What an option says of one input: "spots=0.3048", or "0.3048" of the contours.
-struct OfInput {
-  talus::LayerChoice* input;
-  std::string value;
-};
-
-OfInput of_input(talus::ContourSources& s, const std::string& words) {
-  for (const auto& [name, input] :
-       {std::pair{"contours=", &s.contours}, std::pair{"labels=", &s.labels},
-        std::pair{"breaklines=", &s.breaklines}, std::pair{"spots=", &s.spots},
-        std::pair{"boundary=", &s.boundary}})
-    if (words.starts_with(name)) return {input, words.substr(std::string(name).size())};
-  return {&s.contours, words};
-}
-
-void take_fields_and_units(Options& o) {
-  for (const std::string& words : o.fields) {
-    const OfInput field = of_input(o.sources, words);
-    field.input->elevation_field = field.value;
-  }
-  for (const std::string& words : o.units) {
-    const OfInput unit = of_input(o.sources, words);
-    static_cast<void>(talus::parse_double(unit.value, unit.input->unit_m));  // was checked
-  }
-}
-
 void declare(Tool& tool, Options& o) {
-  talus::ContourSources& s = o.sources;
-  tool.input("contours", s.contours.path, "contour lines (any vector source that GDAL reads)");
+  talus::declare_import_options(tool, o.inputs);
   tool.output("-o,--out", o.out, "TIN to write (binary PLY)")->required();
-  tool.input("--labels", s.labels.path,
-             "texts beside the contours that say their heights (e.g. the same DXF drawing)");
-  tool.option("--elevation-unit-m", s.elevation_unit_m,
-              "metres in one unit of all elevations; 0: as their height system says, else metres")
-      ->check(check_positive);
-  tool.input("--breaklines", s.breaklines.path, "lines with heights where the slope breaks");
-  tool.input("--spots", s.spots.path, "spot heights (points)");
-  tool.input("--boundary", s.boundary.path,
-             "polygons or closed lines: triangles with their centre outside go");
-  tool.app()
-      .add_option("--elevation-field", o.fields,
-                  "field with the elevation of the contours, Z: the geometries' own; INPUT=FIELD: "
-                  "of labels, breaklines or spots")
-      ->allow_extra_args(false);
-  tool.app()
-      .add_option(
-          "--unit-m", o.units,
-          "metres in one unit of the contours, in plan and height; INPUT=METRES: of labels, "
-          "breaklines, spots or boundary")
-      ->allow_extra_args(false)
-      ->check([&s](const std::string& words) { return check_positive(of_input(s, words).value); });
-  tool.option("--crs", o.crs,
-              "CRS of contours that have none, or one that cannot be true; none: local metres");
-  tool.option("--t-srs", o.t_srs, "reproject to this CRS, e.g. EPSG:32632 (heights stay)");
-  tool.option("--vertical-crs", o.vertical_crs,
-              "what the heights are in, e.g. EPSG:5773, or ellipsoidal");
-  tool.option("--t-vertical", o.t_vertical, "take the heights to this system, e.g. EPSG:5773");
-  tool.flag("--accept-ballpark", s.accept_ballpark,
-            "reproject also where nothing is known of the datum");
   tool.option("--flat", o.flat, "flat triangles on summits, ridges, valley floors: fill or keep")
       ->check(CLI::IsMember({"fill", "keep"}));
   tool.option("--fill-spacing-m", o.fill_spacing_m,
               "distance of the points that mend flat triangles [m]; 0: from the map")
-      ->check(check_not_negative);
+      ->check(talus::check_not_negative);
   tool.option("--hold-out-every", o.hold_out_every,
               "hold back the contours at every K-th height, K >= 2; 0: none")
       ->check(check_every);
   tool.output("--hold-out", o.hold_out, "points of the contours held back (GeoPackage)");
-  tool.flag("--points", o.of_points,
-            "the source holds points of the ground, not contours: a vector layer, CSV or XYZ");
   tool.option("--tolerance-m", o.doubts.tolerance_m,
               "contours of different heights that meet are moved apart by at most this [m]; "
               "0: refused; not given: the accuracy that their bends show")
-      ->check(check_not_negative);
+      ->check(talus::check_not_negative);
   tool.output("--doubts", o.doubts.layer,
               "places to look at, also of a map that is refused (GeoPackage)");
   tool.flag("--accept-doubts", o.doubts.accept, "take heights that cannot be, and say so");
@@ -151,18 +79,6 @@ void check_together(const Options& o) {
                    "--hold-out-every and --hold-out go together, only one is given");
 }
 
-void read_crs_options(Options& o) {
-  o.sources.crs_given = !o.crs.empty();
-  talus::from_command_line([&] {
-    if (!o.crs.empty()) o.sources.crs = talus::crs_from_user(o.crs, "--crs");
-    if (!o.t_srs.empty()) o.sources.t_srs = talus::crs_from_user(o.t_srs, "--t-srs");
-    if (!o.vertical_crs.empty())
-      o.sources.vertical_crs = talus::vertical_crs_from_user(o.vertical_crs, "--vertical-crs");
-    if (!o.t_vertical.empty())
-      o.sources.t_vertical = talus::target_heights_from_user(o.t_vertical, "--t-vertical");
-  });
-}
-
 std::string digest_of(const ContourMap& map) {
   talus::Sha256 hash;
   hash.add(map.origin.data(), sizeof map.origin);
@@ -173,45 +89,22 @@ std::string digest_of(const ContourMap& map) {
   return hash.hex();
 }
 
-// What was read, from where, and what was done on the way in.
-void say_reading(Tool& tool, const Options& o, const ContourMap& map,
-                 const talus::ContourReading& reading) {
+ContourMap read_map(Tool& tool, Options& o, talus::ImportReading& reading) {
+  ContourMap map = talus::import_map(talus::request_of(tool, o.inputs), reading);
+  if (!o.inputs.of_points) talus::check_heights(map);
   tool.content_read("map", digest_of(map));
-  tool.info("elevation from " + reading.elevation_from + " of layer " + reading.layer +
-            (reading.contours.unit_m == 1
-                 ? ""
-                 : ", in units of " + text(reading.contours.unit_m) + " m"));
-  for (const std::string& note : reading.notes) tool.info(note);
-  for (const std::string& operation : reading.operations) {
-    tool.info(operation);
-    tool.record(operation);
-  }
-  for (const std::string& warning : reading.warnings) tool.warn(warning);
-  const std::pair<const char*, const talus::LayerReading*> sources[] = {
-      {o.of_points ? "points" : "contours", &reading.contours},
-      {"labels", &reading.labels},
-      {"breaklines", &reading.breaklines},
-      {"spots", &reading.spots},
-      {"boundary", &reading.boundary}};
-  for (const auto& [role, taken] : sources)
-    if (!taken->file.empty()) tool.layer_read(talus::facts_on(*taken, role));
-}
-
-void read_members_of_sources(Tool& tool, const Options& o) {
-  const talus::ContourSources& s = o.sources;
-  for (const auto& [role, path] :
-       {std::pair{"contours", &s.contours.path}, std::pair{"labels", &s.labels.path},
-        std::pair{"breaklines", &s.breaklines.path}, std::pair{"spots", &s.spots.path},
-        std::pair{"boundary", &s.boundary.path}})
-    talus::read_members(tool, role, *path);
-}
-
-ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
-  read_crs_options(o);
-  ContourMap map = talus::read_contours(o.sources, reading);
-  talus::check_heights(map);
-  say_reading(tool, o, map, reading);
+  talus::say_reading(tool, reading);
   return map;
+}
+
+void write_points(const std::string& path, const ContourMap& map,
+                  const std::vector<talus::Vec3>& points) {
+  talus::VectorLayer layer;
+  layer.name = "held_back";
+  layer.description = "points of the contours held back";
+  for (const talus::Vec3& point : points)
+    layer.features.emplace_back().points = {point + map.origin};
+  talus::write_geopackage(path, map.crs_wkt, {layer});
 }
 
 // Arrays of a large map each get pages of their own, which go back to the system with them; what is
@@ -237,7 +130,7 @@ void refresh_inside(const ContourMap& map, talus::Triangulation& triangulation, 
   triangulation.refresh(mesh, only_triangles);
   talus::cut_to_rings(map.boundary, mesh);
   if (mesh.triangles.empty())
-    throw InputError({o.sources.boundary.path}, "the boundary and the contours share no ground");
+    throw InputError({o.inputs.boundary.path}, "the boundary and the contours share no ground");
 }
 
 Json as_json(const talus::CleaningCounts& c) {
@@ -261,9 +154,9 @@ void warn_of_measured(Tool& tool, const talus::CleaningCounts& c, const talus::V
             ": one of them is taken; leave out what crosses on a bridge");
 }
 
-Json as_json(const ContourMap& map, const talus::ContourReading& reading) {
+Json as_json(const ContourMap& map, const talus::LayerReading& taken) {
   const std::vector<double> levels = talus::contour_levels(map);
-  return {{"n_features", reading.n_features},
+  return {{"n_features", taken.n_features},
           {"n_lines", map.contours.n_lines()},
           {"n_points", map.contours.points.size()},
           {"n_heights", levels.size()},
@@ -354,20 +247,20 @@ std::string summary_of(const Json& report) {
 }
 
 Json build(Tool& tool, Options& o, talus::Tin& tin) {
-  talus::ContourReading reading;
+  talus::ImportReading reading;
   ContourMap map = read_map(tool, o, reading);
   Json report = {{"tool", "talus-tin"},
-                 {"source", o.sources.contours.path},
+                 {"source", o.inputs.contours.path},
                  {"run_id", tool.run_id()},
-                 {"layer", reading.layer},
-                 {"elevation_from", reading.elevation_from},
+                 {"layer", reading.layers.front().layer},
+                 {"elevation_from", reading.layers.front().elevation_from},
                  {"crs", talus::crs_name(map.crs_wkt)},
-                 {"contours", as_json(map, reading)},
+                 {"contours", as_json(map, reading.layers.front())},
                  {"layers_read", tool.layers_read()}};
   if (o.hold_out_every > 0) {
     const auto held_back = talus::hold_back_contours(o.hold_out_every, map);
     talus::check_heights(map);
-    talus::write_points(tool.stage(o.hold_out), "held_back", map.crs_wkt, map.origin, held_back);
+    write_points(tool.stage(o.hold_out), map, held_back);
     report["held_back"] = {{"every", o.hold_out_every}, {"n_points", held_back.size()}};
   }
   tin = talus::to_tin(make_mesh(tool, o, map, report), map);
@@ -382,8 +275,8 @@ Json build(Tool& tool, Options& o, talus::Tin& tin) {
 // --- points --------------------------------------------------------------------------------------
 
 void check_no_lines(const Options& o) {
-  const bool has_lines = !o.sources.breaklines.path.empty() || !o.sources.spots.path.empty() ||
-                         !o.sources.labels.path.empty() || o.hold_out_every > 0 ||
+  const bool has_lines = !o.inputs.breaklines.path.empty() || !o.inputs.spots.path.empty() ||
+                         !o.inputs.labels.path.empty() || o.hold_out_every > 0 ||
                          !std::isnan(o.doubts.tolerance_m);
   if (!has_lines) return;
   throw UsageError(
@@ -394,10 +287,8 @@ void check_no_lines(const Options& o) {
 
 Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
   check_no_lines(o);
-  talus::ContourReading reading;
-  read_crs_options(o);
-  ContourMap map = talus::read_ground_points(o.sources, reading);
-  say_reading(tool, o, map, reading);
+  talus::ImportReading reading;
+  ContourMap map = read_map(tool, o, reading);
   ask_for_memory(map, map.spots.size());
   std::vector<talus::DoubtRow> rows = talus::rows_below_land(map);
   for (talus::DoubtRow& row : rows) row.what = "point";
@@ -411,10 +302,10 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
     rows.push_back(std::move(row));
   }
   Json report = {{"tool", "talus-tin"},
-                 {"source", o.sources.contours.path},
+                 {"source", o.inputs.contours.path},
                  {"run_id", tool.run_id()},
-                 {"layer", reading.layer},
-                 {"elevation_from", reading.elevation_from},
+                 {"layer", reading.layers.front().layer},
+                 {"elevation_from", reading.layers.front().elevation_from},
                  {"crs", talus::crs_name(map.crs_wkt)},
                  {"points", {{"n_read", found.n_read}, {"n_repeated", found.n_repeated}}},
                  {"layers_read", tool.layers_read()}};
@@ -423,7 +314,7 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
   if (o.doubts.accept) report["accepted_places"] = talus::accepted_places(rows);
   talus::cut_to_rings(map.boundary, found.mesh);
   if (found.mesh.triangles.empty())
-    throw InputError({o.sources.boundary.path}, "the boundary and the points share no ground");
+    throw InputError({o.inputs.boundary.path}, "the boundary and the points share no ground");
   const talus::EdgeLengths edges = talus::edge_lengths(found.mesh);
   report["points"]["median_edge_m"] = edges.median;
   report["points"]["longest_edge_m"] = edges.longest;
@@ -457,12 +348,10 @@ int main(int argc, char** argv) {
   declare(tool, o);
   return tool.run(argc, argv, [&] {
     check_together(o);
-    take_fields_and_units(o);
-    read_members_of_sources(tool, o);
     talus::Tin tin;
-    const Json report = o.of_points ? build_of_points(tool, o, tin) : build(tool, o, tin);
+    const Json report = o.inputs.of_points ? build_of_points(tool, o, tin) : build(tool, o, tin);
     talus::write_tin(tool.stage(o.out), tin);
     if (!o.report.empty()) tool.write_text(o.report, talus::json_text(report, 2) + "\n");
-    tool.result(report, o.of_points ? summary_of_points(report) : summary_of(report));
+    tool.result(report, o.inputs.of_points ? summary_of_points(report) : summary_of(report));
   });
 }

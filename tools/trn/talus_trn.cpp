@@ -8,10 +8,11 @@
 
 #include "base/text.hpp"
 #include "base/words.hpp"
-#include "import/contours_gdal.hpp"
 #include "import/crs_operation_gdal.hpp"
 #include "import/crs_place_gdal.hpp"
+#include "import/crs_said_gdal.hpp"
 #include "import/dem_gdal.hpp"
+#include "import/import_inputs_gdal.hpp"
 #include "import/tin_files_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/hillshade_gdal.hpp"
@@ -26,6 +27,7 @@
 #include "terrain/trn_quality.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/doubts_layer.hpp"
+#include "tools/frame/import_options.hpp"
 #include "tools/frame/options.hpp"
 
 namespace {
@@ -44,10 +46,9 @@ constexpr double far = std::numeric_limits<double>::infinity();
 constexpr MapWindow everywhere{-far, -far, far, far};
 
 struct Options {
-  std::string source, out, window_text, t_srs, crs, like, reference, report, hillshade;
-  std::string vertical_crs, t_vertical;
-  bool accept_ballpark = false;
-  talus::LayerChoice reference_points, faces;
+  std::string source, out, window_text, like, reference, report, hillshade;
+  talus::CrsOptions crs;
+  talus::LayerRef reference_points, faces;
   double cell_size_m = 0;
   MapWindow window = everywhere;
   std::string doubts;
@@ -73,34 +74,20 @@ std::string parse_window(const std::string& words, MapWindow& window) {
          "(QGIS writes extents as xmin,xmax,ymin,ymax)";
 }
 
-std::string check_positive(const std::string& word) {
-  double value = 0;
-  if (talus::parse_double(word, value) && value > 0) return {};
-  return word + " is no size, expected metres above 0";
-}
-
 void declare(Tool& tool, Options& o) {
   tool.input("source", o.source, "TIN (PLY, LandXML, 3DFACE in DXF), or an elevation raster");
   tool.output("-o,--out", o.out, "terrain to write (GeoTIFF)")->required();
   tool.option("--unit-m", o.faces.unit_m,
               "metres in one unit of a drawing of faces, in plan and height; 0: metres, or refused "
               "where it says another unit")
-      ->check(check_positive);
+      ->check(talus::check_positive);
   tool.option("--cell-size-m", o.cell_size_m,
               "distance of the nodes [m]; 0: the DEM's own, or near that of the TIN's points")
-      ->check(check_positive);
+      ->check(talus::check_positive);
   tool.option("--window", o.window_text, "part to take, map coordinates: XMIN,YMIN,XMAX,YMAX [m]")
       ->check([&o](const std::string& words) { return parse_window(words, o.window); });
   tool.input("--like", o.like, "put the nodes on the cell centres of this raster");
-  tool.option("--t-srs", o.t_srs, "reproject a DEM to this CRS, e.g. EPSG:32632 (bilinear)");
-  tool.option("--crs", o.crs,
-              "CRS of a source that has none, or one that cannot be true; none: local metres");
-  tool.option("--vertical-crs", o.vertical_crs,
-              "what the heights are in, e.g. EPSG:5773, or ellipsoidal");
-  tool.option("--t-vertical", o.t_vertical,
-              "take the heights of a DEM to this system, e.g. EPSG:5773");
-  tool.flag("--accept-ballpark", o.accept_ballpark,
-            "reproject also where nothing is known of the datum");
+  talus::declare_crs_options(tool, o.crs);
   tool.input("--reference", o.reference, "better known DEM to hold the terrain against");
   tool.input("--reference-points", o.reference_points.path,
              "points with a height to hold the terrain against (any vector source)");
@@ -185,11 +172,6 @@ void check_tin(const talus::Tin& tin, const std::string& path) {
   }
 }
 
-std::string stated_vertical(const Options& o) {
-  return o.vertical_crs.empty() ? std::string()
-                                : talus::vertical_crs_from_user(o.vertical_crs, "--vertical-crs");
-}
-
 // A surface that folds over has two heights in one place; a terrain has one.
 void check_one_layer(Tool& tool, const Options& o, const talus::TinFile& file, Ground& ground) {
   if (file.tin.is_judged) return;
@@ -207,19 +189,16 @@ void check_one_layer(Tool& tool, const Options& o, const talus::TinFile& file, G
   ground.accepted = finding;
 }
 
-// The CRS of the TIN, or the one that the user gives for a TIN without; empty: local metres.
+// The CRS of the TIN, or the one that the user gives; empty: local metres.
 std::string crs_of_tin(Tool& tool, const talus::Tin& tin, const MapWindow& data, const Options& o) {
+  const talus::SystemsByUser said = talus::systems_by_user(o.crs);
   std::string crs;
   if (!tin.crs_wkt.empty()) crs = talus::crs_from_user(tin.crs_wkt, o.source + ": its CRS");
-  if (!o.crs.empty()) {
-    const std::string given =
-        talus::from_command_line([&] { return talus::crs_from_user(o.crs, "--crs"); });
-    if (!crs.empty() && !(talus::same_crs(crs, given) && talus::same_heights(crs, given)))
-      throw InputError({o.source}, "the CRS is " + talus::crs_name(crs) + ", not " + o.crs,
-                       "leave --crs away");
-    if (talus::height_crs(crs).empty()) crs = given;
-  }
-  const std::string vertical = talus::from_command_line([&] { return stated_vertical(o); });
+  std::vector<std::string> notes;
+  crs = talus::crs_said(crs, {said.crs_given, true, said.crs, "leave --crs away"}, data, o.source,
+                        notes);
+  for (const std::string& note : notes) tool.info(note);
+  const std::string& vertical = said.vertical_crs;
   if (crs.empty() && vertical.empty()) return crs;
   const talus::Vec2 middle(0.5 * (data.x_min + data.x_max), 0.5 * (data.y_min + data.y_max));
   const talus::CrsProblem problem = talus::find_crs_problem(crs, middle);
@@ -230,25 +209,25 @@ std::string crs_of_tin(Tool& tool, const talus::Tin& tin, const MapWindow& data,
   talus::CrsExtent place{crs, data};
   place.way_to_other_crs =
       "a TIN is not reprojected: make it from the contours with talus-tin --t-srs";
-  place.crs_said_in = o.crs.empty() ? "the file" : "--crs";
+  place.crs_said_in = o.crs.crs.empty() ? "the file" : "--crs";
   for (const std::string& warning : talus::check_place(place, {o.source})) tool.warn(warning);
   return vertical.empty() ? crs : talus::with_stated_heights(crs, vertical, {o.source});
 }
 
-talus::LayerChoice faces_of(const Options& o) {
-  talus::LayerChoice choice = o.faces;
+talus::LayerRef faces_of(const Options& o) {
+  talus::LayerRef choice = o.faces;
   choice.path = o.source;
   return choice;
 }
 
 Ground ground_of_tin(Tool& tool, const Options& o) {
-  if (!o.t_srs.empty())
+  if (!o.crs.t_srs.empty())
     throw InputError(
         {o.source}, "a TIN is not reprojected",
-        "reproject the contours (ogr2ogr -t_srs " + o.t_srs + ") and make the TIN again");
-  if (!o.t_vertical.empty())
+        "reproject the contours (ogr2ogr -t_srs " + o.crs.t_srs + ") and make the TIN again");
+  if (!o.crs.t_vertical.empty())
     throw InputError({o.source}, "the heights of a TIN stay as they are",
-                     "make it from the contours with talus-tin --t-vertical " + o.t_vertical);
+                     "make it from the contours with talus-tin --t-vertical " + o.crs.t_vertical);
   talus::TinFile file = talus::read_tin_file(faces_of(o));
   for (const std::string& note : file.notes) tool.info(note);
   for (const std::string& warning : file.warnings) tool.warn(warning);
@@ -292,16 +271,8 @@ bool has_node_below_land(const Trn& trn) {
 
 Ground ground_of_dem(Tool& tool, const Options& o) {
   talus::DemOptions options;
+  static_cast<talus::SystemsByUser&>(options) = talus::systems_by_user(o.crs);
   options.accepts_doubts = o.accept_doubts;
-  options.crs_given = !o.crs.empty();
-  talus::from_command_line([&] {
-    if (options.crs_given) options.crs = talus::crs_from_user(o.crs, "--crs");
-    if (!o.t_srs.empty()) options.t_srs = talus::crs_from_user(o.t_srs, "--t-srs");
-    options.vertical_crs = stated_vertical(o);
-    if (!o.t_vertical.empty())
-      options.t_vertical = talus::target_heights_from_user(o.t_vertical, "--t-vertical");
-  });
-  options.accept_ballpark = o.accept_ballpark;
   options.window = o.window;
   if (o.faces.unit_m != 0)
     throw talus::UsageError({"", 0, o.source}, "--unit-m is for faces (DXF, LandXML)", "omit it");
@@ -368,12 +339,15 @@ talus::ErrorStatistics errors_against_dem(Tool& tool, const Trn& trn, const std:
 }
 
 talus::ErrorStatistics errors_against_points(Tool& tool, const Trn& trn,
-                                             const talus::LayerChoice& choice,
+                                             const talus::LayerRef& choice,
                                              std::vector<std::string>& notes) {
-  talus::LayerReading taken;
-  const std::vector<talus::Vec3> truth = talus::read_points(choice, trn.crs_wkt, notes, taken);
-  tool.layer_read(talus::facts_on(taken, "reference_points"));
-  for (const std::string& note : notes) tool.info(note);
+  talus::ImportReading reading;
+  const std::vector<talus::Vec3> truth =
+      talus::import_reference_points(choice, trn.crs_wkt, reading);
+  talus::say_reading(tool, reading);
+  notes = reading.notes;
+  notes.insert(notes.end(), reading.operations.begin(), reading.operations.end());
+  notes.insert(notes.end(), reading.warnings.begin(), reading.warnings.end());
   talus::ErrorCollector errors;
   for (const talus::Vec3& point : truth)
     errors.add(trn, point.x() - trn.origin.x(), point.y() - trn.origin.y(), point.z());

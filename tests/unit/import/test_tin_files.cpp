@@ -16,8 +16,8 @@ std::string write(const std::string& name, const std::string& text) {
   return path;
 }
 
-LayerChoice choice_of(const std::string& path) {
-  LayerChoice choice;
+LayerRef choice_of(const std::string& path) {
+  LayerRef choice;
   choice.path = path;
   return choice;
 }

@@ -97,7 +97,7 @@ TEST(ReadVectors, RingsComeWithoutTheirLastPoint) {
   const VectorShapes found = read_vectors({path, VectorKind::areas}, "");
   ASSERT_EQ(found.shapes.size(), 2u);
   EXPECT_EQ(found.shapes[0].size(), 3u);
-  EXPECT_TRUE(found.source_crs.empty());
+  EXPECT_TRUE(found.operation.empty());
 }
 
 TEST(ReadVectors, OtherCoordinateSystemsAreReprojected) {
@@ -106,7 +106,7 @@ TEST(ReadVectors, OtherCoordinateSystemsAreReprojected) {
               geojson(R"({"type":"LineString","coordinates":[[15,47],[15,48]]})", "OGC:1.3:CRS84"));
   const VectorShapes found =
       read_vectors({path, VectorKind::lines}, crs_from_user("EPSG:32633", "test"));
-  EXPECT_FALSE(found.source_crs.empty());
+  EXPECT_FALSE(found.operation.empty());
   EXPECT_NEAR(found.shapes[0][0].x(), 500000, 1e-6);         // 15 E is the middle of zone 33
   EXPECT_NEAR(found.shapes[0][0].y(), 0.9996 * 5207247, 1);  // meridian arc to 47 N
 }
@@ -363,7 +363,7 @@ TEST(WriteFootprints, ReadBackAndTheSameBytesEveryTime) {
       read_vectors({a + "|layername=blocks|subset=volume_m3 > 5", VectorKind::areas}, set.crs_wkt);
   ASSERT_EQ(found.shapes.size(), 1u);
   EXPECT_EQ(found.shapes[0].size(), 4u);
-  EXPECT_TRUE(found.source_crs.empty());
+  EXPECT_TRUE(found.operation.empty());
 }
 
 TEST(VolumeQuantile, IsByVolumeNotByNumber) {

@@ -1,4 +1,4 @@
-// libcore/import/contour_layer_gdal.hpp
+// libcore/import/open_layer_gdal.hpp
 // The layers of a vector source that are read, and their parts of one shape.
 // in:    a source and what it is read for
 // out:   layers chosen by name or by shape; a call a part. Messages name file, layer and feature
@@ -13,8 +13,9 @@
 
 #include "base/error.hpp"
 #include "base/types.hpp"
-#include "import/contour_sources.hpp"
+#include "import/layer_reading.hpp"
 #include "import/layer_shapes_gdal.hpp"
+#include "import/request.hpp"
 
 class GDALDataset;
 class OGRFeature;
@@ -23,16 +24,23 @@ class OGRLayer;
 
 namespace talus {
 
+/// How heights stand in a layer: none are asked for, one a line, or one a point.
+enum class HeightsOf { nothing, level_lines, points };
+
 /// What a source is read for.
 struct LayerRole {
   LayerShape shape;
-  const char* name;          ///< of its parts, for messages: "contours"
-  const char* input = "";    ///< that options are for: "contours", "spots"; empty: none is
+  const char* name;        ///< of its parts, for messages: "contours"
+  const char* input = "";  ///< that options are for: "contours", "spots"; empty: none is
+  HeightsOf heights = HeightsOf::nothing;
   bool is_of_texts = false;  ///< of a drawing its texts are read, else what is no text
 };
 
+[[nodiscard]] LayerRole role_of(InputRole role);
+
 /// A source that is open at one or more of its layers.
 struct OpenLayer {
+  LayerRef ref;
   std::shared_ptr<GDALDataset> dataset;
   std::vector<OGRLayer*> layers;  ///< one at least, all in one CRS
   OGRLayer* layer = nullptr;      ///< the first of them
@@ -61,22 +69,24 @@ struct OpenLayer {
 
 /// The layers that are named, else the only one that holds the shape. Throws InputError when the
 /// source cannot be opened, has no such layer, or has several that may be meant.
-[[nodiscard]] OpenLayer open_layer(const LayerChoice& choice, const LayerRole& role);
+[[nodiscard]] OpenLayer open_layer(const LayerRef& ref, const LayerRole& role);
 
-[[nodiscard]] Where where_of_layer(const LayerChoice& choice, const OpenLayer& source);
-[[nodiscard]] Where where_of_feature(const LayerChoice& choice, const OpenLayer& source,
-                                     const OGRFeature& feature);
+[[nodiscard]] Where where_of_layer(const OpenLayer& source);
+[[nodiscard]] Where where_of_feature(const OpenLayer& source, const OGRFeature& feature);
 
 /// Calls visit(geometry, feature) for every simple part of the wanted shape: lines, points, or
 /// polygons; closed lines are polygons where nothing else is, and in a drawing always. Other parts
 /// are counted. Throws InputError at the end for features without geometry (a truncated file reads
 /// without complaint), for nothing of the shape, for a named layer without any, and for a drawing
 /// of which several layers may be meant.
-void for_each_part(const LayerChoice& choice, OpenLayer& source,
+void for_each_part(OpenLayer& source,
                    const std::function<void(const OGRGeometry&, const OGRFeature&)>& visit);
 
 /// What for_each_part() has found.
-[[nodiscard]] LayerReading reading_of(const LayerChoice& choice, const OpenLayer& source);
+[[nodiscard]] LayerReading reading_of(const OpenLayer& source);
+
+/// Sentences on its filter, its remarks and what was passed over.
+void add_remarks(const LayerReading& taken, std::vector<std::string>& notes);
 
 /// Throws InputError.
 void check_finite(const Vec3& point, const Where& where);

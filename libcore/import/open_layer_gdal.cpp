@@ -1,4 +1,4 @@
-#include "import/contour_layer_gdal.hpp"
+#include "import/open_layer_gdal.hpp"
 
 #include <ogrsf_frmts.h>
 
@@ -85,7 +85,7 @@ std::vector<OGRLayer*> layers_named(const std::string& word, const OpenLayer& so
   return found;
 }
 
-void choose_by_name(const LayerChoice& choice, const std::string& names, OpenLayer& source) {
+void choose_by_name(const std::string& names, OpenLayer& source) {
   for (OGRLayer* layer : layers_named(names, source))
     if (std::find(source.layers.begin(), source.layers.end(), layer) == source.layers.end())
       source.layers.push_back(layer);
@@ -93,22 +93,22 @@ void choose_by_name(const LayerChoice& choice, const std::string& names, OpenLay
     source.wanted = {source.layers.empty() ? names : "*"};
     source.layers = {source.dataset->GetLayer(0)};
   } else if (source.layers.empty()) {
-    throw InputError({choice.path}, "there is no layer \"" + names +
-                                        "\"; there are: " + list_of(layer_names(*source.dataset)));
+    throw InputError({source.ref.path}, "there is no layer \"" + names + "\"; there are: " +
+                                            list_of(layer_names(*source.dataset)));
   }
 }
 
-void choose_by_number(const LayerChoice& choice, const std::string& number, OpenLayer& source) {
+void choose_by_number(const std::string& number, OpenLayer& source) {
   double value = -1;
   const int n = source.dataset->GetLayerCount();
   if (!parse_double(number, value) || value < 0 || value >= n || value != std::floor(value))
-    throw InputError({choice.path},
+    throw InputError({source.ref.path},
                      "there is no layer with the number " + number +
                          "; the layers are: " + list_of(layer_names(*source.dataset)));
   source.layers = {source.dataset->GetLayer(static_cast<int>(value))};
 }
 
-void choose_by_shape(const LayerChoice& choice, OpenLayer& source) {
+void choose_by_shape(OpenLayer& source) {
   const LayerShape shape = source.role.shape;
   const auto take_if = [&source](const std::function<bool(OGRLayer&)>& test) {
     for (OGRLayer* layer : source.dataset->GetLayers())
@@ -122,7 +122,7 @@ void choose_by_shape(const LayerChoice& choice, OpenLayer& source) {
   if (source.layers.size() == 1) return;
   std::vector<std::string> fitting;
   for (OGRLayer* layer : source.layers) fitting.emplace_back(layer->GetName());
-  throw InputError({choice.path},
+  throw InputError({source.ref.path},
                    std::to_string(fitting.size()) + " layers hold " + plural(shape) +
                        ", expected one; the layers are: " + list_of(layer_names(*source.dataset)),
                    hint_to_choose(fitting));
@@ -130,22 +130,22 @@ void choose_by_shape(const LayerChoice& choice, OpenLayer& source) {
 
 // --- opening -------------------------------------------------------------------------------------
 
-void set_filter(const LayerChoice& choice, OpenLayer& source) {
+void set_filter(OpenLayer& source) {
   if (source.filter.empty()) return;
   for (OGRLayer* layer : source.layers) {
     const GdalErrors errors;
     if (layer->SetAttributeFilter(source.filter.c_str()) == OGRERR_NONE) continue;
-    throw InputError({choice.path, 0, std::string("layer ") + layer->GetName()},
+    throw InputError({source.ref.path, 0, std::string("layer ") + layer->GetName()},
                      "the filter \"" + source.filter + "\" cannot be used: " + errors.failure());
   }
 }
 
-void check_one_crs(const LayerChoice& choice, const OpenLayer& source) {
+void check_one_crs(const OpenLayer& source) {
   const std::string first = wkt_of(source.layer->GetSpatialRef());
   for (OGRLayer* layer : source.layers) {
     const std::string other = wkt_of(layer->GetSpatialRef());
     if (same_crs(first, other) && same_heights(first, other)) continue;
-    throw InputError({choice.path},
+    throw InputError({source.ref.path},
                      std::string("the CRS of layer ") + source.layer->GetName() + " is " +
                          crs_name(first) + ", that of layer " + layer->GetName() + " is " +
                          crs_name(other) + ", expected one CRS",
@@ -162,14 +162,41 @@ void find_drawing_field(OpenLayer& source) {
 
 }  // namespace
 
+LayerRole role_of(InputRole role) {
+  switch (role) {
+    case InputRole::contours:
+      return {LayerShape::line, "contours", "contours", HeightsOf::level_lines};
+    case InputRole::points:
+      return {LayerShape::point, "points", "contours", HeightsOf::points};
+    case InputRole::labels:
+      return {LayerShape::point, "labels", "labels", HeightsOf::nothing, true};
+    case InputRole::breaklines:
+      return {LayerShape::line, "breaklines", "breaklines", HeightsOf::points};
+    case InputRole::spots:
+      return {LayerShape::point, "spot heights", "spots", HeightsOf::points};
+    case InputRole::boundary:
+      return {LayerShape::polygon, "boundary", "boundary"};
+    case InputRole::reference:
+      return {LayerShape::point, "points", "reference", HeightsOf::points};
+    case InputRole::site_points:
+      return {LayerShape::point, "points"};
+    case InputRole::site_lines:
+      return {LayerShape::line, "lines"};
+    case InputRole::site_areas:
+      break;
+  }
+  return {LayerShape::polygon, "polygons"};
+}
+
 std::string option_words(const LayerRole& role, const std::string& option) {
   const std::string input = role.input;
   return option + " " + (input == "contours" || input == "reference" ? "" : input + "=");
 }
 
-OpenLayer open_layer(const LayerChoice& choice, const LayerRole& role) {
-  const SourcePath path = parse_source_path(choice.path);
+OpenLayer open_layer(const LayerRef& ref, const LayerRole& role) {
+  const SourcePath path = parse_source_path(ref.path);
   OpenLayer source;
+  source.ref = ref;
   source.role = role;
   VectorDataset opened = open_vectors(path);
   source.dataset = opened.dataset;
@@ -177,14 +204,14 @@ OpenLayer open_layer(const LayerChoice& choice, const LayerRole& role) {
   source.filter = path.subset;
   find_drawing_field(source);
   if (!path.layer.empty())
-    choose_by_name(choice, path.layer, source);
+    choose_by_name(path.layer, source);
   else if (!path.layer_id.empty())
-    choose_by_number(choice, path.layer_id, source);
+    choose_by_number(path.layer_id, source);
   else
-    choose_by_shape(choice, source);
+    choose_by_shape(source);
   source.layer = source.layers.front();
-  check_one_crs(choice, source);
-  set_filter(choice, source);
+  check_one_crs(source);
+  set_filter(source);
   std::vector<std::string> taken;
   for (OGRLayer* layer : source.layers) taken.emplace_back(layer->GetName());
   source.name = list_of(source.wanted.empty() ? taken : source.wanted);

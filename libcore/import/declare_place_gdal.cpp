@@ -1,0 +1,76 @@
+// The part of import/raw_inputs_gdal.hpp that asks which system each layer is in, and whether its
+// coordinates can be in it.
+#include <ogrsf_frmts.h>
+
+#include "base/source_path.hpp"
+#include "import/crs_place_gdal.hpp"
+#include "import/crs_said_gdal.hpp"
+#include "import/raw_inputs_gdal.hpp"
+#include "io/crs_gdal.hpp"
+
+namespace talus {
+namespace {
+
+constexpr const char* no_degrees =
+    " (a GeoJSON without crs says so), but the coordinates are no degrees";
+
+// The system of the ground, which the frame follows.
+void place_ground(RawLayer& ground, RawInputs& raw) {
+  const InputsRequest& request = raw.request;
+  const std::vector<Vec3>& points = ground.lines.points;
+  const bool is_beyond = is_beyond_degrees(ground.own_crs, points);
+  if (is_beyond && !request.crs_given)
+    throw InputError({ground.path()}, "the CRS is " + crs_name(ground.own_crs) + no_degrees,
+                     way_to_name_crs);
+  ground.crs =
+      crs_said(is_beyond ? std::string() : ground.own_crs, {request.crs_given, false, request.crs},
+               window_of(points), ground.path(), raw.reading.notes);
+  if (ground.crs.empty() && !request.t_srs.empty())
+    throw InputError({ground.path()}, "local metres cannot be reprojected", "leave --t-srs away");
+  ground.is_in_frame = request.t_srs.empty() || same_crs(ground.crs, request.t_srs);
+  if (ground.is_in_frame)
+    check_can_be_computed_in(horizontal_crs(ground.crs), points.front(), ground.path());
+  raw.frame = ground.is_in_frame ? ground.crs : request.t_srs;
+}
+
+// A layer without a system is in the frame; so is one whose system cannot be that of its
+// coordinates, but for those of a site, which no option names.
+void place_beside(RawLayer& layer, RawInputs& raw) {
+  const bool is_beyond = is_beyond_degrees(layer.own_crs, layer.lines.points);
+  layer.is_in_frame = layer.own_crs.empty() || raw.frame.empty() ||
+                      same_crs(layer.own_crs, raw.frame) || (is_beyond && !layer.is_of_site());
+  layer.crs = layer.is_in_frame ? raw.frame : layer.own_crs;
+  if (layer.is_of_site()) {
+    if (is_beyond && !layer.is_in_frame)
+      throw InputError(layer.where(), "the CRS is " + crs_name(layer.own_crs) + no_degrees,
+                       "name the CRS in the file: ogr2ogr -a_srs EPSG:code named.gpkg " +
+                           command_words(layer.path()));
+    return;
+  }
+  if (is_beyond || layer.own_crs.empty() != raw.frame.empty())
+    raw.reading.notes.push_back(layer.path() + ": taken to be in the CRS of the map" +
+                                (is_beyond ? ": its coordinates are no degrees" : ""));
+}
+
+}  // namespace
+
+void declare_place(RawInputs& raw) {
+  if (RawLayer* const ground = raw.ground()) place_ground(*ground, raw);
+  for (RawLayer& layer : raw.layers)
+    if (&layer != raw.ground() && !layer.lines.points.empty()) place_beside(layer, raw);
+}
+
+void check_places(RawInputs& raw) {
+  for (const RawLayer& layer : raw.layers) {
+    const std::vector<Vec3>& points = layer.lines.points;
+    if (layer.crs.empty() || points.empty()) continue;
+    CrsExtent place{layer.crs, window_of(points, layer.crs), raw.frame};
+    place.has_crs_option = place.has_unit_option = &layer == raw.ground();
+    place.layer = layer.source.layer->GetName();
+    place.geometry_column = layer.source.layer->GetGeometryColumn();
+    for (const std::string& warning : check_place(place, {parse_source_path(layer.path()).source}))
+      raw.reading.warnings.push_back(warning);
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,110 @@
+// The part of import/raw_inputs_gdal.hpp that asks what a unit of each layer is, in plan and
+// height.
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include "base/source_path.hpp"
+#include "base/text.hpp"
+#include "import/crs_operation_gdal.hpp"
+#include "import/drawing_unit_gdal.hpp"
+#include "import/raw_inputs_gdal.hpp"
+#include "io/crs_gdal.hpp"
+
+namespace talus {
+namespace {
+
+std::string way_to_metres(const RawLayer& layer, const DrawingUnit& unit) {
+  const std::string metres = unit.metres > 0 ? text(unit.metres) : "METRES";
+  if (layer.is_of_site())
+    return "bring it to metres: ogr2ogr -f GPKG -nln metres metres.gpkg " +
+           command_words(parse_source_path(layer.path()).source) +
+           " -dialect sqlite -sql 'SELECT ScaleCoords(geometry, " + metres +
+           ") AS geometry, * FROM \"" + layer.source.layer->GetName() + "\"'";
+  const std::string option = option_words(layer.source.role, "--unit-m");
+  return option + metres + " scales plan and heights; " + option +
+         "1 if it is in metres whatever its header says";
+}
+
+// Metres in one unit of the coordinates as they stand in the source; 1 also where the CRS has the
+// unit of the drawing, which takes care of it in plan.
+double plan_unit_of(const RawLayer& layer, const std::string& crs, ImportReading& reading) {
+  const std::string drawing = layer.source.dataset->GetDescription();
+  const double by_user_m = layer.source.ref.unit_m;
+  if (const std::string doubt = doubt_on_unit(drawing, by_user_m); !doubt.empty())
+    reading.warnings.push_back(layer.path() + ": " + doubt);
+  return scale_of_drawing(drawing, by_user_m, length_unit_m(crs), layer.where(),
+                          way_to_metres(layer, drawing_unit(drawing)));
+}
+
+// What the user says of the unit of heights; 0: nothing. A system that the user names for the
+// ground is in metres.
+double height_unit_by_user(const RawLayer& layer, const InputsRequest& request, bool is_ground) {
+  if (request.elevation_unit_m > 0) return request.elevation_unit_m;
+  if (layer.source.ref.unit_m > 0) return layer.source.ref.unit_m;
+  return is_ground && !request.vertical_crs.empty() && height_crs(layer.crs).empty() ? 1 : 0;
+}
+
+// Metres in one unit of the heights that were read: what the user says, or their system of heights,
+// which stands in `crs`.
+double height_unit_of(const RawLayer& layer, const std::string& crs, double by_user_m,
+                      ImportReading& reading) {
+  const bool has_option = layer.role != InputRole::reference;
+  const std::string way_out =
+      has_option ? "--elevation-unit-m METRES: " + text(length_unit_m(crs), 12) +
+                       " where they are in the unit of the plan, 1 where they are metres"
+                 : "name the system of heights with the CRS in the file, e.g. NAVD88 in US survey "
+                   "feet: ogr2ogr -a_srs " +
+                       crs_code(crs) + "+6360 named.gpkg " + command_words(layer.path()) +
+                       "; in metres: " + crs_code(crs) + "+5703";
+  if (by_user_m > 0) return by_user_m;
+  const double unit_m = height_unit_m(crs, {layer.path()}, way_out);
+  if (unit_m == 1 && is_in_feet(layer.taken.elevation_from))
+    throw InputError(
+        where_of_layer(layer.source),
+        "the " + layer.taken.elevation_from + " is in feet by its name, expected metres",
+        has_option ? "--elevation-unit-m 0.3048 (or 0.3048006096 for US survey feet)" : way_out);
+  if (unit_m != 1)
+    reading.notes.push_back(layer.path() + ": heights in " + crs_name(height_crs(crs)) +
+                            ", taken to metres");
+  return unit_m;
+}
+
+// What the user says of heights whose file does not; a system of heights holds for its own unit.
+std::string with_user_heights(const InputsRequest& request, const RawLayer& ground) {
+  const double unit_m = ground.taken.unit_m;
+  const std::string plan = unit_m != 1 ? horizontal_crs(ground.crs) : ground.crs;
+  return request.vertical_crs.empty()
+             ? plan
+             : with_stated_heights(plan, request.vertical_crs, {ground.path()});
+}
+
+}  // namespace
+
+void declare_plan_units(RawInputs& raw) {
+  for (RawLayer& layer : raw.layers) {
+    if (layer.lines.points.empty()) continue;
+    const std::string& otherwise = &layer == raw.ground() ? raw.request.crs : raw.frame;
+    const double unit_m =
+        plan_unit_of(layer, layer.own_crs.empty() ? otherwise : layer.own_crs, raw.reading);
+    if (unit_m == 1) continue;
+    for (Vec3& point : layer.lines.points) point.head<2>() *= unit_m;
+  }
+}
+
+void declare_height_units(RawInputs& raw) {
+  for (RawLayer& layer : raw.layers) {
+    if (!layer.has_heights()) continue;
+    const bool is_ground = &layer == raw.ground();
+    const std::string& own = is_ground ? layer.crs : layer.own_crs;
+    layer.taken.unit_m =
+        height_unit_of(layer, own.empty() ? raw.frame : own,
+                       height_unit_by_user(layer, raw.request, is_ground), raw.reading);
+    if (!is_ground) continue;
+    layer.crs = with_user_heights(raw.request, layer);
+    raw.frame = raw.request.t_srs.empty()
+                    ? layer.crs
+                    : with_heights_of(layer.crs, raw.request.t_srs, {layer.path()});
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,29 @@
+// libcore/import/import_inputs_gdal.hpp: public
+// One way in for vector data of any source that OGR reads: contour maps, points of the ground,
+// points to hold it against, and what stands on it. Each question (which layer, where are the
+// heights, which system, which units, can it be) is put once, to all layers of a request. in:    a
+// request out:   metres, x to the east, y to the north, z in one system of heights
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "import/layer_reading.hpp"
+#include "import/request.hpp"
+#include "terrain/contours.hpp"
+
+namespace talus {
+
+/// Contours, breaklines, spot heights and boundary, or points of the ground as spots of a map
+/// without contours. All is in the frame of the request. The origin is the lower left corner of the
+/// ground, floored to 100 m (z: 0). Throws InputError where anything is missing or cannot be true:
+/// see docs/tools/talus-tin.md. Laser scans are refused with the command that makes text of them.
+[[nodiscard]] ContourMap import_map(const InputsRequest& request, ImportReading& reading);
+
+/// Points with a height in map coordinates, in `crs_wkt` [m]: what a terrain is held against. A
+/// missing CRS, of the source or in `crs_wkt`, means the same one. Throws InputError.
+[[nodiscard]] std::vector<Vec3> import_reference_points(const LayerRef& ref,
+                                                        const std::string& crs_wkt,
+                                                        ImportReading& reading);
+
+}  // namespace talus

@@ -1,0 +1,79 @@
+// The part of import/raw_inputs_gdal.hpp that takes all layers to the frame, by one operation a
+// layer in plan and one in height.
+#include <cmath>
+
+#include "base/text.hpp"
+#include "import/crs_operation_gdal.hpp"
+#include "import/crs_place_gdal.hpp"
+#include "import/crs_said_gdal.hpp"
+#include "import/raw_inputs_gdal.hpp"
+#include "io/crs_gdal.hpp"
+
+namespace talus {
+namespace {
+
+// Heights stay as they are. What was done is noted.
+void take_plan(RawLayer& layer, RawInputs& raw) {
+  const InputsRequest& request = raw.request;
+  std::vector<Vec3>& points = layer.lines.points;
+  const CrsOperation operation = find_operation(layer.crs, raw.frame, window_of(points, layer.crs),
+                                                layer.where(), request.accept_ballpark);
+  if (!carry_out(operation, points))
+    throw InputError(
+        layer.where(),
+        "cannot be reprojected from " + crs_name(layer.crs) + " to " + crs_name(raw.frame),
+        layer.is_of_site() ? "check the CRS of the file" : "");
+  for (const Vec3& point : points)
+    check_finite({point.x(), point.y(), 0}, where_of_layer(layer.source));
+  layer.operation = sentence_on(operation);
+  raw.reading.operations.push_back(layer.path() + ": " + layer.operation);
+  if (const std::string doubt = doubt_on(operation); !doubt.empty())
+    raw.reading.warnings.push_back(layer.path() + ": " + doubt);
+  if (&layer == raw.ground()) check_can_be_computed_in(raw.frame, points.front(), layer.path());
+}
+
+// The system that the heights are in is held to the same as that of the map, where both say it.
+void check_heights_alike(const RawLayer& layer, RawInputs& raw) {
+  if (!same_heights(layer.own_crs, raw.frame))
+    throw InputError({layer.path()},
+                     "the heights are in " + crs_name(height_crs(layer.own_crs)) +
+                         ", those of the map in " + crs_name(height_crs(raw.frame)),
+                     "bring them to one system first");
+  const std::string assumed = assumed_heights(layer.own_crs, raw.frame);
+  if (layer.taken.unit_m == 1 && !assumed.empty())
+    raw.reading.notes.push_back(layer.path() + " and the map: both are " + assumed);
+}
+
+// Takes heights to the system that is asked for; those of the frame are what they are in.
+void take_heights(RawLayer& layer, RawInputs& raw) {
+  const InputsRequest& request = raw.request;
+  if (request.t_vertical.empty()) return;
+  const std::string from = request.vertical_crs == ellipsoidal_heights
+                               ? request.vertical_crs
+                               : stated_heights(raw.frame, {layer.path()});
+  if (same_system(from, request.t_vertical)) return;
+  std::vector<Vec3>& points = layer.lines.points;
+  const HeightOperation operation(raw.frame, from, request.t_vertical, window_of(points),
+                                  {layer.path()});
+  operation.apply(points);
+  raw.reading.operations.push_back(layer.path() + ": " + operation.sentence());
+}
+
+}  // namespace
+
+void take_to_frame(RawInputs& raw) {
+  for (RawLayer& layer : raw.layers) {
+    if (layer.lines.points.empty()) continue;
+    if (!layer.is_in_frame) take_plan(layer, raw);
+    if (!layer.has_heights()) continue;
+    if (&layer != raw.ground()) check_heights_alike(layer, raw);
+    for (Vec3& point : layer.lines.points) point.z() *= layer.taken.unit_m;
+    check_elevations(layer);
+    take_heights(layer, raw);
+  }
+  const std::string& vertical = raw.request.t_vertical;
+  if (!vertical.empty() && raw.ground() != nullptr)
+    raw.frame = with_heights(horizontal_crs(raw.frame), vertical, {raw.ground()->path()});
+}
+
+}  // namespace talus

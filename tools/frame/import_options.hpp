@@ -1,0 +1,45 @@
+// What people say of the data that they bring: one declaration for the tools that import.
+// in:    the command line
+// out:   a request; what was read, said and recorded
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "import/layer_reading.hpp"
+#include "import/request.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+/// Systems of coordinates and heights, as they are written.
+struct CrsOptions {
+  std::string crs, t_srs, vertical_crs, t_vertical;
+  bool accept_ballpark = false;
+};
+void declare_crs_options(Tool& tool, CrsOptions& options);
+
+/// Throws UsageError for what is no system.
+[[nodiscard]] SystemsByUser systems_by_user(const CrsOptions& options);
+
+/// A contour map, or points of the ground, and what belongs to it.
+struct ImportOptions {
+  LayerRef contours, labels, breaklines, spots, boundary;
+  bool of_points = false;
+  double elevation_unit_m = 0;
+  std::vector<std::string> fields, units;  ///< "elev", "spots=hoehe"; "0.3048", "spots=0.3048"
+  CrsOptions crs;
+};
+void declare_import_options(Tool& tool, ImportOptions& options);
+
+/// The layers that are given, with what is said of each; their further files become inputs.
+[[nodiscard]] InputsRequest request_of(Tool& tool, ImportOptions& options);
+
+/// Says and records what was read and done.
+void say_reading(Tool& tool, const ImportReading& reading);
+
+/// For options in metres: "" for a number above 0, or of 0 or more, else what is wrong.
+[[nodiscard]] std::string check_positive(const std::string& word);
+[[nodiscard]] std::string check_not_negative(const std::string& word);
+
+}  // namespace talus
