@@ -1,4 +1,5 @@
 # What the rules make, a name a file. `make clean` removes these and nothing else.
+import_products := inputs.gpkg import.json
 tin_products := tin.ply tin.json
 trn_products := trn.tif trn.json hillshade.png
 block_products := blocks.h5 bed.tif blocks.json blocks.gpkg stereonet.svg sizes.svg
@@ -26,7 +27,7 @@ profile_products := $(addprefix profile/,profile.gpkg profile.json crossings.csv
 search_products := fence_search.json fence_search.gpkg
 screen_products := search/screen.json search/screen.gpkg
 report_products := report.html site.qgz
-products := $(foreach stage,tin trn source block check runout map fence change places hazard trace \
+products := $(foreach stage,import tin trn source block check runout map fence change places hazard trace \
   profile search screen report,$($(stage)_products))
 
 # As patterns of the shell: a style that comes with its raster, runs with their checkpoints, the
@@ -35,7 +36,7 @@ products := $(foreach stage,tin trn source block check runout map fence change p
 run_folders := runs runs/* without without/* verify/*-* verify/*-*/*
 run_patterns := run_*[0-9].h5 run_*[0-9].h5.part run_*[0-9].h5.part.new ensemble.json .lock \
   .auto/ensemble.json
-stages_made := tin trn blocks rock check run runs dda runout maps fence place places \
+stages_made := import tin trn blocks rock check run runs dda runout maps fence place places \
   hazard trace profile search verify report
 registries := sqlite sqlite-wal sqlite-shm sqlite.late-*
 made_patterns := thickness.qml $(foreach end,h5 tif tif.aux.xml,rock/*_*[0-9].$(end)) \

@@ -1,7 +1,7 @@
 # The chain of tools for one site, included by sample_sites/<site>/Makefile. What is computed is in
 # site.toml; the Makefile may set
 #   CONTOURS or DEM     what the ground is made from, instead of [terrain]
-#   TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS,
+#   IMPORT_FLAGS, TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS,
 #   FENCE_FLAGS, PLACES_FLAGS, HAZARD_FLAGS, TRACE_FLAGS, PROFILE_FLAGS, SEARCH_FLAGS, REPORT_FLAGS
 #                       further options of the tools
 #   RUNS, SEED, CASES, WEIGHTS, WITHOUT, RUNS_MOST   runs.mk
@@ -82,7 +82,7 @@ $(OUT) $(OUT)/rock:
 	@mkdir -p $@
 
 several_cases := $(if $(word 2,$(CASES)),$(CASES))
-include $(patsubst %,$(PIPELINES)%.mk,tin $(filter-out new_site,$(rules)) rock)
+include $(patsubst %,$(PIPELINES)%.mk,import tin $(filter-out new_site,$(rules)) rock)
 endif
 
 # Sites whose data are not in the repository keep a list of what they need, with checksums.

@@ -1,13 +1,14 @@
 # Contours -> triangulated irregular network.
-# in: CONTOURS, [terrain], TIN_FLAGS (e.g. --hold-out-every 3)   out: $(OUT)/tin.ply, tin.json
-$(eval $(call remember,tin,$(CONTOURS) $(TIN_FLAGS)))
+# in: $(OUT)/inputs.gpkg, [terrain] flat, TIN_FLAGS (e.g. --hold-out-every 3)
+# out: $(OUT)/tin.ply, tin.json
+$(eval $(call remember,tin,$(TIN_FLAGS)))
 ifneq ($(CONTOURS),)
 tin_files := $(addprefix $(OUT)/,$(tin_products))
 $(eval $(call together,$(tin_files)))
-$(OUT)/tin.ply: $(STAGES)/tin.txt $(STAGES)/tin.flags $(STAGES)/tin.files | $(contours_file) $(OUT)
+$(OUT)/tin.ply: $(OUT)/inputs.gpkg $(STAGES)/tin.txt $(STAGES)/tin.flags $(STAGES)/tin.files
 	$(call not_in_a_shard,$@)
 	$(call say,tin: contours -> triangles)
-	$(Q)$(BIN)talus-tin $(contours_file)$(contours_part) -o $(OUT)/tin.ply --report $(OUT)/tin.json \
+	$(Q)$(BIN)talus-tin $(OUT)/inputs.gpkg -o $(OUT)/tin.ply --report $(OUT)/tin.json \
 	  $(SITE_TIN_FLAGS) $(TIN_FLAGS) --overwrite $(DB)
 	$(call made,talus-tin)
 endif

@@ -194,6 +194,11 @@ void declare_heights(RawInputs& raw) {
       takes_field ? take_field(layer) : take_z(layer);
       check_known(layer, takes_field ? layer.field->name() : "Z");
       layer.taken.elevation_from = takes_field ? "field " + layer.field->name() : "Z";
+      layer.decide("heights", layer.taken.elevation_from,
+                   !layer.source.ref.elevation_field.empty() ? "--elevation-field"
+                   : !takes_field                            ? "Z tells heights apart"
+                   : layer.has_z                             ? "a usual name, and Z tells nothing"
+                                                             : "a usual name, and there is no Z");
     }
     layer.field.reset();
   }

@@ -25,6 +25,8 @@ void place_ground(RawLayer& ground, RawInputs& raw) {
   ground.crs =
       crs_said(is_beyond ? std::string() : ground.own_crs, {request.crs_given, false, request.crs},
                window_of(points), ground.path(), raw.reading.notes);
+  ground.decide("system", crs_name(ground.crs),
+                ground.crs == ground.own_crs ? "the file says it" : "--crs");
   if (ground.crs.empty() && !request.t_srs.empty())
     throw InputError({ground.path()}, "local metres cannot be reprojected", "leave --t-srs away");
   ground.is_in_frame = request.t_srs.empty() || same_crs(ground.crs, request.t_srs);
@@ -40,6 +42,10 @@ void place_beside(RawLayer& layer, RawInputs& raw) {
   layer.is_in_frame = layer.own_crs.empty() || raw.frame.empty() ||
                       same_crs(layer.own_crs, raw.frame) || (is_beyond && !layer.is_of_site());
   layer.crs = layer.is_in_frame ? raw.frame : layer.own_crs;
+  layer.decide("system", crs_name(layer.crs),
+               is_beyond               ? "the coordinates are not in that of the file"
+               : layer.own_crs.empty() ? "the file says none: that of the ground"
+                                       : "the file says it");
   if (layer.is_of_site()) {
     if (is_beyond && !layer.is_in_frame)
       throw InputError(layer.where(), "the CRS is " + crs_name(layer.own_crs) + no_degrees,

@@ -84,8 +84,10 @@ void declare_plan_units(RawInputs& raw) {
   for (RawLayer& layer : raw.layers) {
     if (layer.lines.points.empty()) continue;
     const std::string& otherwise = &layer == raw.ground() ? raw.request.crs : raw.frame;
-    const double unit_m =
-        plan_unit_of(layer, layer.own_crs.empty() ? otherwise : layer.own_crs, raw.reading);
+    const std::string& crs = layer.own_crs.empty() ? otherwise : layer.own_crs;
+    const double unit_m = plan_unit_of(layer, crs, raw.reading);
+    layer.decide("unit of plan", unit_m == 1 ? "that of its system" : text(unit_m) + " m",
+                 layer.source.ref.unit_m > 0 ? "--unit-m" : "nothing says another one");
     if (unit_m == 1) continue;
     for (Vec3& point : layer.lines.points) point.head<2>() *= unit_m;
   }
@@ -99,6 +101,11 @@ void declare_height_units(RawInputs& raw) {
     layer.taken.unit_m =
         height_unit_of(layer, own.empty() ? raw.frame : own,
                        height_unit_by_user(layer, raw.request, is_ground), raw.reading);
+    layer.decide("unit of heights", text(layer.taken.unit_m) + " m",
+                 raw.request.elevation_unit_m > 0 ? "--elevation-unit-m"
+                 : layer.source.ref.unit_m > 0    ? "--unit-m"
+                 : height_crs(own).empty()        ? "nothing says another one"
+                                                  : crs_name(height_crs(own)));
     if (!is_ground) continue;
     layer.crs = with_user_heights(raw.request, layer);
     raw.frame = raw.request.t_srs.empty()

@@ -109,6 +109,7 @@ void take_heights_of_labels(RawLayer& contours, RawLayer& labels, RawInputs& raw
   for (std::size_t l = 0; l < found.height.size(); ++l)
     for (int i = lines.begin[l]; i < lines.begin[l + 1]; ++i) lines.points[i].z() = found.height[l];
   contours.taken.elevation_from = labels.taken.elevation_from = "labels";
+  contours.decide("heights", "labels", "--labels");
   labels.lines = {};  // they have no place of their own
 }
 

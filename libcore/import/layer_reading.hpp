@@ -8,6 +8,21 @@
 
 namespace talus {
 
+/// An answer that the import gave, and what it rests on.
+struct Decision {
+  std::string question;  ///< "unit of heights"
+  std::string answer;    ///< "0.3048 m"
+  std::string why;       ///< "--elevation-unit-m"
+};
+
+/// How large a quantity of a layer is, once it is in metres: a wrong unit shows here.
+struct Magnitude {
+  std::string quantity;  ///< "x_m"
+  std::int64_t n = 0;
+  double lowest = 0, median = 0, highest = 0;
+  double spread = 0;  ///< half the difference of the 16th and the 84th percentile
+};
+
 struct LayerReading {
   std::string role;   ///< "contours", "reference_points"
   std::string file;   ///< as it was named
@@ -21,6 +36,8 @@ struct LayerReading {
   std::string elevation_from;        ///< "Z" or "field ELEV"; empty: no heights are read
   double unit_m = 1;                 ///< metres in one unit of the heights
   std::vector<std::string> remarks;  ///< sentences: closed lines that are areas, stroked curves
+  std::vector<Decision> decisions;   ///< in the order of the questions
+  std::vector<Magnitude> magnitudes;
 };
 
 /// What was found in all layers of a request, in their order. Sentences are for the user.

@@ -48,7 +48,8 @@ void end_line(bool has_z, const OGRFeature& feature, RawLayer& layer) {
   layer.n_flat += has_z ? 0 : 1;
   layer.n_no_number += has_z && !has_number ? 1 : 0;
   lines.begin.push_back(static_cast<int>(lines.points.size()));
-  lines.feature.push_back(feature.GetFID());
+  const int id = feature.GetFieldIndex(source_feature_field);
+  lines.feature.push_back(id < 0 ? feature.GetFID() : feature.GetFieldAsInteger64(id));
 }
 
 double no_height(const RawLayer& layer) { return layer.has_heights() ? 0 : NAN; }
@@ -167,6 +168,11 @@ RawLayer open_raw(const RequestedLayer& requested) {
   read_parts(requested, layer);
   layer.taken = reading_of(layer.source);
   layer.taken.role = name_of(requested.role);
+  const SourcePath named = parse_source_path(requested.ref.path);
+  layer.decide("layer", layer.taken.layer,
+               named.layer.empty() && named.layer_id.empty()
+                   ? std::string("the only one with ") + plural(layer.source.role.shape)
+                   : "named");
   return layer;
 }
 

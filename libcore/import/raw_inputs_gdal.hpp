@@ -16,6 +16,9 @@
 
 namespace talus {
 
+/// The field of a canonical file that holds the id of a line in the file that it comes from.
+inline constexpr const char* source_feature_field = "source_feature";
+
 struct RawLayer {
   // open_all
   InputRole role = InputRole::contours;
@@ -43,6 +46,9 @@ struct RawLayer {
   [[nodiscard]] const std::string& path() const { return source.ref.path; }
   [[nodiscard]] bool has_heights() const { return source.role.heights != HeightsOf::nothing; }
   [[nodiscard]] bool is_of_site() const { return std::string(source.role.input).empty(); }
+  void decide(const std::string& question, const std::string& answer, const std::string& why) {
+    taken.decisions.push_back({question, answer, why});
+  }
   [[nodiscard]] Where where() const;  ///< messages name the layer where no option has the file
 };
 

@@ -51,12 +51,13 @@ void take_heights(RawLayer& layer, RawInputs& raw) {
   const std::string from = request.vertical_crs == ellipsoidal_heights
                                ? request.vertical_crs
                                : stated_heights(raw.frame, {layer.path()});
-  if (same_system(from, request.t_vertical)) return;
+  if (same_system(from, request.t_vertical)) return layer.decide("operation in height", "none", "");
   std::vector<Vec3>& points = layer.lines.points;
   const HeightOperation operation(raw.frame, from, request.t_vertical, window_of(points),
                                   {layer.path()});
   operation.apply(points);
   raw.reading.operations.push_back(layer.path() + ": " + operation.sentence());
+  layer.decide("operation in height", operation.sentence(), "--t-vertical");
 }
 
 }  // namespace
@@ -65,6 +66,9 @@ void take_to_frame(RawInputs& raw) {
   for (RawLayer& layer : raw.layers) {
     if (layer.lines.points.empty()) continue;
     if (!layer.is_in_frame) take_plan(layer, raw);
+    layer.decide("operation in plan", layer.is_in_frame ? "none" : layer.operation,
+                 layer.is_in_frame ? "it is in the system of the map"
+                                   : "the best that PROJ has for the place");
     if (!layer.has_heights()) continue;
     if (&layer != raw.ground()) check_heights_alike(layer, raw);
     for (Vec3& point : layer.lines.points) point.z() *= layer.taken.unit_m;

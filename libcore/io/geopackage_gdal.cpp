@@ -30,8 +30,12 @@ OGRwkbGeometryType ogr_type(GeometryType type) {
       return wkbPoint;
     case GeometryType::point_z:
       return wkbPoint25D;
+    case GeometryType::multi_point_z:
+      return wkbMultiPoint25D;
     case GeometryType::line:
       return wkbLineString;
+    case GeometryType::line_z:
+      return wkbLineString25D;
     case GeometryType::line_zm:
       return wkbLineStringZM;
     case GeometryType::multi_polygon:
@@ -46,6 +50,21 @@ std::unique_ptr<OGRGeometry> line_of(const VectorFeature& feature) {
   auto line = std::make_unique<OGRLineString>();
   for (const Vec3& p : feature.points) line->addPoint(p.x(), p.y());
   return line;
+}
+
+std::unique_ptr<OGRGeometry> line_z_of(const VectorFeature& feature) {
+  auto line = std::make_unique<OGRLineString>();
+  for (const Vec3& p : feature.points) line->addPoint(p.x(), p.y(), p.z());
+  return line;
+}
+
+std::unique_ptr<OGRGeometry> points_z_of(const VectorFeature& feature) {
+  auto points = std::make_unique<OGRMultiPoint>();
+  for (const Vec3& p : feature.points) {
+    const OGRPoint point(p.x(), p.y(), p.z());
+    points->addGeometry(&point);
+  }
+  return points;
 }
 
 std::unique_ptr<OGRGeometry> line_zm_of(const VectorFeature& feature) {
@@ -79,8 +98,12 @@ std::unique_ptr<OGRGeometry> geometry_of(const VectorFeature& feature, GeometryT
     case GeometryType::point_z:
       return std::make_unique<OGRPoint>(feature.points.at(0).x(), feature.points.at(0).y(),
                                         feature.points.at(0).z());
+    case GeometryType::multi_point_z:
+      return points_z_of(feature);
     case GeometryType::line:
       return line_of(feature);
+    case GeometryType::line_z:
+      return line_z_of(feature);
     case GeometryType::line_zm:
       return line_zm_of(feature);
     case GeometryType::multi_polygon:

@@ -20,11 +20,20 @@ struct VectorField {
   FieldType type = FieldType::real;
 };
 
-enum class GeometryType { point, point_z, line, line_zm, multi_polygon, none };
+enum class GeometryType {
+  point,
+  point_z,
+  multi_point_z,
+  line,
+  line_z,
+  line_zm,
+  multi_polygon,
+  none
+};
 
-/// Points of one feature: a point, a line, or the rings of polygons; map coordinates [m].
+/// Points of one feature: a point, several, a line, or the rings of polygons; map coordinates [m].
 struct VectorFeature {
-  std::vector<Vec3> points;     ///< a point or a line
+  std::vector<Vec3> points;     ///< points or a line
   std::vector<double> measure;  ///< M of each point of a line; may be empty         (n_points)
   std::vector<std::vector<std::vector<Vec2>>>
       polygons;                    ///< polygon, ring, points; first ring outer

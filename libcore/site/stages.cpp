@@ -15,10 +15,11 @@ struct Stage {
 
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> list = {
-      {"tin",
+      {"import",
        {"terrain.contours", "terrain.elevation_field", "terrain.breaklines",
         "terrain.breaklines_elevation_field", "terrain.spots", "terrain.spots_elevation_field",
-        "terrain.boundary", "terrain.flat"}},
+        "terrain.boundary"}},
+      {"tin", {"terrain.flat"}},
       {"trn", {"terrain.dem", "terrain.cell_size_m", "terrain.window_m"}},
       {"blocks", {"site.crs", "source", "joints", "blocks", "material"}},
       {"rock", {"site.crs", "source", "joints", "blocks", "material", "uncertainty"}},

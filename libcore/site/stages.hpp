@@ -9,7 +9,7 @@
 
 namespace talus {
 
-/// tin, trn, blocks, rock (blocks of other masses), run, fence, place, hazard, trace, search.
+/// import, tin, trn, blocks, rock (blocks of other masses), run, fence, place, hazard, trace, search.
 [[nodiscard]] const std::vector<std::string>& stage_names();
 
 /// Whether results of the stage depend on the value.

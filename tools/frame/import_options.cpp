@@ -1,9 +1,11 @@
 #include "tools/frame/import_options.hpp"
 
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "base/text.hpp"
+#include "import/canonical_gdal.hpp"
 #include "import/crs_operation_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "setup/vector_inputs_gdal.hpp"
@@ -75,8 +77,8 @@ SystemsByUser systems_by_user(const CrsOptions& o) {
   return said;
 }
 
-void declare_import_options(Tool& tool, ImportOptions& o) {
-  tool.input("contours", o.contours.path, "contour lines (any vector source that GDAL reads)");
+void declare_import_options(Tool& tool, ImportOptions& o, const std::string& contours) {
+  tool.input(contours, o.contours.path, "contour lines (any vector source that GDAL reads)");
   tool.flag("--points", o.of_points,
             "the source holds points of the ground, not contours: a vector layer, CSV or XYZ");
   tool.input("--labels", o.labels.path,
@@ -103,7 +105,28 @@ void declare_import_options(Tool& tool, ImportOptions& o) {
   declare_crs_options(tool, o.crs);
 }
 
+namespace {
+
+void refuse_options_beside(const InputsRequest& inputs, const ImportOptions& o) {
+  const CrsOptions& crs = o.crs;
+  if (o.labels.path.empty() && o.breaklines.path.empty() && o.spots.path.empty() &&
+      o.boundary.path.empty() && o.fields.empty() && o.units.empty() && o.elevation_unit_m == 0 &&
+      (crs.crs + crs.t_srs + crs.vertical_crs + crs.t_vertical).empty())
+    return;
+  throw UsageError({o.contours.path},
+                   "was written by talus-import, with " + counted(inputs.layers.size(), "layer") +
+                       ", and says units, fields and systems itself",
+                   "give layers, fields, units and systems to talus-import (make IMPORT_FLAGS)");
+}
+
+}  // namespace
+
 InputsRequest request_of(Tool& tool, ImportOptions& o) {
+  if (std::optional<InputsRequest> inputs = canonical_request(o.contours.path)) {
+    refuse_options_beside(*inputs, o);
+    o.of_points = inputs->layers.front().role == InputRole::points;
+    return std::move(*inputs);
+  }
   for (const std::string& words : o.fields) {
     const auto [ref, field] = of_input(o, words);
     ref->elevation_field = field;

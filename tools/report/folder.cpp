@@ -242,7 +242,7 @@ namespace {
 // Whether what the report shows of the site depends on the value.
 bool is_shown(const EffectiveValue& value, const ResultFolder& folder) {
   return stage_reads("run", value) || stage_reads("blocks", value) || stage_reads("trn", value) ||
-         (folder.has("tin.json") && stage_reads("tin", value));
+         (folder.has("tin.json") && (stage_reads("import", value) || stage_reads("tin", value)));
 }
 
 }  // namespace

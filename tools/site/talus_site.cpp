@@ -165,21 +165,7 @@ std::string joined(const std::vector<double>& numbers) {
 }
 
 std::string tin_flags(const Site& site) {
-  const TerrainSettings& t = site.terrain;
-  std::string out;
-  const auto add = [&out, &site](const char* option, const std::string& value) {
-    if (!value.empty()) out += std::string(" ") + option + " " + shell_word(value, site);
-  };
-  add("--elevation-field", t.elevation_field);
-  add("--breaklines", resolved(site, t.breaklines));
-  if (!t.breaklines_elevation_field.empty())
-    add("--elevation-field", "breaklines=" + t.breaklines_elevation_field);
-  add("--spots", resolved(site, t.spots));
-  if (!t.spots_elevation_field.empty())
-    add("--elevation-field", "spots=" + t.spots_elevation_field);
-  add("--boundary", resolved(site, t.boundary));
-  add("--flat", t.flat);
-  return out;
+  return site.terrain.flat.empty() ? "" : " --flat " + shell_word(site.terrain.flat, site);
 }
 
 std::string trn_flags(const Site& site) {
@@ -196,13 +182,6 @@ std::string contours_file(const Site& site) {
   const SourcePath contours = parse_source_path(resolved(site, site.terrain.contours));
   const bool is_member = contours.inside.find('/') == 0;
   return is_member || is_virtual(contours.source) ? contours.source : contours.file;
-}
-
-// What stands behind the file in the recipe, as a word of the shell: its layers and filter.
-std::string contours_part(const Site& site) {
-  const std::string inside = part_named(resolved(site, site.terrain.contours));
-  const std::size_t bar = inside.find('|');
-  return bar == std::string::npos ? "" : shell_word(inside.substr(bar), site);
 }
 
 std::string make_variables(const Site& site) {
@@ -229,7 +208,6 @@ std::string make_variables(const Site& site) {
     out += std::string(name) + " :=" + (value.empty() || value[0] == ' ' ? "" : " ") + value + "\n";
   };
   line("SITE_CONTOURS", make_word(contours_file(site), site));
-  line("SITE_CONTOURS_PART", contours_part(site));
   line("SITE_DEM", make_word(resolved(site, site.terrain.dem), site));
   line("SITE_TIN_FLAGS", tin_flags(site));
   line("SITE_TRN_FLAGS", trn_flags(site));

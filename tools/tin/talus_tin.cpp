@@ -33,6 +33,7 @@ using talus::UsageError;
 
 struct Options {
   talus::ImportOptions inputs;
+  talus::InputsRequest request;
   std::string out, report, hold_out;
   std::string flat = "fill";
   double fill_spacing_m = 0;
@@ -47,7 +48,7 @@ std::string check_every(const std::string& word) {
 }
 
 void declare(Tool& tool, Options& o) {
-  talus::declare_import_options(tool, o.inputs);
+  talus::declare_import_options(tool, o.inputs, "contours");
   tool.output("-o,--out", o.out, "TIN to write (binary PLY)")->required();
   tool.option("--flat", o.flat, "flat triangles on summits, ridges, valley floors: fill or keep")
       ->check(CLI::IsMember({"fill", "keep"}));
@@ -90,7 +91,7 @@ std::string digest_of(const ContourMap& map) {
 }
 
 ContourMap read_map(Tool& tool, Options& o, talus::ImportReading& reading) {
-  ContourMap map = talus::import_map(talus::request_of(tool, o.inputs), reading);
+  ContourMap map = talus::import_map(o.request, reading);
   if (!o.inputs.of_points) talus::check_heights(map);
   tool.content_read("map", digest_of(map));
   talus::say_reading(tool, reading);
@@ -348,6 +349,7 @@ int main(int argc, char** argv) {
   declare(tool, o);
   return tool.run(argc, argv, [&] {
     check_together(o);
+    o.request = talus::request_of(tool, o.inputs);
     talus::Tin tin;
     const Json report = o.inputs.of_points ? build_of_points(tool, o, tin) : build(tool, o, tin);
     talus::write_tin(tool.stage(o.out), tin);

@@ -65,7 +65,7 @@ would
 would_be "" "the same contours with another time"
 cp "$source_dir/sample_sites/maungawhau/contours.gpkg" slope/contours.gpkg
 would
-would_be "batch*2 blocks*1 check*1 fence*1 maps*1 report*1 runout*1 tin*1 trn*1" "other contours"
+would_be "batch*2 blocks*1 check*1 fence*1 import*1 maps*1 report*1 runout*1 tin*1 trn*1" "other contours"
 cp "$source_dir/sample_sites/designed/contours.gpkg" slope/contours.gpkg
 
 sed -i 's/^friction_deg = 25/friction_deg = 250/' slope/site.toml

@@ -35,9 +35,10 @@ made odd terrain
 [ -s odd/out/trn.tif ] || fail "no terrain"
 printf '[terrain]\ncontours = "odd/Höhen linien #1.gpkg|layername=$(shell touch hurt)'"'"';touch hurt"\n' >layer.toml
 expect 0 talus-site layer.toml -o stages --no-db
-printf 'include stages/site.mk\nall: ; @echo $(SITE_CONTOURS_PART)\n' >Makefile
+printf 'include stages/site.mk\nall: ; @echo $(SITE_CONTOURS)\n' >Makefile
 expect 0 make
-prints '|layername=$(shell touch hurt)'"'"';touch hurt'
+expect 1 talus-import layer.toml -o inputs.gpkg --no-db
+says 'there is no layer "$(shell touch hurt)'
 nothing_left hurt odd/hurt
 
 # a fence is named as its user likes, and its runs without fences are made

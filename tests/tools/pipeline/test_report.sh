@@ -58,7 +58,7 @@ assert text.count("the fence is a rigid wall, which no net is") >= 3, "a number 
 assert "tan 25&deg; = 0.466" in text, "no friction beside H/L of the centre of mass"
 assert "of the released mass moved more than 1 m" in text, "nothing says how much of the mass moved"
 assert 'class="banner"' not in text, "a mark without a failure"
-assert "Numerical checks: passed" in text and "talus-tin contours.gpkg" in text
+assert "Numerical checks: passed" in text and "talus-import site.toml" in text
 
 archive = zipfile.ZipFile(f"{out}/site.qgz")
 assert archive.testzip() is None

@@ -4,11 +4,11 @@ site slope
 mkdir half
 ln -s "${bin%%:*}/talus-site" "${bin%%:*}/talus-tin" half
 expect 2 make -C slope BIN="$PWD/half/"
-says "talus-trn talus-blocks talus-check talus-batch talus-dda talus-reduce talus-runout talus-maps talus-fence talus-places talus-hazard talus-trace talus-fence-search talus-report talus-profile cannot be found in $PWD/half/"
+says "talus-import talus-trn talus-blocks talus-check talus-batch talus-dda talus-reduce talus-runout talus-maps talus-fence talus-places talus-hazard talus-trace talus-fence-search talus-report talus-profile cannot be found in $PWD/half/"
 expect 2 make -C slope BIN="$PWD/half/" terrain
-says "talus-trn cannot be found in $PWD/half/"
+says "talus-import talus-trn cannot be found in $PWD/half/"
 says "build first: sh $source_dir/pipelines/demo.sh; or name the folder of the tools with a slash at its end"
-ln -s "${bin%%:*}/talus-trn" half
+ln -s "${bin%%:*}/talus-import" "${bin%%:*}/talus-trn" half
 expect 0 make -C slope BIN="$PWD/half/" terrain
 expect 2 make -C slope BIN="${bin%%:*}" terrain
 says "name the folder of the tools with a slash at its end"

@@ -1,0 +1,71 @@
+#include "import/canonical_gdal.hpp"
+#include "import/import_inputs_gdal.hpp"
+#include "sources.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::test;
+
+struct Canonical : ImportTest {
+  std::string written() {
+    ask(InputRole::contours, contours());
+    ask(InputRole::spots, file("spots", 0, {{"Point", "[650010.1,5200020.3,104.7]", ""}}));
+    ask(InputRole::boundary,
+        file("ring", 32632,
+             {{"Polygon", "[[[649990,5199990],[650110,5199990],[650110,5200060],[649990,5199990]]]",
+               ""}}));
+    const std::string path = (folder / "inputs.gpkg").string();
+    map = import_map(request, reading);
+    measure(map, reading);
+    write_canonical(path, map, reading);
+    return path;
+  }
+  ContourMap map;
+  ImportReading reading;
+};
+
+TEST_F(Canonical, WhatIsWrittenIsReadBackToTheBit) {
+  const std::optional<InputsRequest> again = canonical_request(written());
+  ASSERT_TRUE(again.has_value());
+  ImportReading read;
+  const ContourMap back = import_map(*again, read);
+  EXPECT_EQ(back.crs_wkt, map.crs_wkt);
+  EXPECT_EQ(back.contours.points, map.contours.points);
+  EXPECT_EQ(back.contours.feature, map.contours.feature);
+  EXPECT_EQ(back.spots, map.spots);
+  ASSERT_EQ(back.boundary.size(), 1U);
+  EXPECT_EQ(back.boundary[0].points, map.boundary[0].points);
+  EXPECT_TRUE(read.operations.empty());
+  EXPECT_TRUE(read.warnings.empty());
+}
+
+TEST_F(Canonical, AChangedFileIsOneLikeAnyOther) {
+  const std::string path = written();
+  std::fstream bytes(path, std::ios::in | std::ios::out | std::ios::binary);
+  bytes.seekp(5000);
+  bytes.put('x');
+  bytes.close();
+  EXPECT_FALSE(canonical_request(path).has_value());
+  EXPECT_FALSE(canonical_request(request.layers[0].ref.path).has_value());
+}
+
+TEST_F(Canonical, EachLayerSaysWhatWasDecidedAndHowLargeItIs) {
+  static_cast<void>(written());
+  ASSERT_EQ(reading.layers.size(), 3U);
+  const LayerReading& spots = reading.layers[1];
+  const auto answer = [&spots](const std::string& question) {
+    for (const Decision& decision : spots.decisions)
+      if (decision.question == question) return decision.answer + ": " + decision.why;
+    return std::string();
+  };
+  EXPECT_EQ(answer("heights"), "Z: Z tells heights apart");
+  EXPECT_EQ(answer("system"),
+            "EPSG:32632 (WGS 84 / UTM zone 32N): the coordinates are not in that of the file");
+  EXPECT_EQ(answer("unit of heights"), "1 m: nothing says another one");
+  ASSERT_EQ(spots.magnitudes.size(), 3U);
+  EXPECT_EQ(spots.magnitudes[2].quantity, "z_m");
+  EXPECT_NEAR(spots.magnitudes[2].median, 104.7, 1e-9);
+}
+
+}  // namespace
