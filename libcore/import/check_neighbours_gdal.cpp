@@ -9,15 +9,13 @@
 
 namespace talus {
 
-void check_elevations(const RawLayer& layer) {
-  for (const Vec3& point : layer.lines.points)
-    if (std::abs(point.z()) > highest_elevation)
-      throw InputError({layer.path()},
-                       "the elevation at x " + text(point.x(), 10) + ", y " + text(point.y(), 10) +
-                           " is " + text(point.z(), 10) + " m, expected at most " +
-                           text(highest_elevation) + " m either way",
-                       "feet need --elevation-unit-m 0.3048; choose another field where this one "
-                       "holds no elevations");
+void check_elevation(const Vec3& place, const std::string& path, const char* hint) {
+  if (std::abs(place.z()) <= highest_elevation) return;
+  throw InputError({path},
+                   "the elevation at x " + text(place.x(), 10) + ", y " + text(place.y(), 10) +
+                       " is " + text(place.z(), 10) + " m, expected at most " +
+                       text(highest_elevation) + " m either way",
+                   hint);
 }
 
 void check_neighbours(RawInputs& raw) {

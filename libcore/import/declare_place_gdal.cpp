@@ -4,8 +4,8 @@
 
 #include "base/source_path.hpp"
 #include "import/crs_place_gdal.hpp"
-#include "import/crs_said_gdal.hpp"
 #include "import/raw_inputs_gdal.hpp"
+#include "import/systems_gdal.hpp"
 #include "io/crs_gdal.hpp"
 
 namespace talus {
@@ -23,8 +23,8 @@ void place_ground(RawLayer& ground, RawInputs& raw) {
     throw InputError({ground.path()}, "the CRS is " + crs_name(ground.own_crs) + no_degrees,
                      way_to_name_crs);
   ground.crs =
-      crs_said(is_beyond ? std::string() : ground.own_crs, {request.crs_given, false, request.crs},
-               window_of(points), ground.path(), raw.reading.notes);
+      crs_said({ground.path(), is_beyond ? std::string() : ground.own_crs, window_of(points)},
+               request, raw.reading.notes);
   ground.decide("system", crs_name(ground.crs),
                 ground.crs == ground.own_crs ? "the file says it" : "--crs");
   if (ground.crs.empty() && !request.t_srs.empty())

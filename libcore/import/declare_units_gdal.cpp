@@ -5,9 +5,9 @@
 
 #include "base/source_path.hpp"
 #include "base/text.hpp"
-#include "import/crs_operation_gdal.hpp"
 #include "import/drawing_unit_gdal.hpp"
 #include "import/raw_inputs_gdal.hpp"
+#include "import/systems_gdal.hpp"
 #include "io/crs_gdal.hpp"
 
 namespace talus {
@@ -73,9 +73,7 @@ double height_unit_of(const RawLayer& layer, const std::string& crs, double by_u
 std::string with_user_heights(const InputsRequest& request, const RawLayer& ground) {
   const double unit_m = ground.taken.unit_m;
   const std::string plan = unit_m != 1 ? horizontal_crs(ground.crs) : ground.crs;
-  return request.vertical_crs.empty()
-             ? plan
-             : with_stated_heights(plan, request.vertical_crs, {ground.path()});
+  return with_heights_said(plan, request, ground.path());
 }
 
 }  // namespace

@@ -17,9 +17,8 @@
 #include "base/memory.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
-#include "import/crs_operation_gdal.hpp"
 #include "import/crs_place_gdal.hpp"
-#include "import/crs_said_gdal.hpp"
+#include "import/systems_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
 #include "io/judged_heights_gdal.hpp"
@@ -108,13 +107,6 @@ MapWindow edges_of(GDALDataset& dataset) {
 }
 
 bool is_finite(const MapWindow& w) { return std::isfinite(w.x_min + w.y_min + w.x_max + w.y_max); }
-
-// What the user says of the heights of a file that does not.
-std::string with_vertical(const std::string& crs, const std::string& path,
-                          const DemOptions& options) {
-  if (options.vertical_crs.empty()) return crs;
-  return with_stated_heights(crs, options.vertical_crs, {path});
-}
 
 CPLStringList words_of(const std::vector<std::string>& words) {
   CPLStringList list;
@@ -246,10 +238,10 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
   if (options.accepts_doubts || !options.has_heights) impl_->accepts_doubts = true;
   DemReading& reading = impl_->reading;
   const MapWindow edges = edges_of(*dataset);
-  impl_->crs = with_vertical(crs_said(wkt_of(dataset->GetSpatialRef()),
-                                      {options.crs_given, options.crs_may_be_missing, options.crs},
-                                      edges, path, reading.notes),
-                             path, options);
+  impl_->crs = with_heights_said(
+      crs_said({path, wkt_of(dataset->GetSpatialRef()), edges, options.crs_may_be_missing}, options,
+               reading.notes),
+      options, path);
   if (!options.t_srs.empty()) {
     check_unit_of_heights(*dataset, impl_->crs, path, options);
     if (impl_->crs.empty())
@@ -264,7 +256,7 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
     const bool is_beside = read.x_min > read.x_max || read.y_min > read.y_max;
     impl_->check_place_of(is_beside ? edges : read, impl_->crs, !options.crs_may_be_missing);
   }
-  if (!options.t_vertical.empty()) impl_->take_heights_to(options);
+  impl_->take_heights_to(options);
   impl_->band = dataset->GetRasterBand(1);
   impl_->scale = impl_->source->GetRasterBand(1)->GetScale();
   impl_->offset = impl_->source->GetRasterBand(1)->GetOffset();
@@ -303,10 +295,8 @@ void DemFile::Impl::take_to(const std::string& target, bool accept_ballpark,
   const std::string wanted = with_heights_of(crs, target, {path});
   if (same_crs(crs, target)) return;
   check_place_of(edges, target, true);
-  const CrsOperation operation = find_operation(crs, target, edges, {path}, accept_ballpark);
-  reading.notes.push_back(path + ": " + sentence_on(operation));
-  if (const std::string doubt = doubt_on(operation); !doubt.empty())
-    reading.warnings.push_back(path + ": " + doubt);
+  const CrsOperation operation =
+      plan_operation(crs, target, edges, {path}, accept_ballpark, reading.notes, reading.warnings);
   ringed = with_unknown_ring(*source, name);
   if (!ringed) throw InputError({path}, "cannot be reprojected");
   warped = reprojected(*source, *ringed, path, operation);
@@ -314,12 +304,8 @@ void DemFile::Impl::take_to(const std::string& target, bool accept_ballpark,
 }
 
 void DemFile::Impl::take_heights_to(const DemOptions& options) {
-  const std::string from = options.vertical_crs == ellipsoidal_heights
-                               ? options.vertical_crs
-                               : stated_heights(crs, {path});
-  if (from == options.t_vertical || same_system(from, options.t_vertical)) return;
-  to_vertical =
-      std::make_unique<HeightOperation>(crs, from, options.t_vertical, extent(frame), Where{path});
+  to_vertical = height_operation(crs, options, extent(frame), path);
+  if (!to_vertical) return;
   reading.notes.push_back(path + ": " + to_vertical->sentence());
   crs = with_heights(horizontal_crs(crs), options.t_vertical, {path});
 }

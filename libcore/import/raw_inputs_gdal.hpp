@@ -95,7 +95,7 @@ void take_to_frame(RawInputs& raw);
 
 /// Throws InputError for heights that cannot be, and for most heights of a layer far off those of
 /// the contours: mixed units.
-void check_elevations(const RawLayer& layer);
+void check_elevation(const Vec3& place, const std::string& path, const char* hint);
 void check_neighbours(RawInputs& raw);
 
 /// All of these, in this order.

@@ -3,10 +3,9 @@
 #include <cmath>
 
 #include "base/text.hpp"
-#include "import/crs_operation_gdal.hpp"
 #include "import/crs_place_gdal.hpp"
-#include "import/crs_said_gdal.hpp"
 #include "import/raw_inputs_gdal.hpp"
+#include "import/systems_gdal.hpp"
 #include "io/crs_gdal.hpp"
 
 namespace talus {
@@ -14,10 +13,11 @@ namespace {
 
 // Heights stay as they are. What was done is noted.
 void take_plan(RawLayer& layer, RawInputs& raw) {
-  const InputsRequest& request = raw.request;
   std::vector<Vec3>& points = layer.lines.points;
-  const CrsOperation operation = find_operation(layer.crs, raw.frame, window_of(points, layer.crs),
-                                                layer.where(), request.accept_ballpark);
+  ImportReading& reading = raw.reading;
+  const CrsOperation operation =
+      plan_operation(layer.crs, raw.frame, window_of(points, layer.crs), layer.where(),
+                     raw.request.accept_ballpark, reading.operations, reading.warnings);
   if (!carry_out(operation, points))
     throw InputError(
         layer.where(),
@@ -26,9 +26,6 @@ void take_plan(RawLayer& layer, RawInputs& raw) {
   for (const Vec3& point : points)
     check_finite({point.x(), point.y(), 0}, where_of_layer(layer.source));
   layer.operation = sentence_on(operation);
-  raw.reading.operations.push_back(layer.path() + ": " + layer.operation);
-  if (const std::string doubt = doubt_on(operation); !doubt.empty())
-    raw.reading.warnings.push_back(layer.path() + ": " + doubt);
   if (&layer == raw.ground()) check_can_be_computed_in(raw.frame, points.front(), layer.path());
 }
 
@@ -46,18 +43,12 @@ void check_heights_alike(const RawLayer& layer, RawInputs& raw) {
 
 // Takes heights to the system that is asked for; those of the frame are what they are in.
 void take_heights(RawLayer& layer, RawInputs& raw) {
-  const InputsRequest& request = raw.request;
-  if (request.t_vertical.empty()) return;
-  const std::string from = request.vertical_crs == ellipsoidal_heights
-                               ? request.vertical_crs
-                               : stated_heights(raw.frame, {layer.path()});
-  if (same_system(from, request.t_vertical)) return layer.decide("operation in height", "none", "");
   std::vector<Vec3>& points = layer.lines.points;
-  const HeightOperation operation(raw.frame, from, request.t_vertical, window_of(points),
-                                  {layer.path()});
-  operation.apply(points);
-  raw.reading.operations.push_back(layer.path() + ": " + operation.sentence());
-  layer.decide("operation in height", operation.sentence(), "--t-vertical");
+  const auto operation = height_operation(raw.frame, raw.request, window_of(points), layer.path());
+  if (!operation) return;
+  operation->apply(points);
+  raw.reading.operations.push_back(layer.path() + ": " + operation->sentence());
+  layer.decide("operation in height", operation->sentence(), "--t-vertical");
 }
 
 }  // namespace
@@ -72,7 +63,10 @@ void take_to_frame(RawInputs& raw) {
     if (!layer.has_heights()) continue;
     if (&layer != raw.ground()) check_heights_alike(layer, raw);
     for (Vec3& point : layer.lines.points) point.z() *= layer.taken.unit_m;
-    check_elevations(layer);
+    for (const Vec3& point : layer.lines.points)
+      check_elevation(point, layer.path(),
+                      "feet need --elevation-unit-m 0.3048; choose another field where this one "
+                      "holds no elevations");
     take_heights(layer, raw);
   }
   const std::string& vertical = raw.request.t_vertical;

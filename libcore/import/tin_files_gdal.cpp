@@ -21,10 +21,14 @@
 #include "base/read_file.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "import/crs_place_gdal.hpp"
 #include "import/drawing_unit_gdal.hpp"
-#include "import/open_layer_gdal.hpp"
+#include "import/raw_inputs_gdal.hpp"
+#include "import/systems_gdal.hpp"
+#include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
 #include "io/tin_ply.hpp"
+#include "terrain/grid_tin.hpp"
 
 namespace talus {
 namespace {
@@ -339,7 +343,9 @@ bool is_tin_file(const std::string& source) {
   return is_ply(path) || is_landxml(path) || extension_of(path) == ".dxf";
 }
 
-TinFile read_tin_file(const LayerRef& choice) {
+namespace {
+
+TinFile read_any(const LayerRef& choice) {
   const std::string path = file_of(choice.path);
   const bool is_surface = is_landxml(path);
   if (!is_ply(path) && !is_surface) return read_drawing(choice);
@@ -350,6 +356,37 @@ TinFile read_tin_file(const LayerRef& choice) {
   if (!named.subset.empty())
     throw InputError({path}, "has no filter to choose, only a drawing has", "omit |subset=");
   return is_surface ? read_landxml(path, named.layer, choice.unit_m) : read_ply(path);
+}
+
+}  // namespace
+
+TinFile read_tin_file(const LayerRef& choice) {
+  TinFile file = read_any(choice);
+  for (const Vec3& point : file.tin.points)
+    check_elevation(point + file.tin.origin, file_of(choice.path), "");
+  return file;
+}
+
+std::string crs_of_tin(const Tin& tin, const SystemsByUser& said, const std::string& path,
+                       ImportReading& reading) {
+  const MapWindow data = extent(tin);
+  const std::string own =
+      tin.crs_wkt.empty() ? std::string() : crs_from_user(tin.crs_wkt, path + ": its CRS");
+  const std::string crs = crs_said({path, own, data, true, false}, said, reading.notes);
+  if (crs.empty() && said.vertical_crs.empty()) return crs;
+  const CrsProblem problem =
+      find_crs_problem(crs, {0.5 * (data.x_min + data.x_max), 0.5 * (data.y_min + data.y_max)});
+  const std::string way_out =
+      "a TIN is not reprojected: make it from the contours with talus-tin --t-srs";
+  if (!problem.finding.empty())
+    throw InputError({path}, problem.finding,
+                     way_out + " " + (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to));
+  CrsExtent place{crs, data};
+  place.way_to_other_crs = way_out;
+  place.crs_said_in = said.crs_given ? "--crs" : "the file";
+  for (std::string& warning : check_place(place, {path}))
+    reading.warnings.push_back(std::move(warning));
+  return with_heights_said(crs, said, path);
 }
 
 FoldedEdges find_folded_edges(const Tin& tin) {

@@ -31,6 +31,11 @@ struct TinFile {
 /// Throws InputError, also for layers or a unit of a file that has none.
 [[nodiscard]] TinFile read_tin_file(const LayerRef& choice);
 
+/// The CRS of a TIN, WKT, or what the user says of one without; empty: local metres. Throws
+/// InputError where it cannot be computed in, or coordinates cannot be in it.
+[[nodiscard]] std::string crs_of_tin(const Tin& tin, const SystemsByUser& said,
+                                     const std::string& path, ImportReading& reading);
+
 /// Edges at which triangles lie over one another: more than two meet, or both on one side.
 struct FoldedEdges {
   std::int64_t n = 0;

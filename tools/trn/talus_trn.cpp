@@ -8,9 +8,6 @@
 
 #include "base/text.hpp"
 #include "base/words.hpp"
-#include "import/crs_operation_gdal.hpp"
-#include "import/crs_place_gdal.hpp"
-#include "import/crs_said_gdal.hpp"
 #include "import/dem_gdal.hpp"
 #include "import/import_inputs_gdal.hpp"
 #include "import/tin_files_gdal.hpp"
@@ -161,17 +158,6 @@ void check_frame(const GridFrame& frame, const MapWindow& data, const Options& o
                    "choose a smaller cell or a larger window");
 }
 
-void check_tin(const talus::Tin& tin, const std::string& path) {
-  for (const talus::Vec3& point : tin.points) {
-    const talus::Vec3 place = point + tin.origin;
-    if (std::abs(place.z()) > talus::highest_elevation)
-      throw InputError({path}, "the elevation at x " + text(place.x(), 10) + ", y " +
-                                   text(place.y(), 10) + " is " + text(place.z(), 10) +
-                                   " m, expected at most " + text(talus::highest_elevation) +
-                                   " m either way");
-  }
-}
-
 // A surface that folds over has two heights in one place; a terrain has one.
 void check_one_layer(Tool& tool, const Options& o, const talus::TinFile& file, Ground& ground) {
   if (file.tin.is_judged) return;
@@ -187,31 +173,6 @@ void check_one_layer(Tool& tool, const Options& o, const talus::TinFile& file, G
         "write the ground alone to the file; --accept-doubts takes one of the heights");
   tool.warn(finding + ": one of the heights is taken");
   ground.accepted = finding;
-}
-
-// The CRS of the TIN, or the one that the user gives; empty: local metres.
-std::string crs_of_tin(Tool& tool, const talus::Tin& tin, const MapWindow& data, const Options& o) {
-  const talus::SystemsByUser said = talus::systems_by_user(o.crs);
-  std::string crs;
-  if (!tin.crs_wkt.empty()) crs = talus::crs_from_user(tin.crs_wkt, o.source + ": its CRS");
-  std::vector<std::string> notes;
-  crs = talus::crs_said(crs, {said.crs_given, true, said.crs, "leave --crs away"}, data, o.source,
-                        notes);
-  for (const std::string& note : notes) tool.info(note);
-  const std::string& vertical = said.vertical_crs;
-  if (crs.empty() && vertical.empty()) return crs;
-  const talus::Vec2 middle(0.5 * (data.x_min + data.x_max), 0.5 * (data.y_min + data.y_max));
-  const talus::CrsProblem problem = talus::find_crs_problem(crs, middle);
-  if (!problem.finding.empty())
-    throw InputError({o.source}, problem.finding,
-                     "a TIN is not reprojected: make it from the contours with talus-tin --t-srs " +
-                         (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to));
-  talus::CrsExtent place{crs, data};
-  place.way_to_other_crs =
-      "a TIN is not reprojected: make it from the contours with talus-tin --t-srs";
-  place.crs_said_in = o.crs.crs.empty() ? "the file" : "--crs";
-  for (const std::string& warning : talus::check_place(place, {o.source})) tool.warn(warning);
-  return vertical.empty() ? crs : talus::with_stated_heights(crs, vertical, {o.source});
 }
 
 talus::LayerRef faces_of(const Options& o) {
@@ -233,13 +194,15 @@ Ground ground_of_tin(Tool& tool, const Options& o) {
   for (const std::string& warning : file.warnings) tool.warn(warning);
   if (!file.taken.file.empty()) tool.layer_read(talus::facts_on(file.taken, "source"));
   const talus::Tin& tin = file.tin;
-  check_tin(tin, o.source);
   Ground ground;
   ground.was_judged = tin.is_judged;
   ground.accepted = tin.accepted_doubts;
   check_one_layer(tool, o, file, ground);
   const MapWindow data = talus::extent(tin);
-  const std::string crs = crs_of_tin(tool, tin, data, o);
+  talus::ImportReading reading;
+  const std::string crs = talus::crs_of_tin(tin, talus::systems_by_user(o.crs), o.source, reading);
+  for (const std::string& note : reading.notes) tool.info(note);
+  for (const std::string& warning : reading.warnings) tool.warn(warning);
   const double natural_size = talus::natural_cell_size(tin);
   if (natural_size <= 0)
     throw InputError({o.source}, "no triangle has an area in plan, expected a surface");
