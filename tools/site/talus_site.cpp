@@ -179,6 +179,7 @@ std::string trn_flags(const Site& site) {
 // A rule names the file of the contours alone. A member of an archive that is named by itself
 // stands in it by GDAL's name for it.
 std::string contours_file(const Site& site) {
+  static_cast<void>(shell_word(site.terrain.contours, site));  // refuses line breaks
   const SourcePath contours = parse_source_path(resolved(site, site.terrain.contours));
   const bool is_member = contours.inside.find('/') == 0;
   return is_member || is_virtual(contours.source) ? contours.source : contours.file;

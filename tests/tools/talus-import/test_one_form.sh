@@ -10,8 +10,8 @@ cat >site.toml <<'END'
 [terrain]
 contours = "map.geojson"
 elevation_field = "ELEV"
-spots = "far.gpkg"
 spots_elevation_field = "hoehe_nn"
+spots = "far.gpkg"
 boundary = "part.geojson"
 END
 expect 0 talus-import site.toml -o inputs.gpkg --report import.json
@@ -37,9 +37,9 @@ says "was written by talus-import, with 3 layers, and says units, fields and sys
 says "hint: give layers, fields, units and systems to talus-import (make IMPORT_FLAGS)"
 nothing_left bad.ply
 expect 0 talus-import site.toml -o other.gpkg --t-srs EPSG:25833
-expect 0 talus-tin other.gpkg -o imported.ply
+expect 0 talus-tin other.gpkg -o imported.ply --overwrite
 expect 0 talus-tin map.geojson -o direct.ply --elevation-field ELEV --spots far.gpkg --elevation-field spots=hoehe_nn \
-  --boundary part.geojson --t-srs EPSG:25833
+  --boundary part.geojson --t-srs EPSG:25833 --overwrite
 cmp -s direct.ply imported.ply || fail "the border changes a TIN that is reprojected"
 
 # heights in another unit, local metres, points
@@ -49,15 +49,15 @@ cat >local.toml <<'END'
 contours = "local.geojson"
 END
 expect 0 talus-import local.toml -o local.gpkg --crs none --elevation-unit-m 0.5
-expect 0 talus-tin local.gpkg -o imported.ply
-expect 0 talus-tin local.geojson -o direct.ply --crs none --elevation-unit-m 0.5
+expect 0 talus-tin local.gpkg -o imported.ply --overwrite
+expect 0 talus-tin local.geojson -o direct.ply --crs none --elevation-unit-m 0.5 --overwrite
 cmp -s direct.ply imported.ply || fail "local metres pass the border as something else"
 awk 'BEGIN { for (i = 0; i < 60; i++) for (j = 0; j < 60; j++) printf "%.2f,%.2f,%.3f\n", 500000 + i + 0.1 * (j % 3), 5200000 + j, 100 + i / 2 + (i * j) % 7 / 10 }' >survey.csv
 printf '[terrain]\ncontours = "survey.csv"\n' >survey.toml
 expect 0 talus-import survey.toml -o survey.gpkg --points --crs EPSG:32632
 prints "points: 3600 points, 100 to"
-expect 0 talus-tin survey.gpkg -o imported.ply
-expect 0 talus-tin survey.csv --points --crs EPSG:32632 -o direct.ply
+expect 0 talus-tin survey.gpkg -o imported.ply --overwrite
+expect 0 talus-tin survey.csv --points --crs EPSG:32632 -o direct.ply --overwrite
 cmp -s direct.ply imported.ply || fail "points pass the border as something else"
 
 # a file that was changed since is one like any other
