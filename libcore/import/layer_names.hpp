@@ -1,4 +1,4 @@
-// libcore/import/layer_names.hpp
+// libcore/import/layer_names.hpp: public
 // Names of layers as people write them: several parted by commas, with * and ? for any letters.
 #pragma once
 

@@ -14,6 +14,8 @@ constexpr GoneKey gone_keys[] = {
     {"terrain", "where", R"(contours = "FILE|subset=FILTER")"},
     {"terrain", "breaklines_layer", R"(breaklines = "FILE|layername=LAYER")"},
     {"terrain", "breaklines_where", R"(breaklines = "FILE|subset=FILTER")"},
+    {"terrain", "breaklines_elevation_field", R"(elevation_field = "breaklines=FIELD")"},
+    {"terrain", "spots_elevation_field", R"(elevation_field = "spots=FIELD")"},
     {"terrain", "spots_layer", R"(spots = "FILE|layername=LAYER")"},
     {"terrain", "spots_where", R"(spots = "FILE|subset=FILTER")"},
     {"terrain", "boundary_layer", R"(boundary = "FILE|layername=LAYER")"},

@@ -32,8 +32,7 @@ struct SiteInfo {
 /// [terrain]: what talus-tin and talus-trn are called with.
 struct TerrainSettings {
   std::string contours, elevation_field;
-  std::string breaklines, breaklines_elevation_field;
-  std::string spots, spots_elevation_field;
+  std::string breaklines, spots;
   std::string boundary;
   std::string dem;
   std::string ground_raster;  ///< classes of ground, whole numbers

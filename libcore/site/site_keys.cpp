@@ -36,11 +36,9 @@ template <> const std::vector<SiteKey<TerrainSettings>>& keys_of() {
   using S = TerrainSettings;
   static const std::vector<SiteKey<S>> table = {
       {"contours", &S::contours, "contour lines for talus-import"},
-      {"elevation_field", &S::elevation_field, "field with the elevation of a contour; Z: the geometries' own"},
+      {"elevation_field", &S::elevation_field, "field with the elevation of a contour; Z: the geometries' own. Of others too: ELEV, spots=FIELD, breaklines=Z"},
       {"breaklines", &S::breaklines, "breaklines for talus-import"},
-      {"breaklines_elevation_field", &S::breaklines_elevation_field, "field with their elevation, or Z"},
       {"spots", &S::spots, "spot heights for talus-import"},
-      {"spots_elevation_field", &S::spots_elevation_field, "field with their elevation, or Z"},
       {"boundary", &S::boundary, "boundary polygon, or closed line, for talus-import"},
       {"dem", &S::dem, "elevation raster for talus-trn instead of contours"},
       {"ground_raster", &S::ground_raster, "raster of ground classes, whole numbers; [ground.*] raster_values says which is which"},

@@ -16,8 +16,7 @@ struct Stage {
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> list = {
       {"import",
-       {"terrain.contours", "terrain.elevation_field", "terrain.breaklines",
-        "terrain.breaklines_elevation_field", "terrain.spots", "terrain.spots_elevation_field",
+       {"terrain.contours", "terrain.elevation_field", "terrain.breaklines", "terrain.spots",
         "terrain.boundary"}},
       {"tin", {"terrain.flat"}},
       {"trn", {"terrain.dem", "terrain.cell_size_m", "terrain.window_m"}},

@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "import/canonical_gdal.hpp"
 #include "import/import_inputs_gdal.hpp"
+#include "import/layer_names.hpp"
 #include "io/crs_gdal.hpp"
 #include "setup/vector_inputs_gdal.hpp"
 #include "tools/frame/import_options.hpp"
@@ -25,9 +26,8 @@ void take_from_site(Tool& tool, const Site& site, ImportOptions& o) {
   take("breaklines", t.breaklines, o.breaklines);
   take("spots", t.spots, o.spots);
   take("boundary", t.boundary, o.boundary);
-  o.contours.elevation_field = t.elevation_field;
-  o.breaklines.elevation_field = t.breaklines_elevation_field;
-  o.spots.elevation_field = t.spots_elevation_field;
+  const std::vector<std::string> fields = parted(t.elevation_field, ',');
+  o.fields.insert(o.fields.begin(), fields.begin(), fields.end());
   if (o.contours.path.empty())
     throw InputError({site.file}, "[terrain] names no contours",
                      "an elevation model needs no talus-import: talus-trn reads it");

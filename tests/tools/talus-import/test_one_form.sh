@@ -9,8 +9,7 @@ printf '{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"E
 cat >site.toml <<'END'
 [terrain]
 contours = "map.geojson"
-elevation_field = "ELEV"
-spots_elevation_field = "hoehe_nn"
+elevation_field = "ELEV, spots=hoehe_nn"
 spots = "far.gpkg"
 boundary = "part.geojson"
 END
