@@ -78,6 +78,11 @@ LayerRead facts_on(const LayerReading& taken, const std::string& role) {
   layer.facts.emplace_back("n_passed_over", std::int64_t{taken.n_passed_over});
   if (!taken.passed_over.empty()) layer.facts.emplace_back("passed_over", taken.passed_over);
   if (!taken.remarks.empty()) layer.facts.emplace_back("remarks", taken.remarks);
+  std::vector<std::string> decisions;
+  for (const Decision& decision : taken.decisions)
+    decisions.push_back(decision.question + ": " + decision.answer +
+                        (decision.why.empty() ? "" : " (" + decision.why + ")"));
+  if (!decisions.empty()) layer.facts.emplace_back("decisions", decisions);
   return layer;
 }
 

@@ -135,13 +135,16 @@ TEST(LayerFacts, SayWhatWasTakenAndPassedOver) {
   taken.file = "a.gpkg", taken.layer = "heights", taken.where = "z > 3", taken.noun = "line";
   taken.n_parts = 2, taken.n_passed_over = 1;
   taken.passed_over = "1 point";
+  taken.decisions = {{"unit of heights", "0.3048 m", "--unit-m"}};
   EXPECT_EQ(sentence_on(taken), "a.gpkg: layer heights where z > 3, 2 lines");
   const LayerRead layer = facts_on(taken, "spots");
   EXPECT_EQ(layer.role, "spots");
   std::vector<std::string> names;
   for (const auto& [name, value] : layer.facts) names.push_back(name);
   EXPECT_EQ(names, (std::vector<std::string>{"layer", "where", "n_lines", "n_passed_over",
-                                             "passed_over"}));
+                                             "passed_over", "decisions"}));
+  EXPECT_EQ(std::get<std::vector<std::string>>(layer.facts.back().second).front(),
+            "unit of heights: 0.3048 m (--unit-m)");
 }
 
 TEST(ReadMembers, FilesBesideTheNamedOneBecomeInputs) {
