@@ -148,7 +148,7 @@ InputsRequest request_of(Tool& tool, ImportOptions& o) {
 
 void say_reading(Tool& tool, const ImportReading& reading) {
   const LayerReading& ground = reading.layers.front();
-  if (!ground.elevation_from.empty())
+  if (ground.role == "contours" || ground.role == "points")
     tool.info("elevation from " + ground.elevation_from + " of layer " + ground.layer +
               (ground.unit_m == 1 ? "" : ", in units of " + text(ground.unit_m) + " m"));
   for (const std::string& note : reading.notes) tool.info(note);
