@@ -125,13 +125,18 @@ void give_memory_back() {
 #endif
 }
 
+// Of a file that talus-import wrote, the file itself.
+const std::string& file_of_boundary(const Options& o) {
+  return o.inputs.boundary.path.empty() ? o.inputs.contours.path : o.inputs.boundary.path;
+}
+
 // Brings the mesh up to date, inside the boundary.
 void refresh_inside(const ContourMap& map, talus::Triangulation& triangulation, const Options& o,
                     bool only_triangles, talus::TriangleMesh& mesh) {
   triangulation.refresh(mesh, only_triangles);
   talus::cut_to_rings(map.boundary, mesh);
   if (mesh.triangles.empty())
-    throw InputError({o.inputs.boundary.path}, "the boundary and the contours share no ground");
+    throw InputError({file_of_boundary(o)}, "the boundary and the contours share no ground");
 }
 
 Json as_json(const talus::CleaningCounts& c) {
@@ -315,7 +320,7 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
   if (o.doubts.accept) report["accepted_places"] = talus::accepted_places(rows);
   talus::cut_to_rings(map.boundary, found.mesh);
   if (found.mesh.triangles.empty())
-    throw InputError({o.inputs.boundary.path}, "the boundary and the points share no ground");
+    throw InputError({file_of_boundary(o)}, "the boundary and the points share no ground");
   const talus::EdgeLengths edges = talus::edge_lengths(found.mesh);
   report["points"]["median_edge_m"] = edges.median;
   report["points"]["longest_edge_m"] = edges.longest;
