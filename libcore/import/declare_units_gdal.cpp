@@ -76,6 +76,15 @@ std::string with_user_heights(const InputsRequest& request, const RawLayer& grou
   return with_heights_said(plan, request, ground.path());
 }
 
+void record_height_system(RawLayer& layer, const RawInputs& raw) {
+  const std::string own = height_crs(layer.own_crs), of_map = height_crs(raw.frame);
+  if (!own.empty()) return layer.decide("system of heights", crs_name(own), "the file says it");
+  const std::string& said = raw.request.vertical_crs;
+  if (!said.empty()) return layer.decide("system of heights", heights_name(said), "--vertical-crs");
+  layer.decide("system of heights", of_map.empty() ? "not known" : crs_name(of_map),
+               of_map.empty() ? "nothing says it" : "that of the map");
+}
+
 }  // namespace
 
 void declare_plan_units(RawInputs& raw) {
@@ -110,6 +119,8 @@ void declare_height_units(RawInputs& raw) {
                     ? layer.crs
                     : with_heights_of(layer.crs, raw.request.t_srs, {layer.path()});
   }
+  for (RawLayer& layer : raw.layers)
+    if (layer.has_heights()) record_height_system(layer, raw);
 }
 
 }  // namespace talus

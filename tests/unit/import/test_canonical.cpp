@@ -63,6 +63,7 @@ TEST_F(Canonical, EachLayerSaysWhatWasDecidedAndHowLargeItIs) {
   EXPECT_EQ(answer("system"),
             "EPSG:32632 (WGS 84 / UTM zone 32N): the coordinates are not in that of the file");
   EXPECT_EQ(answer("unit of heights"), "1 m: nothing says another one");
+  EXPECT_EQ(answer("system of heights"), "not known: nothing says it");
   ASSERT_EQ(spots.magnitudes.size(), 3U);
   EXPECT_EQ(spots.magnitudes[2].quantity, "z_m");
   EXPECT_NEAR(spots.magnitudes[2].median, 104.7, 1e-9);
