@@ -7,16 +7,17 @@
 #include <array>
 #include <utility>
 
-#include "base/error.hpp"
+#include "base/text.hpp"
+#include "import/import_inputs_gdal.hpp"
 #include "import/raw_inputs_gdal.hpp"
 #include "import/vector_dataset_gdal.hpp"
 #include "io/geopackage_gdal.hpp"
-#include "io/seal.hpp"
 
 namespace talus {
 namespace {
 
 constexpr const char* frame_tag = "TALUS_FRAME";  // WKT; "none": local metres
+constexpr const char* seal_tag = "TALUS_SEAL";    // map_digest()
 constexpr std::size_t points_at_once = 1000;      // of one feature
 
 constexpr std::array roles = {
@@ -144,19 +145,21 @@ void write_canonical(const std::string& path, const ContourMap& map, const Impor
   if (!map.boundary.empty()) layers.push_back(layer_of_boundary(map.boundary, map.origin));
   layers.push_back(decisions_of(reading));
   layers.push_back(magnitudes_of(reading));
-  write_geopackage(path, map.crs_wkt, layers,
-                   {{frame_tag, map.crs_wkt.empty() ? "none" : map.crs_wkt}});
-  if (!seal_file(path)) throw InputError({path}, "cannot be sealed");
+  write_geopackage(
+      path, map.crs_wkt, layers,
+      {{frame_tag, map.crs_wkt.empty() ? "none" : map.crs_wkt}, {seal_tag, map_digest(map)}});
 }
 
 std::optional<InputsRequest> canonical_request(const std::string& path) {
-  if (!is_sealed(path)) return std::nullopt;
+  if (!lower(path).ends_with(".gpkg")) return std::nullopt;
   const VectorDataset opened = open_vectors(parse_source_path(path));
   const char* const frame = opened.dataset->GetMetadataItem(frame_tag);
-  if (frame == nullptr) return std::nullopt;
+  const char* const seal = opened.dataset->GetMetadataItem(seal_tag);
+  if (frame == nullptr || seal == nullptr) return std::nullopt;
   InputsRequest request;
   request.has_frame = true;
   request.frame = frame == std::string("none") ? "" : frame;
+  request.seal = seal;
   for (const auto& [role, name] : roles)
     if (opened.dataset->GetLayerByName(name) != nullptr)
       request.layers.push_back({role, {path + "|layername=" + name, "geometry.Z", 0}});

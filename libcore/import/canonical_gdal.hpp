@@ -22,8 +22,8 @@ void measure(const ContourMap& map, ImportReading& reading);
 /// and reading give the same bytes. Throws InputError when it cannot be written.
 void write_canonical(const std::string& path, const ContourMap& map, const ImportReading& reading);
 
-/// The request for the layers of such a file; nothing where it is another one, or was changed since
-/// it was sealed: then it is a file like any other.
+/// The request for the layers of such a file; nothing for another one, or a layer of it that is
+/// named. import_map() refuses it where it was changed since.
 [[nodiscard]] std::optional<InputsRequest> canonical_request(const std::string& path);
 
 }  // namespace talus

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/file_paths.hpp"
+#include "base/sha256.hpp"
 #include "import/raw_inputs_gdal.hpp"
 #include "terrain/tin_mesh.hpp"
 
@@ -47,6 +49,16 @@ void make_relative(ContourMap& map) {
 
 }  // namespace
 
+std::string map_digest(const ContourMap& map) {
+  Sha256 hash;
+  hash.add(map.origin.data(), sizeof map.origin);
+  for (const auto* points : {&map.contours.points, &map.breaklines.points, &map.spots})
+    for (const Vec3& point : *points) hash.add(point.data(), sizeof point);
+  for (const BoundaryRing& ring : map.boundary)
+    for (const Vec2& point : ring.points) hash.add(point.data(), sizeof point);
+  return hash.hex();
+}
+
 ContourMap import_map(const InputsRequest& request, ImportReading& reading) {
   RawInputs raw = read_inputs(request);
   ContourMap map;
@@ -65,6 +77,11 @@ ContourMap import_map(const InputsRequest& request, ImportReading& reading) {
   reading = std::move(raw.reading);
   make_relative(map);
   check_boundary(map, boundary);
+  if (!request.seal.empty() && map_digest(map) != request.seal)
+    throw InputError(
+        {file_of(map.source)}, "was changed since talus-import wrote it",
+        "write it anew (make does when it is gone), or take a layer of it as it is: '" +
+            map.source + "'");
   return map;
 }
 

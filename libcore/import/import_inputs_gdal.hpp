@@ -17,8 +17,12 @@ namespace talus {
 /// Contours, breaklines, spot heights and boundary, or points of the ground as spots of a map
 /// without contours. All is in the frame of the request. The origin is the lower left corner of the
 /// ground, floored to 100 m (z: 0). Throws InputError where anything is missing or cannot be true:
-/// see docs/tools/talus-tin.md. Laser scans are refused with the command that makes text of them.
+/// see docs/tools/talus-tin.md. Laser scans are refused with the command that makes
+/// text of them, and a file of talus-import that was changed since.
 [[nodiscard]] ContourMap import_map(const InputsRequest& request, ImportReading& reading);
+
+/// SHA-256 of all coordinates of a map.
+[[nodiscard]] std::string map_digest(const ContourMap& map);
 
 /// Points with a height in map coordinates, in `crs_wkt` [m]: what a terrain is held against. A
 /// missing CRS, of the source or in `crs_wkt`, means the same one. Throws InputError.

@@ -60,6 +60,7 @@ struct InputsRequest : SystemsByUser {
   /// or points, is the ground, and the frame is its system, or t_srs.
   bool has_frame = false;
   std::string frame;  ///< empty: local metres
+  std::string seal;   ///< map_digest() of what talus-import wrote; empty: it did not
 };
 
 }  // namespace talus

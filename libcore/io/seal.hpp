@@ -1,4 +1,4 @@
-// libcore/io/seal.hpp: public
+// libcore/io/seal.hpp
 // The seal of a file: the SHA-256 of all bytes before it, as text at the end of the file.
 //
 // It stands behind the HDF5 file, where HDF5 does not look: the library itself does not survive
@@ -12,9 +12,6 @@ namespace talus {
 
 /// To be put behind these bytes.
 [[nodiscard]] std::string seal_of(const void* bytes, std::size_t n_bytes);
-
-/// Puts the seal behind a file. False when that fails.
-[[nodiscard]] bool seal_file(const std::string& path);
 
 /// Whether the file ends with the seal of what comes before.
 [[nodiscard]] bool is_sealed(const std::string& path);

@@ -5,7 +5,6 @@
 #endif
 
 #include "base/memory.hpp"
-#include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "import/import_inputs_gdal.hpp"
@@ -80,20 +79,10 @@ void check_together(const Options& o) {
                    "--hold-out-every and --hold-out go together, only one is given");
 }
 
-std::string digest_of(const ContourMap& map) {
-  talus::Sha256 hash;
-  hash.add(map.origin.data(), sizeof map.origin);
-  for (const auto* points : {&map.contours.points, &map.breaklines.points, &map.spots})
-    for (const talus::Vec3& point : *points) hash.add(point.data(), sizeof point);
-  for (const talus::BoundaryRing& ring : map.boundary)
-    for (const talus::Vec2& point : ring.points) hash.add(point.data(), sizeof point);
-  return hash.hex();
-}
-
 ContourMap read_map(Tool& tool, Options& o, talus::ImportReading& reading) {
   ContourMap map = talus::import_map(o.request, reading);
   if (!o.inputs.of_points) talus::check_heights(map);
-  tool.content_read("map", digest_of(map));
+  tool.content_read("map", talus::map_digest(map));
   talus::say_reading(tool, reading);
   return map;
 }

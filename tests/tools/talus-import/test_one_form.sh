@@ -59,10 +59,13 @@ expect 0 talus-tin survey.gpkg -o imported.ply --overwrite
 expect 0 talus-tin survey.csv --points --crs EPSG:32632 -o direct.ply --overwrite
 cmp -s direct.ply imported.ply || fail "points pass the border as something else"
 
-# a file that was changed since is one like any other
+# a file that was only looked at, one that was changed since, and a layer of it
 ogr2ogr -q -update -nln more inputs.gpkg map.geojson
+expect 0 talus-tin inputs.gpkg -o looked_at.ply
+ogrinfo -q inputs.gpkg -sql "DELETE FROM contours WHERE fid = 1" >/dev/null
 expect 1 talus-tin inputs.gpkg -o bad.ply
-says "2 layers hold lines, expected one"
+says "inputs.gpkg: was changed since talus-import wrote it"
+says "or take a layer of it as it is: 'inputs.gpkg|layername=contours'"
 expect 0 talus-tin 'inputs.gpkg|layername=contours' -o changed.ply --t-srs EPSG:25833
 expect 1 talus-import site.toml --contours none.geojson -o bad.gpkg
 printf '[terrain]\ndem = "dem.tif"\n' >dem.toml
