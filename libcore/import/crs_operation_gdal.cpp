@@ -200,10 +200,6 @@ bool carry_out(const CrsOperation& operation, std::vector<Vec3>& points) {
   return true;
 }
 
-bool reproject(const std::string& from, const std::string& to, std::vector<Vec3>& points) {
-  return points.empty() || carry_out(find_operation(from, to, window_of(points, from), {}), points);
-}
-
 std::string sentence_on(const CrsOperation& operation) {
   return "reprojected from " + crs_name(operation.from) + " to " + crs_name(operation.to) +
          " by \"" + operation.name + "\", " +

@@ -39,12 +39,6 @@ struct CrsOperation {
 /// taken; `points` are then spoilt.
 [[nodiscard]] bool carry_out(const CrsOperation& operation, std::vector<Vec3>& points);
 
-/// Takes points from one CRS to another in plan by find_operation(), x (east, longitude) first;
-/// heights stay. False when a point cannot be taken there; `points` are then spoilt. Throws
-/// InputError as find_operation().
-[[nodiscard]] bool reproject(const std::string& from, const std::string& to,
-                             std::vector<Vec3>& points);
-
 /// "reprojected from A to B by "MGI to ETRS89 (1)", good to 1.5 m".
 [[nodiscard]] std::string sentence_on(const CrsOperation& operation);
 
