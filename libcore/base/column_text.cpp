@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -97,7 +98,8 @@ void check_encoding(const std::string& text, const std::string& file) {
   const bool is_utf16 = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
   if (is_utf16 || text.find('\0') != std::string::npos)
     throw InputError({file}, "is no plain text (UTF-16, or binary), expected columns of numbers",
-                     "save it as CSV in UTF-8; iconv -f UTF-16 -t UTF-8 does it for UTF-16");
+                     "save it as CSV in UTF-8; of UTF-16: iconv -f UTF-16 -t UTF-8 " +
+                         command_words(file) + " > columns.csv");
 }
 
 std::string_view without_mark(const std::string& text) {

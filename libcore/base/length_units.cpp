@@ -1,6 +1,7 @@
 // The words that files write for units of length.
 #include "base/length_units.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 #include <string_view>
 
@@ -40,6 +41,16 @@ std::string letters_of(const std::string& word) {
   return letters;
 }
 
+// "m NHN", "metres above sea level": a system of heights follows the unit.
+bool is_metres_of_a_system(const std::string& words) {
+  const std::size_t blank = words.find(' ');
+  if (blank == std::string::npos || words.find_first_of("0123456789/*") != std::string::npos)
+    return false;
+  const std::string first = letters_of(words.substr(0, blank));
+  const auto& known = units[0].words;
+  return std::find(known.begin(), known.end(), first) != known.end();
+}
+
 }  // namespace
 
 bool is_no_unit(const std::string& word) {
@@ -51,6 +62,7 @@ bool is_no_unit(const std::string& word) {
 
 double metres_in(const std::string& word) {
   const std::string letters = letters_of(word);
+  if (is_metres_of_a_system(word)) return 1;
   for (const Unit& unit : units)
     for (const std::string_view known : unit.words)
       if (letters == known) return unit.metres;

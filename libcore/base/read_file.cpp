@@ -1,5 +1,6 @@
 #include "base/read_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
@@ -21,6 +22,14 @@ std::string read_file(const std::string& path, const std::string& hint) {
   } while (file);
   if (!file.eof()) throw InputError({path}, "cannot be read", hint);
   return content;
+}
+
+std::string first_bytes(const std::string& path, std::size_t n) {
+  std::string head(n, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(n));
+  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  return head;
 }
 
 }  // namespace talus

@@ -9,4 +9,7 @@ namespace talus {
 /// it goes on for longer than there is memory.
 [[nodiscard]] std::string read_file(const std::string& path, const std::string& hint = "");
 
+/// The first bytes of a file, at most n; none where it cannot be read.
+[[nodiscard]] std::string first_bytes(const std::string& path, std::size_t n);
+
 }  // namespace talus

@@ -74,7 +74,12 @@ void find_file(SourcePath& path) {
   path.source = archive_prefix(file) + path.source;
 }
 
-// As it is where nothing in it means something to a shell.
+}  // namespace
+
+std::string without_layer(const std::string& name) {
+  return name.substr(0, exists(name) ? std::string::npos : next_part(name, 0));
+}
+
 std::string shell_word(const std::string& word) {
   const auto is_plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
@@ -84,12 +89,6 @@ std::string shell_word(const std::string& word) {
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
-}
-
-}  // namespace
-
-std::string without_layer(const std::string& name) {
-  return name.substr(0, exists(name) ? std::string::npos : next_part(name, 0));
 }
 
 std::string command_words(const std::string& name) {

@@ -26,6 +26,9 @@ struct SourcePath {
 /// that holds a command names.
 [[nodiscard]] std::string command_words(const std::string& name);
 
+/// A word of a command, quoted where something in it means something to a shell.
+[[nodiscard]] std::string shell_word(const std::string& word);
+
 /// The prefix by which GDAL looks into an archive ("/vsizip/"); empty when it is none by its name.
 [[nodiscard]] std::string archive_prefix(const std::string& file);
 

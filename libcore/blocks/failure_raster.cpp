@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/percentile.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -69,8 +70,8 @@ void lower_by_thickness(const Trn& ground, const Area& area, const Where& where,
     throw InputError(where,
                      "the thickness is " + text(lowest(values.raster), 6) + " m at x " +
                          text(at.x(), 10) + ", y " + text(at.y(), 10) + ", expected 0 or more",
-                     "heights lost minus, heights gained plus? Turn the sign: gdal_calc.py -A "
-                     "thickness.tif --calc=-A --outfile turned.tif");
+                     "heights lost minus, heights gained plus? Turn the sign: gdal_calc.py -A " +
+                         command_words(where.file) + " --calc=-A --outfile turned.tif");
   }
   if (!values.raster.empty()) {
     const double size = std::sqrt(area_of(area)), middle = median(values.raster);

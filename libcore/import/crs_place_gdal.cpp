@@ -286,10 +286,10 @@ std::string mended_command(const CrsExtent& place, const Where& where, const std
   const std::string named = code == "CRS" ? std::string() : " -a_srs " + code;
   if (place.is_raster)
     return function.starts_with("SwapCoords")
-               ? "look at its corners: gdalinfo " + where.file
+               ? "look at its corners: gdalinfo " + command_words(where.file)
                : "gdal_translate" + named + " -a_ullr " + text(moved.x_min, 12) + " " +
                      text(moved.y_max, 12) + " " + text(moved.x_max, 12) + " " +
-                     text(moved.y_min, 12) + " " + where.file + " mended.tif";
+                     text(moved.y_min, 12) + " " + command_words(where.file) + " mended.tif";
   if (place.layer.empty()) return "write them as x, y in metres of that system";
   if (is_table_name(where.file))
     return function.starts_with("SwapCoords")
@@ -298,7 +298,7 @@ std::string mended_command(const CrsExtent& place, const Where& where, const std
                : "compute the eastings and northings of that system in the table";
   const std::string column = place.geometry_column.empty() ? "geometry" : place.geometry_column;
   const std::size_t hole = function.find('@');
-  return "ogr2ogr" + named + " -f GPKG -nln mended mended.gpkg " + where.file +
+  return "ogr2ogr" + named + " -f GPKG -nln mended mended.gpkg " + command_words(where.file) +
          " -dialect sqlite -sql 'SELECT " + function.substr(0, hole) + column +
          function.substr(hole + 1) + " AS " + column + ", * FROM \"" + place.layer + "\"'";
 }
@@ -309,20 +309,38 @@ std::string way_out(const CrsExtent& place, const Where& where) {
   if (!place.crs_said_in.empty())
     return "is it the CRS of these coordinates? " + place.crs_said_in + " says so";
   return "is it the CRS of these coordinates? name the right one in the file: " +
-         std::string(place.is_raster
-                         ? "gdal_translate -a_srs EPSG:code " + where.file + " named.tif"
-                         : "ogr2ogr -a_srs EPSG:code named.gpkg " + where.file);
+         (place.is_raster
+              ? "gdal_translate -a_srs EPSG:code " + command_words(where.file) + " named.tif"
+              : "ogr2ogr -a_srs EPSG:code named.gpkg " + command_words(where.file));
 }
 
 std::string way_to_zone(const CrsExtent& place, const Where& where, const Vec2& lon_lat) {
-  const std::string zone = utm_zone(lon_lat);
+  const std::string zone = utm_zone(place.crs_wkt, lon_lat);
   const std::string to = zone.empty() ? "EPSG:code" : zone;
   if (!place.way_to_other_crs.empty()) return place.way_to_other_crs + " " + to;
-  if (!place.has_crs_option) return "reproject it to " + to + " first";
-  return "--t-srs " + to +
-         (place.is_raster ? ", or " + warp_command(CellKind::heights, "-t_srs " + to, where.file,
-                                                   "projected.tif")
-                          : " reprojects");
+  if (place.has_crs_option) return "--t-srs " + to + " reprojects";
+  if (!place.is_raster) return "reproject it to " + to + " first";
+  return warp_command(CellKind::heights, "-t_srs " + to, where.file, "projected.tif");
+}
+
+// Code of zone 0 of UTM on the datum of the map, where it has codes of its own; else on WGS 84. To
+// another datum a shift is needed that PROJ may not know.
+int zones_on_datum(const std::string& crs_wkt, int zone, bool is_south) {
+  struct Zones {
+    const char* datum;  // code of its longitudes and latitudes
+    bool is_south;
+    int before, first, last;
+  };
+  const std::unique_ptr<OGRSpatialReference> base(parse_plan(crs_wkt).CloneGeogCS());
+  const char* const code = base ? base->GetAuthorityCode(nullptr) : nullptr;
+  for (const Zones& zones : {Zones{"4258", false, 25800, 28, 38},  // ETRS89
+                             Zones{"4269", false, 26900, 1, 23},   // NAD83
+                             Zones{"6318", false, 6329, 1, 19},    // NAD83(2011)
+                             Zones{"7844", true, 7800, 46, 59}})   // GDA2020
+    if (code != nullptr && zones.datum == std::string(code) && zones.is_south == is_south &&
+        zones.first <= zone && zone <= zones.last)
+      return zones.before;
+  return is_south ? 32700 : 32600;
 }
 
 class Guesses {
@@ -363,7 +381,7 @@ class Guesses {
               ? place_.crs_said_in + " says metres, and they would be in EPSG:4326"
               : "name the CRS that they are in: ogr2ogr -a_srs EPSG:4326 -f GPKG "
                 "named.gpkg " +
-                    where_.file};
+                    command_words(where_.file)};
     }
     return std::nullopt;
   }
@@ -566,11 +584,11 @@ void check_axes(const Ground& ground, const std::vector<Vec2>& places, const Crs
 
 }  // namespace
 
-std::string utm_zone(const Vec2& lon_lat) {
+std::string utm_zone(const std::string& crs_wkt, const Vec2& lon_lat) {
   const double longitude = std::remainder(lon_lat.x(), 360), latitude = lon_lat.y();
   if (!(std::abs(latitude) <= 84)) return {};
   const int zone = std::min(60, 1 + static_cast<int>(std::floor((longitude + 180) / 6)));
-  return "EPSG:" + std::to_string((latitude < 0 ? 32700 : 32600) + zone);
+  return "EPSG:" + std::to_string(zones_on_datum(crs_wkt, zone, latitude < 0) + zone);
 }
 
 std::optional<Vec2> degrees_at(const std::string& crs_wkt, const Vec2& place) {
@@ -678,7 +696,7 @@ std::string describe_problem(const OGRSpatialReference& srs) {
 
 std::string zone_of(const std::string& crs_wkt, const Vec2& place) {
   const std::optional<Vec2> lon_lat = degrees_at(crs_wkt, place);
-  return lon_lat ? utm_zone(*lon_lat) : std::string();
+  return lon_lat ? utm_zone(crs_wkt, *lon_lat) : std::string();
 }
 
 }  // namespace

@@ -30,8 +30,9 @@ struct DegreeWindow {
 /// not reach.
 [[nodiscard]] std::optional<Vec2> degrees_at(const std::string& crs_wkt, const Vec2& place);
 
-/// UTM zone of a longitude and latitude [degrees], "EPSG:32632"; empty near the poles.
-[[nodiscard]] std::string utm_zone(const Vec2& longitude_latitude);
+/// UTM zone of a longitude and latitude [degrees] on the datum of a system, "EPSG:32632"; empty
+/// near the poles.
+[[nodiscard]] std::string utm_zone(const std::string& crs_wkt, const Vec2& longitude_latitude);
 
 /// Why a CRS cannot be computed in, and what to reproject to.
 struct CrsProblem {

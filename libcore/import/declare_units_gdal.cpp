@@ -50,8 +50,9 @@ double height_unit_of(const RawLayer& layer, const std::string& crs, double by_u
                       ImportReading& reading) {
   const bool has_option = layer.role != InputRole::reference;
   const std::string way_out =
-      has_option ? "--elevation-unit-m METRES: " + text(length_unit_m(crs), 12) +
-                       " where they are in the unit of the plan, 1 where they are metres"
+      has_option ? "--elevation-unit-m " + text(length_unit_m(crs), 12) +
+                       " where they are in the unit of the plan, --elevation-unit-m 1 where they "
+                       "are metres"
                  : "name the system of heights with the CRS in the file, e.g. NAVD88 in US survey "
                    "feet: ogr2ogr -a_srs " +
                        crs_code(crs) + "+6360 named.gpkg " + command_words(layer.path()) +

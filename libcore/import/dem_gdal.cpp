@@ -37,10 +37,14 @@ std::string size_text(int n_rows, int n_cols) {
   return std::to_string(n_cols) + " x " + std::to_string(n_rows) + " cells";
 }
 
-// The system that heights in another unit are in says the unit too, so the copy is given the plan
-// alone.
+// The system that heights in another unit are in says the unit too. The copy is given the plan
+// alone, and where that is in feet, the system in metres of the country that measures so.
 std::string metres_command(double unit_m, const std::string& crs, const std::string& path) {
-  return scale_command(unit_m, height_crs(crs).empty() ? std::string() : crs_code(crs), path);
+  const bool is_in_feet = length_unit_m(crs) != 1;
+  const std::string plan = crs_code(crs);
+  const bool is_named = plan.find(':') != std::string::npos;
+  if (!is_named || (height_crs(crs).empty() && !is_in_feet)) return scale_command(unit_m, "", path);
+  return scale_command(unit_m, plan + (is_in_feet ? "+5703" : ""), path);
 }
 
 // The unit of the heights as the band says it; empty where it says none.
@@ -76,9 +80,9 @@ void check_unit_of_heights(GDALDataset& dataset, const std::string& crs, const s
   if (!said_unit(*dataset.GetRasterBand(1)).empty() || !options.vertical_crs.empty()) return;
   (void)height_unit_m(
       crs, {path},
-      "in metres: --vertical-crs with their system, e.g. EPSG:5703 (NAVD88); in the units of the "
-      "plan: " +
-          metres_command(length_unit_m(crs), crs, path) + ", then the former of metres.tif");
+      "where they are in metres: --vertical-crs EPSG:5703 (NAVD88), or the code of their system; "
+      "where they are in the units of the plan: " +
+          metres_command(length_unit_m(crs), crs, path));
 }
 
 // The lattice of the cell centres; refuses what no TRN can stand on.
@@ -181,7 +185,8 @@ std::string local_metres_command(double unit_m, const MapWindow& w, const std::s
                            path, "metres.tif");
 }
 
-void check_crs(const std::string& crs, const std::string& path, const MapWindow& edges) {
+void check_crs(const std::string& crs, const std::string& path, const MapWindow& edges,
+               bool has_options) {
   if (crs.empty()) return;
   const Vec2 place(0.5 * (edges.x_min + edges.x_max), 0.5 * (edges.y_min + edges.y_max));
   const CrsProblem problem = find_crs_problem(crs, place);
@@ -190,12 +195,13 @@ void check_crs(const std::string& crs, const std::string& path, const MapWindow&
     throw InputError({path}, problem.finding, metres_command(problem.height_unit_m, crs, path));
   if (is_local(crs))
     throw InputError({path}, problem.finding,
-                     local_metres_command(length_unit_m(crs), edges, path) +
-                         " makes metres of plan and heights; then --crs none");
+                     "metres of plan and heights, for --crs none: " +
+                         local_metres_command(length_unit_m(crs), edges, path));
   const std::string to = problem.mend_to.empty() ? "EPSG:code" : problem.mend_to;
   throw InputError({path}, problem.finding,
-                   "--t-srs " + to + ", or " +
-                       warp_command(CellKind::heights, "-t_srs " + to, path, "projected.tif"));
+                   has_options
+                       ? "--t-srs " + to + " reprojects"
+                       : warp_command(CellKind::heights, "-t_srs " + to, path, "projected.tif"));
 }
 
 }  // namespace
@@ -249,7 +255,7 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
     impl_->take_to(options.t_srs, options.accept_ballpark, edges);
     if (impl_->warped) dataset = impl_->warped.get();
   }
-  check_crs(impl_->crs, path, edges_of(*dataset));
+  check_crs(impl_->crs, path, edges_of(*dataset), !options.crs_may_be_missing);
   impl_->frame = frame_of_raster(*dataset, path);
   if (!impl_->warped) {
     const MapWindow read = intersection(edges, options.window);
@@ -337,18 +343,24 @@ void DemFile::Impl::check_most_values(const double* raw, std::size_t n) const {
     low = std::min(low, z), high = std::max(high, z);
   }
   if (2 * n_beyond <= n_known || low == high) return;
-  constexpr double highest_summit = 8850;
-  const double unit_m = high * 0.1 < highest_summit    ? 0.1
-                        : high * 0.01 < highest_summit ? 0.01
-                                                       : 0.001;
-  const char* const name = unit_m == 0.1    ? "decimetres"
-                           : unit_m == 0.01 ? "centimetres"
-                                            : "millimetres";
+  struct Unit {
+    const char* name;
+    double metres;
+  };
+  std::string readings, ways;
+  for (const Unit& unit : {Unit{"feet", 0.3048}, Unit{"decimetres", 0.1}, Unit{"centimetres", 0.01},
+                           Unit{"millimetres", 0.001}}) {
+    if (high * unit.metres > highest_elevation) continue;
+    readings += std::string(readings.empty() ? "; as " : ", as ") + unit.name + " they would be " +
+                text(low * unit.metres, 8) + " to " + text(high * unit.metres, 8) + " m";
+    ways += (ways.empty() ? "if they are " : "; if they are ") + std::string(unit.name) + ": " +
+            metres_command(unit.metres, crs, path);
+    if (unit.metres < 0.3) break;
+  }
   throw InputError({path},
                    "the elevations are " + text(low, 8) + " to " + text(high, 8) +
-                       ", expected metres; as " + name + " they would be " + text(low * unit_m, 8) +
-                       " to " + text(high * unit_m, 8) + " m",
-                   "if they are " + std::string(name) + ": " + metres_command(unit_m, crs, path));
+                       ", expected metres" + readings,
+                   ways);
 }
 
 void DemFile::Impl::check_value(double raw, const Where& place) const {
@@ -382,8 +394,9 @@ void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) 
         {impl_->path},
         "reading rows " + std::to_string(row) + " to " + std::to_string(row + n_rows - 1) + " of " +
             size_text(impl_->frame.n_rows, impl_->frame.n_cols) + " failed: " + errors.failure(),
-        names_other_format ? translate_command("", impl_->path, "one.tif") + " makes one file of it"
-                           : "the file is damaged or cut short: fetch it again");
+        names_other_format
+            ? "make one file of it: " + translate_command("", impl_->path, "one.tif")
+            : way_to_read(impl_->path, "the file is damaged or cut short: fetch it again"));
   }
   for (std::size_t i = 0; i < n; ++i) {
     double& z = elevation[i];
@@ -391,7 +404,7 @@ void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) 
       z = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
-    if (impl_->has_heights && !(std::abs(z) < 9999)) {
+    if (impl_->has_heights && !(std::abs(z) <= highest_elevation)) {
       if (z > highest_elevation) impl_->check_most_values(elevation + i, n - i);
       impl_->check_value(z, impl_->where(i, row, col, n_cols));
     }

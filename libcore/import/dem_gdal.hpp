@@ -60,7 +60,7 @@ class DemFile {
 
   /// Elevations of n_rows x n_cols nodes from (row, col) on, NaN = unknown [m]. Throws InputError
   /// with the place for a file that ends early and for values that are no elevations: infinite,
-  /// beyond +-12,000 m, or one of the usual nodata values while the file declares another or none.
+  /// beyond +-9,000 m, or one of the usual nodata values while the file declares another or none.
   void read(int row, int n_rows, int col, int n_cols, double* elevation) const;
 
  private:

@@ -41,8 +41,8 @@ void check_labels_beside(const RawLayer& contours, const RawLayer& labels) {
     throw InputError({labels.path()},
                      "the labels are in " + crs_name(labels.own_crs) + ", the contours in " +
                          crs_name(contours.own_crs) + ", expected one CRS",
-                     "ogr2ogr -t_srs " + crs_code(contours.own_crs) + " labels.gpkg " +
-                         command_words(labels.path()) + " takes them there");
+                     "take them there: ogr2ogr -t_srs " + crs_code(contours.own_crs) +
+                         " labels.gpkg " + command_words(labels.path()));
   const DrawingUnit drawn = drawing_unit(contours.source.dataset->GetDescription());
   const DrawingUnit written = drawing_unit(labels.source.dataset->GetDescription());
   if (drawn.metres > 0 && written.metres > 0 && drawn.metres != written.metres)

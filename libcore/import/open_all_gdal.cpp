@@ -13,6 +13,7 @@
 #include "import/raw_inputs_gdal.hpp"
 #include "io/areas_gdal.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/raster_commands.hpp"
 
 namespace talus {
 namespace {
@@ -22,10 +23,7 @@ void refuse_laser_scan(const std::string& path) {
   const std::string extension = lower(std::filesystem::path(path).extension().string());
   if (extension != ".las" && extension != ".laz" && extension != ".e57") return;
   throw InputError({path}, "is a laser scan, which is not read as it is",
-                   "pdal translate " + command_words(path) +
-                       " ground.csv -f filters.range "
-                       "--filters.range.limits=\"Classification[2:2]\" "
-                       "--writers.text.order=X,Y,Z --writers.text.keep_unspecified=false");
+                   ground_points_command(path));
 }
 
 const char* name_of(InputRole role) {

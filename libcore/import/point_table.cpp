@@ -208,19 +208,22 @@ class Decimals {
   double number(const std::string& word, const Where& where) {
     double value = 0;
     if (!parse_decimal(word, value))
-      throw InputError(where, "says \"" + word + "\", expected a number",
-                       "mend the line, or take it out");
+      throw InputError(
+          where, "says \"" + word + "\", expected a number",
+          word.find_first_of("0123456789") < 2 ? with_a_point : "mend the line, or take it out");
     has_comma_ = has_comma_ || word.find(',') != std::string::npos;
     has_point_ = has_point_ || word.find('.') != std::string::npos;
     if (has_comma_ && has_point_)
       throw InputError(
           where,
           "the file has numbers with a decimal comma and with a point, last \"" + word + "\"",
-          "write all of them with a point, and without signs between thousands");
+          with_a_point);
     return value;
   }
 
  private:
+  static constexpr const char* with_a_point =
+      "write all numbers with a point, and without signs between thousands";
   bool has_comma_ = false, has_point_ = false;
 };
 

@@ -65,8 +65,8 @@ void take_to_frame(RawInputs& raw) {
     for (Vec3& point : layer.lines.points) point.z() *= layer.taken.unit_m;
     for (const Vec3& point : layer.lines.points)
       check_elevation(point, layer.path(),
-                      "feet need --elevation-unit-m 0.3048; choose another field where this one "
-                      "holds no elevations");
+                      "feet need --elevation-unit-m 0.3048, centimetres 0.01; choose another field "
+                      "where this one holds no elevations");
     take_heights(layer, raw);
   }
   const std::string& vertical = raw.request.t_vertical;

@@ -27,6 +27,7 @@
 #include "import/systems_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/mesh.hpp"
 #include "io/tin_ply.hpp"
 #include "terrain/grid_tin.hpp"
 
@@ -39,18 +40,12 @@ std::string extension_of(const std::string& path) {
   return lower(std::filesystem::path(path).extension().string());
 }
 
-std::string first_bytes(const std::string& path, std::size_t n) {
-  std::string head(n, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(head.data(), static_cast<std::streamsize>(n));
-  head.resize(std::max<std::streamsize>(file.gcount(), 0));
-  return head;
-}
-
 bool is_ply(const std::string& path) {
   const std::string head = first_bytes(path, 4);
   return extension_of(path) == ".ply" || head.starts_with("ply\n") || head.starts_with("ply\r");
 }
+
+bool is_obj(const std::string& path) { return extension_of(path) == ".obj"; }
 
 bool is_landxml(const std::string& path) {
   const std::string extension = extension_of(path);
@@ -330,6 +325,42 @@ TinFile read_landxml(const std::string& path, const std::string& layer, double u
   return file;
 }
 
+// --- OBJ -----------------------------------------------------------------------------------------
+
+// Some programs write y as the height, which the file does not say.
+std::string doubt_on_height(const Polyhedron& surface, const std::string& path) {
+  Vec3 seen = Vec3::Zero();
+  for (int f = 0; f < n_faces(surface); ++f) seen += face_area_vector(surface, f).cwiseAbs();
+  if (seen.y() <= seen.z()) return {};
+  return path + ": more of it is seen along y than from above (" + text(seen.y(), 3) + " and " +
+         text(seen.z(), 3) + " m2): is y the height? Then export it with z up";
+}
+
+// A mesh names neither its unit nor its system. Polygons are cut into fans.
+TinFile read_obj(const std::string& path, double user_unit_m) {
+  Polyhedron surface = parse_obj(read_file(path), path).surface;
+  FaceCollector faces;
+  std::vector<int> number;
+  for (Vec3& p : surface.vertices) {
+    p *= user_unit_m > 0 ? user_unit_m : 1;
+    number.push_back(faces.point(p));
+  }
+  for (int f = 0; f < n_faces(surface); ++f) {
+    const std::span<const int> corners = face(surface, f);
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+      faces.triangle(number[index(corners[0])], number[index(corners[k])],
+                     number[index(corners[k + 1])]);
+  }
+  if (faces.n_triangles() == 0) throw InputError({path}, "no face has an area in plan");
+  TinFile file;
+  file.notes.push_back(path + ": " + counted(faces.n_triangles(), "triangle") + ", z up");
+  if (const std::string doubt = doubt_on_height(surface, path); !doubt.empty())
+    file.warnings.push_back(doubt);
+  note_upright(faces, file, path);
+  file.tin = faces.take();
+  return file;
+}
+
 TinFile read_ply(const std::string& path) {
   TinFile file;
   file.tin = read_tin(path);
@@ -340,7 +371,7 @@ TinFile read_ply(const std::string& path) {
 
 bool is_tin_file(const std::string& source) {
   const std::string path = file_of(source);
-  return is_ply(path) || is_landxml(path) || extension_of(path) == ".dxf";
+  return is_ply(path) || is_landxml(path) || is_obj(path) || extension_of(path) == ".dxf";
 }
 
 namespace {
@@ -348,6 +379,7 @@ namespace {
 TinFile read_any(const LayerRef& choice) {
   const std::string path = file_of(choice.path);
   const bool is_surface = is_landxml(path);
+  if (is_obj(path)) return read_obj(path, choice.unit_m);
   if (!is_ply(path) && !is_surface) return read_drawing(choice);
   const SourcePath named = parse_source_path(choice.path);
   if (!is_surface && (path != choice.path || choice.unit_m != 0))
@@ -379,8 +411,12 @@ std::string crs_of_tin(const Tin& tin, const SystemsByUser& said, const std::str
   const std::string way_out =
       "a TIN is not reprojected: make it from the contours with talus-tin --t-srs";
   if (!problem.finding.empty())
-    throw InputError({path}, problem.finding,
-                     way_out + " " + (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to));
+    throw InputError(
+        {path}, problem.finding,
+        length_unit_m(crs) != 1
+            ? "name the system of the same projection in metres with --crs EPSG:code, "
+              "or --crs none for local metres"
+            : way_out + " " + (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to));
   CrsExtent place{crs, data};
   place.way_to_other_crs = way_out;
   place.crs_said_in = said.crs_given ? "--crs" : "the file";

@@ -1,5 +1,5 @@
 // libcore/import/tin_files_gdal.hpp: public
-// TINs of other programs: faces of CAD drawings (DXF), LandXML, PLY.
+// TINs of other programs: faces of CAD drawings (DXF), LandXML, OBJ, PLY.
 // in:    a file
 // out:   a TIN, its CRS if the file names one; what was passed over
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace talus {
 
-/// By name or first bytes: a PLY, a LandXML, or a drawing (DXF). A raster is none.
+/// By name or first bytes: a PLY, a LandXML, an OBJ, or a drawing (DXF). A raster is none.
 [[nodiscard]] bool is_tin_file(const std::string& source);
 
 struct TinFile {
@@ -26,9 +26,10 @@ struct TinFile {
 
 /// Faces of a drawing: 3DFACE and meshes of its only layer with faces, or of those that are chosen;
 /// a face of four corners is two triangles. LandXML: the only surface, or that of the layer's name,
-/// without its invisible faces. Other units than metres are refused unless they are said (`unit_m`,
-/// which scales plan and heights). Triangles without an area in plan are left out and counted.
-/// Throws InputError, also for layers or a unit of a file that has none.
+/// without its invisible faces. OBJ: all faces, z up, cut into fans; it says no unit. Other units
+/// than metres are refused unless they are said (`unit_m`, which scales plan and heights).
+/// Triangles without an area in plan are left out and counted. Throws InputError, also for layers
+/// or a unit of a file that has none.
 [[nodiscard]] TinFile read_tin_file(const LayerRef& choice);
 
 /// The CRS of a TIN, WKT, or what the user says of one without; empty: local metres. Throws

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "io/errors_gdal.hpp"
 
@@ -72,6 +73,18 @@ bool are_shapefiles_of_one_folder(const std::vector<std::string>& members) {
   });
 }
 
+// One raster of the tiles in an archive.
+std::string tiles_command(const std::string& archive, const std::string& member) {
+  const std::string folder = fs::path(archive).stem().string();
+  const std::string unpack = archive_prefix(archive) == "/vsizip/"
+                                 ? "unzip -q " + shell_word(archive) + " -d " + shell_word(folder)
+                                 : "mkdir " + shell_word(folder) + " && tar -xf " +
+                                       shell_word(archive) + " -C " + shell_word(folder);
+  return "one raster of tiles: " + unpack + " && gdalbuildvrt all.vrt " +
+         shell_word((fs::path(folder) / member).parent_path().string()) + "/*" +
+         fs::path(member).extension().string();
+}
+
 std::string list_of(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
@@ -89,7 +102,7 @@ std::string source_in(const SourcePath& path, Contents contents,
   const std::vector<std::string> members = members_with(path.source, contents);
   if (members.empty())
     throw InputError({path.file}, "the archive holds no " + kind + " that GDAL reads",
-                     "unzip it, and look what it holds");
+                     "unpack it, and look what it holds");
   if (members.size() > 1 && are_shapefiles_of_one_folder(members)) {
     const std::string folder = fs::path(members.front()).parent_path().string();
     return folder.empty() ? path.source : path.source + "/" + folder;
@@ -100,7 +113,7 @@ std::string source_in(const SourcePath& path, Contents contents,
                          "s, expected one; they are: " + list_of(members),
                      contents == Contents::vectors
                          ? "name one: " + path.file + "/" + members.front()
-                         : "unzip it; gdalbuildvrt all.vrt *.tif makes one raster of tiles");
+                         : tiles_command(path.file, members.front()));
   remarks.push_back("read from " + members.front() + " in the archive");
   return path.source + "/" + members.front();
 }

@@ -81,7 +81,9 @@ void check(const OGRPolygon& polygon, const Where& where, const std::string& hin
 }  // namespace
 
 void check_polygon(const OGRPolygon& polygon, const Where& where) {
-  check(polygon, where, "mend it: ogr2ogr -makevalid mended.gpkg " + command_words(where.file));
+  check(polygon, where,
+        "put its corners in order there; of many polygons: ogr2ogr -makevalid mended.gpkg " +
+            command_words(where.file));
 }
 
 void check_polygon(const std::vector<Vec2>& corners, const Where& where) {

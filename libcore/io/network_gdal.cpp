@@ -19,6 +19,7 @@
 
 #include "base/error.hpp"
 #include "base/network.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -27,9 +28,14 @@ namespace {
 constexpr const char* refusal = "is on a network, which this tool does not use";
 constexpr const char* way_out =
     "fetch it first and name the copy, or give --allow-network for files that you trust";
-constexpr const char* copy_of_own =
-    "copy what it holds (gdal_translate to a GeoTIFF, ogr2ogr to a GeoPackage), or give "
-    "--allow-network for files that you trust";
+
+// What holds its own values once it is copied.
+std::string copy_of_own(const std::string& path, bool is_raster) {
+  return (is_raster
+              ? "copy what it holds: gdal_translate " + command_words(path) + " copy.tif"
+              : "copy what it holds: ogr2ogr -skipfailures copy.gpkg " + command_words(path)) +
+         ", or give --allow-network for files that you trust";
+}
 
 // Formats whose files hold their own values, or have them beside them under the same name.
 constexpr const char* trusted_drivers[] = {
@@ -220,14 +226,14 @@ void check_virtual(const std::string& name, int depth, int& n_read) {
     throw InputError(where,
                      "is one of more than " + std::to_string(most) +
                          " virtual data sets that lead to one another",
-                     "gdal_translate the first of them to a GeoTIFF where it is trusted");
+                     copy_of_own(name, text.find("<VRTDataset") != std::string::npos));
   if (depth > deepest)
     throw InputError(where, "is a virtual data set of virtual data sets without end");
   if (text.find("<GDAL_WMS") != std::string::npos) throw InputError(where, refusal, way_out);
   const Sources sources = sources_in(name, text);
   if (sources.has_raw_bytes)
     throw InputError(where, "is a virtual raster that takes the raw bytes of a file as heights",
-                     copy_of_own);
+                     copy_of_own(name, true));
   for (const std::string& source : sources.names) {
     if (is_elsewhere(source))
       throw InputError(where, "names " + source + ", which " + refusal, way_out);
@@ -270,7 +276,8 @@ void check_tables(GDALDataset& database, const std::string& path) {
     database.ReleaseResultSet(tables);
   }
   if (!found.empty())
-    throw InputError({path}, "its virtual table " + found + " reads other files", copy_of_own);
+    throw InputError({path}, "its virtual table " + found + " reads other files",
+                     copy_of_own(path, false));
 }
 
 std::string way_to_open(const std::string& path, const std::string& otherwise) {
@@ -283,7 +290,8 @@ std::string way_to_open(const std::string& path, const std::string& otherwise) {
   for (GDALDriver* const driver : drivers_taken_out())
     if (driver->pfnIdentify != nullptr && driver->pfnIdentify(&info) == 1)
       return "files of the format " + std::string(driver->GetDescription()) +
-             " may name other files: " + copy_of_own;
+             " may name other files: " +
+             copy_of_own(path, driver->GetMetadataItem(GDAL_DCAP_RASTER) != nullptr);
   return otherwise;
 }
 

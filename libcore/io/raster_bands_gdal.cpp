@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/read_file.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
@@ -72,24 +73,45 @@ void refuse_several_rasters(GDALDataset& dataset, const std::string& path) {
                    "give the name of one of them in place of the file: '" + names.front() + "'");
 }
 
+// The end of the names of the rasters in a folder: the first that GDAL knows.
+std::string extension_in(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    names.push_back(entry.path().string());
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names)
+    if (GDALIdentifyDriver(name.c_str(), nullptr) != nullptr)
+      return std::filesystem::path(name).extension().string();
+  return ".tif";
+}
+
 // Deliveries that need another step first.
 void refuse_what_is_not_a_raster(const std::string& path) {
   std::error_code error;
   const std::string extension = lower(std::filesystem::path(path).extension().string());
   const bool is_folder = std::filesystem::is_directory(path, error);
   if (is_folder && extension != ".adf" && GDALIdentifyDriver(path.c_str(), nullptr) == nullptr)
-    throw InputError(
-        {path}, "is a folder, expected a raster",
-        "gdalbuildvrt all.vrt " + command_words(path) + "/*.tif makes one raster of tiles");
+    throw InputError({path}, "is a folder, expected a raster",
+                     "one raster of tiles: gdalbuildvrt all.vrt " + shell_word(path) + "/*" +
+                         extension_in(path));
   if (extension == ".las" || extension == ".laz")
     throw InputError({path}, "is a laser scan, expected a raster",
-                     "write its ground points as text x,y,z with a program for point clouds, and "
-                     "give them to talus-tin --points");
+                     ground_points_command(path) + "; then talus-tin ground.csv --points");
 }
 
 }  // namespace
 
 void CloseDataset::operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+
+std::string way_to_read(const std::string& path, const std::string& otherwise) {
+  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  constexpr std::size_t enough = 1 << 16;
+  if (extension == ".asc" && lower(first_bytes(path, enough)).find("nan") != std::string::npos)
+    return "GDAL takes no row that begins with nan: sed 's/[nN][aA][nN]/-9999/g' " +
+           command_words(path) + " > known.asc";
+  return otherwise;
+}
 
 Dataset open_raster(const std::string& path) {
   register_gdal_drivers();
@@ -101,7 +123,8 @@ Dataset open_raster(const std::string& path) {
   Dataset dataset(GDALDataset::Open(source.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
   if (!dataset)
     throw InputError({path}, "cannot be opened as a raster: " + errors.failure(),
-                     way_to_open(source, "gdalinfo " + path + " shows what GDAL makes of it"));
+                     way_to_open(source, way_to_read(path, "gdalinfo " + command_words(path) +
+                                                               " shows what GDAL makes of it")));
   check_tables(*dataset, path);
   refuse_several_rasters(*dataset, path);
   return dataset;
@@ -147,7 +170,7 @@ void check_one_band(GDALDataset& dataset, const std::string& path) {
   if (n_bands == 1 || (n_bands == 2 && is_alpha(dataset, 2))) return;
   if (n_bands < 1)
     throw InputError({path}, "holds no raster",
-                     "gdalinfo " + path + " shows what GDAL makes of it");
+                     "gdalinfo " + command_words(path) + " shows what GDAL makes of it");
   if (is_picture(dataset))
     throw InputError({path}, "the bands are colours of a picture, expected one band",
                      "give the elevation model itself; of Terrain-RGB: gdal_calc.py -R " +

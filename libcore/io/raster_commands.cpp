@@ -42,4 +42,11 @@ std::string scale_command(double unit_m, const std::string& crs, const std::stri
                            from, "metres.tif");
 }
 
+std::string ground_points_command(const std::string& from) {
+  return "with PDAL, of which Debian 12 has no package (conda-forge has): pdal translate " +
+         command_words(from) +
+         " ground.csv -f filters.range --filters.range.limits=\"Classification[2:2]\" "
+         "--writers.text.order=X,Y,Z --writers.text.keep_unspecified=false";
+}
+
 }  // namespace talus

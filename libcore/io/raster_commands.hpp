@@ -23,4 +23,7 @@ enum class CellKind { heights, values, classes };
 [[nodiscard]] std::string scale_command(double unit_m, const std::string& crs,
                                         const std::string& from);
 
+/// The command that takes the ground of a laser scan as text, ground.csv.
+[[nodiscard]] std::string ground_points_command(const std::string& from);
+
 }  // namespace talus

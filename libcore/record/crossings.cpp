@@ -149,7 +149,7 @@ std::vector<Vec3> posts_on_ground(const Trn& trn, const std::vector<Vec2>& corne
     throw InputError(where,
                      "the line has " + std::to_string(corners.size()) + " points, expected up to " +
                          text(most_posts),
-                     "simplify it, such as ogr2ogr -simplify 0.5 simple.gpkg lines.gpkg");
+                     "simplify it");
   if (!(length / spacing <= most_posts))
     throw InputError(where,
                      "posts every " + text(spacing) + " m are " + text(length / spacing, 3) +

@@ -334,8 +334,7 @@ void check_number_of_corners(const Area& area, const Where& where) {
     throw InputError(where,
                      "the source area has " + std::to_string(n) + " corners, expected at most " +
                          std::to_string(most),
-                     "simplify the outline to what the joints can show, such as ogr2ogr -simplify "
-                     "0.5 simple.gpkg outline.gpkg");
+                     "simplify the outline to what the joints can show");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "base/printable.hpp"
 #include "base/read_file.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "site/gone_keys.hpp"
 #include "site/site_keys.hpp"
@@ -558,15 +559,18 @@ std::string way_to_toml(const std::string& finding, const std::string& text,
   const auto says = [&finding](const char* words) {
     return finding.find(words) != std::string::npos;
   };
+  const bool has_mark = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+  if (has_mark || says("utf-8") || text.find('\0') != std::string::npos) {
+    const char* const code = has_mark                               ? "UTF-16"
+                             : text.find('\0') == std::string::npos ? "WINDOWS-1252"
+                             : text.starts_with('\0')               ? "UTF-16BE"
+                                                                    : "UTF-16LE";
+    return std::string("save it as UTF-8: iconv -f ") + code + " -t UTF-8 " + shell_word(path) +
+           " > utf8.toml";
+  }
   if (says("redefine")) return "a section or key is in the file twice: put its keys in one place";
   if (says("escape"))
     return "a backslash begins a special sign: write / in paths, or put the text in single quotes";
-  if (says("utf-8")) {
-    const bool is_utf16 = text.find('\0') != std::string::npos || text.starts_with("\xFF\xFE") ||
-                          text.starts_with("\xFE\xFF");
-    return std::string("save it as UTF-8: iconv -f ") + (is_utf16 ? "UTF-16" : "WINDOWS-1252") +
-           " -t UTF-8 " + path + " > utf8.toml";
-  }
   return "the file must be TOML: key = value, text in quotes, decimals with a point";
 }
 

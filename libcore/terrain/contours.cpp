@@ -378,7 +378,7 @@ std::optional<CleanLines> try_clean_lines(const ContourMap& map,
   throw InputError(
       {map.source},
       "lines still cross each other after " + std::to_string(max_rounds) + " rounds of splitting",
-      "simplify the lines, e.g. with ogr2ogr -simplify");
+      "simplify the lines");
 }
 
 std::string describe(const HeightConflict& conflict, const Vec3& origin) {
@@ -400,7 +400,7 @@ CleanLines clean_lines(const ContourMap& map) {
   throw InputError({map.source},
                    describe(conflicts.front(), map.origin) + more +
                        "; expected lines of different height to stay apart",
-                   "mend the lines at the place named, or take wrong ones out with ogr2ogr -where");
+                   "mend the lines at the place named, or take wrong ones out");
 }
 
 void forget_lines(ContourMap& map) {

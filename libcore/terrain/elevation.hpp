@@ -4,8 +4,8 @@
 
 namespace talus {
 
-/// The Earth keeps within, above and below sea level [m].
-inline constexpr double highest_elevation = 12'000;
+/// No summit is higher; ground keeps within, above and below sea level [m].
+inline constexpr double highest_elevation = 9'000;
 
 /// No land lies lower: the shore of the Dead Sea is at about -440 m [m].
 inline constexpr double lowest_land = -500;

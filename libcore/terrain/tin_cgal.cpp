@@ -130,8 +130,7 @@ Triangulation::Triangulation(std::vector<Vec3> points,
   try {
     impl_->constrain(segments);
   } catch (const Delaunay::Intersection_of_constraints_exception&) {
-    throw InputError({source}, "lines cross that cleaning left apart",
-                     "simplify the lines, e.g. with ogr2ogr -simplify");
+    throw InputError({source}, "lines cross that cleaning left apart", "simplify the lines");
   }
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
@@ -109,7 +110,8 @@ void check_boundary(const ContourMap& map, const std::string& source) {
                      "polygon " + std::to_string(rings[begin].polygon + 1) +
                          " of the boundary crosses itself at x " + text(place.x(), 10) + ", y " +
                          text(place.y(), 10),
-                     "mend the polygon at this place, or let ogr2ogr -makevalid do it");
+                     "mend the polygon at this place, or ogr2ogr -makevalid mended.gpkg " +
+                         command_words(source));
   }
 }
 

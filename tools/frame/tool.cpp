@@ -15,6 +15,7 @@
 #include "base/memory.hpp"
 #include "base/network.hpp"
 #include "base/printable.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "store/runs.hpp"
 #include "tools/frame/command_line.hpp"
@@ -520,14 +521,24 @@ void Tool::leave_out_of_run_id(const std::vector<std::string>& names) {
 
 namespace {
 
-// Whether a file is named that the tool has no place for.
-bool names_extra_file(const CLI::ParseError& error, int argc, char** argv) {
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return false;
+// One file of those that are named where one is read; empty where it is not so.
+std::string way_to_one_file(const std::string& tool, const CLI::ParseError& error, int argc,
+                            char** argv) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return {};
   const std::string finding = error.what();
-  return std::any_of(argv + 1, argv + argc, [&finding](const char* word) {
+  std::string files;
+  int n_files = 0;
+  for (int i = 1; i < argc; ++i) {
     std::error_code failed;
-    return finding.find(word) != std::string::npos && std::filesystem::exists(word, failed);
-  });
+    const bool is_extra = finding.find(argv[i]) != std::string::npos;
+    if ((i > 1 && !is_extra) || !std::filesystem::exists(argv[i], failed)) continue;
+    files += " " + command_words(argv[i]);
+    ++n_files;
+  }
+  if (n_files < 2 || !std::filesystem::exists(argv[1])) return {};
+  if (tool == "talus-trn") return "one raster of all tiles: gdalbuildvrt all.vrt" + files;
+  if (tool == "talus-tin") return "one layer of all maps: ogrmerge.py -single -o all.gpkg" + files;
+  return {};
 }
 
 }  // namespace
@@ -550,12 +561,8 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     impl.options.label.clear();
     impl.say(error_level, error.what());
     const std::string instead = written_instead(impl.name, argc, argv);
-    impl.say(hint_level, !instead.empty() ? instead
-                         : names_extra_file(error, argc, argv)
-                             ? "one file is read: gdalbuildvrt makes one raster of tiles, "
-                               "ogrmerge.py one file of layers; " +
-                                   impl.name + " --help"
-                             : impl.name + " --help");
+    const std::string one = way_to_one_file(impl.name, error, argc, argv);
+    impl.say(hint_level, !instead.empty() ? instead : !one.empty() ? one : impl.name + " --help");
     return usage_wrong;
   }
   impl.options.label = printable(impl.options.label);

@@ -81,7 +81,7 @@ bool have_contours(const std::vector<HeightConflict>& conflicts) {
       apart +
           (options.layer.empty() ? std::string("--doubts places.gpkg writes all places")
                                  : "all places are in " + options.layer) +
-          "; mend the lines there, take wrong ones out with ogr2ogr -where, or give the map's own "
+          "; mend the lines there, take wrong ones out, or give the map's own "
           "accuracy in metres with --tolerance-m");
 }
 

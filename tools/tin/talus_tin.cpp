@@ -183,10 +183,9 @@ void mend(Tool& tool, const Options& o, const ContourMap& map,
 // What becomes of the points takes several times their own memory; docs/tools/talus-tin.md.
 void ask_for_memory(const ContourMap& map, std::size_t n_points) {
   constexpr double bytes_per_point = 210;
-  talus::require_memory(
-      bytes_per_point * static_cast<double>(n_points), {map.source},
-      "triangles of " + std::to_string(n_points) + " points",
-      "take a part of the map (--boundary, ogr2ogr -clipsrc), or simplify its lines");
+  talus::require_memory(bytes_per_point * static_cast<double>(n_points), {map.source},
+                        "triangles of " + std::to_string(n_points) + " points",
+                        "take a part of the map (--boundary), or simplify its lines");
 }
 
 // Triangles of the cleaned lines, mended as asked for. Frees what it no longer needs as it goes.

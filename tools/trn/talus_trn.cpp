@@ -72,7 +72,7 @@ std::string parse_window(const std::string& words, MapWindow& window) {
 }
 
 void declare(Tool& tool, Options& o) {
-  tool.input("source", o.source, "TIN (PLY, LandXML, 3DFACE in DXF), or an elevation raster");
+  tool.input("source", o.source, "TIN (PLY, OBJ, LandXML, 3DFACE in DXF), or an elevation raster");
   tool.output("-o,--out", o.out, "terrain to write (GeoTIFF)")->required();
   tool.option("--unit-m", o.faces.unit_m,
               "metres in one unit of a drawing of faces, in plan and height; 0: metres, or refused "
@@ -185,10 +185,12 @@ Ground ground_of_tin(Tool& tool, const Options& o) {
   if (!o.crs.t_srs.empty())
     throw InputError(
         {o.source}, "a TIN is not reprojected",
-        "reproject the contours (ogr2ogr -t_srs " + o.crs.t_srs + ") and make the TIN again");
+        "make the terrain without it, then of that: talus-trn TERRAIN.tif --t-srs " + o.crs.t_srs);
   if (!o.crs.t_vertical.empty())
-    throw InputError({o.source}, "the heights of a TIN stay as they are",
-                     "make it from the contours with talus-tin --t-vertical " + o.crs.t_vertical);
+    throw InputError(
+        {o.source}, "the heights of a TIN stay as they are",
+        "make the terrain without it, then of that: talus-trn TERRAIN.tif --t-vertical " +
+            o.crs.t_vertical);
   talus::TinFile file = talus::read_tin_file(faces_of(o));
   for (const std::string& note : file.notes) tool.info(note);
   for (const std::string& warning : file.warnings) tool.warn(warning);
@@ -238,7 +240,8 @@ Ground ground_of_dem(Tool& tool, const Options& o) {
   options.accepts_doubts = o.accept_doubts;
   options.window = o.window;
   if (o.faces.unit_m != 0)
-    throw talus::UsageError({"", 0, o.source}, "--unit-m is for faces (DXF, LandXML)", "omit it");
+    throw talus::UsageError({"", 0, o.source}, "--unit-m is for faces (DXF, OBJ, LandXML)",
+                            "omit it");
   const DemFile dem(o.source, options);
   say(tool, dem.reading());
   Ground ground;
@@ -498,8 +501,8 @@ Json doubts_of(Tool& tool, const Options& o, Ground& ground) {
     json[name_of(kind)] = n;
     if (kind == GroundDoubtKind::below_land && !takes_all)
       throw InputError({o.source}, sentence,
-                       "declare nodata with gdal_translate -a_nodata, or mend the units; "
-                       "--accept-doubts takes ground below the sea (make "
+                       "declare them as nodata, or mend the units; --accept-doubts takes ground "
+                       "below the sea (make "
                        "TRN_FLAGS=--accept-doubts)");
     tool.warn(sentence + (o.doubts.empty() ? " (--doubts places.gpkg writes all)" : ""));
   }

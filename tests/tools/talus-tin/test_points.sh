@@ -55,6 +55,6 @@ says "there is no CRS, expected a projected one in metres"
 printf 'LASF' >scan.laz
 expect 1 talus-tin scan.laz --points -o bad.ply
 says "is a laser scan, which is not read as it is"
-says 'hint: pdal translate scan.laz ground.csv -f filters.range --filters.range.limits="Classification[2:2]"'
+says 'pdal translate scan.laz ground.csv -f filters.range --filters.range.limits="Classification[2:2]"'
 expect 2 talus-tin survey.csv --points -o bad.ply --spots survey.gpkg
 nothing_left bad.ply

@@ -71,7 +71,7 @@ says "the header says inches (\$INSUNITS 1), which GDAL and QGIS write whatever 
 drawing 2 1 1300000 1000000 >oregon.dxf
 expect 1 talus-tin oregon.dxf -o bad.ply --crs EPSG:2994 --t-srs EPSG:32610 --no-db
 says "oregon.dxf: the plan is in units of 0.3048 m, and nothing says what unit the heights are in"
-says "hint: --elevation-unit-m METRES: 0.3048 where they are in the unit of the plan, 1 where they are metres"
+says "hint: --elevation-unit-m 0.3048 where they are in the unit of the plan, --elevation-unit-m 1 where they are metres"
 
 # the same plan in other formats, for contours, points, breaklines and spot heights
 command -v gdaltransform >/dev/null || skip "needs gdal-bin"
@@ -88,7 +88,7 @@ highest() {
 cone 26912 1 450000 4400000 >utah.geojson
 ogr2ogr -q -t_srs EPSG:3566 utah.gpkg utah.geojson
 nothing_said utah.gpkg --t-srs EPSG:26912
-says "hint: --elevation-unit-m METRES: 0.304800609601 where"
+says "hint: --elevation-unit-m 0.304800609601 where"
 expect 0 talus-tin utah.gpkg -o m.ply --t-srs EPSG:26912 --elevation-unit-m 1 --report m.json --no-db
 highest m.json 130
 expect 0 talus-tin utah.gpkg -o ft.ply --t-srs EPSG:26912 --elevation-unit-m 0.304800609601 --report ft.json --no-db
@@ -96,7 +96,7 @@ highest ft.json 39.624079248
 # without --t-srs the plan is in doubt first, and the hint says nothing of heights
 expect 1 talus-tin utah.gpkg -o bad.ply --no-db
 says "in US survey foot of 0.3048006096 m, expected a projected one in metres"
-grep -q '^  hint: --t-srs EPSG:32612 reprojects$' err || fail "the hint guesses: $(cat err)"
+grep -q '^  hint: --t-srs EPSG:26912 reprojects$' err || fail "the hint guesses: $(cat err)"
 # a system of heights says the unit, in feet of its own and in metres
 ogr2ogr -q -a_srs EPSG:3566+6360 in_feet.gpkg utah.gpkg
 ogr2ogr -q -a_srs EPSG:3566+5703 in_metres.gpkg utah.gpkg

@@ -36,11 +36,10 @@ expect 0 talus-trn heights.tif -o whole_metres.tif --no-db -q
 refused "there is no CRS" talus-trn good.asc $out
 gdal_translate -q -a_srs EPSG:4326 -a_ullr 11.33 47.05 11.34 47.04 good.asc degrees.tif
 refused "in degrees" talus-trn degrees.tif $out
-says "--t-srs EPSG:32632"
-says "gdalwarp -r bilinear -ot Float32 -dstnodata nan -t_srs EPSG:32632 degrees.tif"
+says "--t-srs EPSG:32632 reprojects"
 gdal_translate -q -a_srs EPSG:2225 -a_ullr 6000000 2100000 6000030 2099970 good.asc feet.tif
 refused "US survey foot" talus-trn feet.tif $out
-says "--t-srs EPSG:32610"
+says "--t-srs EPSG:26910 reprojects"
 # heights of a plan in feet: in either unit, so nothing is assumed
 refused "nothing says what unit the heights are in" talus-trn feet.tif $out --t-srs EPSG:32610
 says "--vertical-crs"

@@ -43,7 +43,7 @@ expect 0 talus-trn "$shared_data/experiments/tschamut2014/terrain.asc" -o tscham
 # degrees: refused, and the command that the hint gives works
 gdalwarp -q -t_srs EPSG:4326 -r bilinear "$dem/serles_10m.tif" degrees.tif
 expect 1 talus-trn degrees.tif -o metres.tif --no-db
-srs=$(sed -n 's/.*hint: --t-srs \(EPSG:[0-9]*\),.*/\1/p' err)
+srs=$(sed -n 's/.*hint: --t-srs \(EPSG:[0-9]*\) .*/\1/p' err)
 [ "$srs" = EPSG:32632 ] || fail "the hint names $srs"
 expect 0 talus-trn degrees.tif -o metres.tif --t-srs "$srs" --cell-size-m 10 --no-db
 gdalinfo metres.tif | grep -qF 'ID["EPSG",32632]' || fail "not in UTM"

@@ -7,7 +7,8 @@ namespace talus {
 namespace {
 
 TEST(LengthUnits, MetresInManyLanguages) {
-  for (const char* word : {"m", "M", "metre", "Meters", "metros", "metri", "m a.s.l.", "mamsl"})
+  for (const char* word : {"m", "m NHN", "metres above sea level", "m \u00fc. M.", "M", "metre",
+                           "Meters", "metros", "metri", "m a.s.l.", "mamsl"})
     EXPECT_EQ(metres_in(word), 1) << word;
 }
 
@@ -25,7 +26,8 @@ TEST(LengthUnits, PartsOfAMetre) {
 }
 
 TEST(LengthUnits, OtherWordsAreNotKnown) {
-  for (const char* word : {"", "fathom", "m/s", "f", "mg"}) EXPECT_EQ(metres_in(word), 0) << word;
+  for (const char* word : {"", "fathom", "m/s", "m x 10", "f", "mg"})
+    EXPECT_EQ(metres_in(word), 0) << word;
 }
 
 TEST(LengthUnits, SomeWordsSayNoUnit) {

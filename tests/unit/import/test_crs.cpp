@@ -89,7 +89,7 @@ TEST(Crs, TheUtmZoneOfThePlaceIsOffered) {
   EXPECT_EQ(find_crs_problem(degrees, {-122.2, 46.2}).mend_to, "EPSG:32610");
   EXPECT_EQ(find_crs_problem(degrees, {11, 89}).mend_to, "");
   EXPECT_EQ(find_crs_problem(crs_from_user("EPSG:2225", "--crs"), {6e6, 2.1e6}).mend_to,
-            "EPSG:32610");
+            "EPSG:26910");
 }
 
 TEST(Crs, SameSystemsAreRecognisedHoweverTheyAreWritten) {

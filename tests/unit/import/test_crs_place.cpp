@@ -87,6 +87,21 @@ TEST(CrsPlace, StretchedMetresAreRefused) {
   EXPECT_EQ(outcome_at("EPSG:3395", -8.7e6, -2e5).refusal, "");
 }
 
+// A zone on another datum would need a shift that PROJ may not know.
+TEST(CrsPlace, AZoneIsProposedOnTheDatumOfTheMap) {
+  const auto zone = [](const char* crs, double longitude, double latitude) {
+    return talus::utm_zone(wkt(crs), {longitude, latitude});
+  };
+  EXPECT_EQ(zone("EPSG:4326", 11, 47), "EPSG:32632");
+  EXPECT_EQ(zone("EPSG:4258", 11, 47), "EPSG:25832");
+  EXPECT_EQ(zone("EPSG:3035", 11, 47), "EPSG:25832");
+  EXPECT_EQ(zone("EPSG:2232", -105, 39), "EPSG:26913");
+  EXPECT_EQ(zone("EPSG:6428", -105, 39), "EPSG:6342");
+  EXPECT_EQ(zone("EPSG:7844", 150, -33), "EPSG:7856");
+  EXPECT_EQ(zone("EPSG:4258", -70, 47), "EPSG:32619") << "ETRS89 has no zone there";
+  EXPECT_EQ(zone("EPSG:31287", 13, 47), "EPSG:32633");
+}
+
 TEST(CrsPlace, AxesThatDoNotRunEastAndNorthAreRefused) {
   EXPECT_TRUE(outcome_at("EPSG:2053", 20000, 2900000).says("x runs to"));   // west and south
   EXPECT_TRUE(outcome_at("EPSG:5513", 1100000, 500000).says("x runs to"));  // south and west

@@ -82,6 +82,25 @@ TEST(TinFiles, DrawingsInOtherUnitsOrWithoutFacesAreRefused) {
             ": layer entities: holds no faces, but 1 point; expected faces");
 }
 
+// A quad is cut in two; z is the height, and y is asked for where more is seen along it.
+TEST(TinFiles, AnObjIsATin) {
+  const std::string vertices = "v 0 0 10\nv 50 0 10\nv 50 100 30\nv 0 100 30\n";
+  const std::string path = write("ground.obj", vertices + "f 1/1 2/2 3/3 4/4\n");
+  ASSERT_TRUE(is_tin_file(path));
+  const TinFile file = read_tin_file(choice_of(path));
+  EXPECT_EQ(file.tin.triangles.size(), 2U);
+  EXPECT_NEAR(volume_above(file.tin, 10), 50 * 100 * 10, 1e-6);
+  EXPECT_EQ(file.notes[0], path + ": 2 triangles, z up");
+  EXPECT_TRUE(file.warnings.empty());
+  LayerRef choice = choice_of(path);
+  choice.unit_m = 0.1;
+  EXPECT_NEAR(volume_above(read_tin_file(choice).tin, 1), 50 * 100 * 10 * 1e-3, 1e-9);
+  const TinFile upright =
+      read_tin_file(choice_of(write("y_up.obj", "v 0 10 0\nv 50 10 0\nv 50 30 -100\nf 1 2 3\n")));
+  ASSERT_EQ(upright.warnings.size(), 1U);
+  EXPECT_NE(upright.warnings[0].find("is y the height"), std::string::npos);
+}
+
 TEST(TinFiles, TwoLayersOfASurfaceAreFound) {
   const std::string path = write("folded.dxf", drawing(face({{0, 0, 1}, {10, 0, 1}, {5, 9, 1}}) +
                                                        face({{0, 0, 1}, {10, 0, 1}, {4, 8, 6}})));
