@@ -1,0 +1,945 @@
+"""Each hint that holds a command or an option is obeyed until the tool accepts: in at most two steps. The terrain is
+compared with the truth. It is ground from -50 to 50 m, where a rim of zeros would pass for ground, if a row says no other.
+
+  hints.py SOURCE [NAME]...   (the tools on PATH; works in the folder that it is called in)
+
+A row of the table makes an input that leads to a hint and says which of its ways to take. At the end each command of
+the shell and each option that the hints in the sources hold must have been said by a row.
+"""
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import sqlite3
+import sys
+import tarfile
+import zipfile
+
+from inputs import (CODE, FEET, SHELL, SIDE, SURVEY_FEET, X0, Y0, Plane, call, commands_in, contours, dem, dxf, errors_of,
+                    follow, gdal, hint_in, landxml, line, made_by, mesh, np, ogr, polyline, raster, shapes, square, srs, terrain_of, write)
+
+TABLE = []
+
+
+def row(tool, finding, *ways, options='', code=None, fill=(), tolerance=.05, share=.9, rim=0, plane=CODE, then=''):
+    """A maker of an input: its finding, and the ways of its hint that are taken.
+
+    A way is the first word of a command of the shell, or words of the hint that begin with an option, or "leave
+    --option". `fill`: what stands for EPSG:code and its like; `code`: the plane's, where the terrain is in another;
+    `then`: options for what the command made."""
+    def add(make):
+        TABLE.append((make, tool, finding, ways, shlex.split(options), dict(fill), then,
+                      {'code': code, 'rim': rim}, tolerance, share, plane))
+        return make
+    return add
+
+
+TRN, TIN = 'talus-trn', 'talus-tin'
+
+
+# --- elevation models ----------------------------------------------------------------------------
+
+def warp(to, source, code):
+    gdal.Warp(to, source, dstSRS=code, resampleAlg='bilinear', dstNodata=float('nan'), errorThreshold=0)
+
+
+def far_west(plane):
+    plane.x0, plane.y0 = 450000, 4400000
+    return plane
+
+
+@row(TRN, 'expected squares', 'gdalwarp')
+def oblong(plane):
+    cells = plane.cells(4)[:, :40]
+    raster('dem.tif', cells, None, None, place=(X0, 5, 0, Y0 + SIDE, 0, -4))
+    return 'dem.tif'
+
+
+@row(TRN, 'the raster is rotated', 'gdalwarp', rim=40)
+def rotated(plane):
+    place = (X0, 5 * np.cos(.17), 5 * np.sin(.17), Y0 + SIDE - 30, 5 * np.sin(.17), -5 * np.cos(.17))
+    col, line_ = np.meshgrid(np.arange(36) + .5, np.arange(36) + .5)
+    raster('dem.tif', plane.z(0, place[3] + col * place[4] + line_ * place[5]), None, None, place=place)
+    return 'dem.tif'
+
+
+@row(TRN, 'do not run from north to south', 'gdalwarp')
+def southern_row_first(plane):
+    raster('dem.tif', plane.cells()[::-1], None, None, place=(X0, 5, 0, Y0, 0, 5))
+    return 'dem.tif'
+
+
+@row(TRN, 'in degrees', '--t-srs EPSG:32632', code=CODE, rim=15)
+def in_degrees(plane):
+    dem('metres.tif', plane, 1)
+    warp('dem.tif', 'metres.tif', 'EPSG:4326')
+    return 'dem.tif'
+
+
+@row(TRN, 'in US survey foot of 0.3048006096 m', '--t-srs EPSG:26912', code='EPSG:26912', plane='EPSG:26912', rim=15,
+     options='--vertical-crs EPSG:5703')
+def plan_in_feet(plane):
+    dem('metres.tif', far_west(plane))
+    warp('dem.tif', 'metres.tif', 'EPSG:3566')
+    return 'dem.tif'
+
+
+@row(TRN, 'nothing says what unit the heights are in', '--vertical-crs EPSG:5703', code='EPSG:26912', plane='EPSG:26912',
+     rim=15, options='--t-srs EPSG:26912')
+def heights_in_metres(plane):
+    return plan_in_feet(plane)
+
+
+@row(TRN, 'nothing says what unit the heights are in', 'gdal_translate', code='EPSG:26912', plane='EPSG:26912',
+     rim=15, options='--t-srs EPSG:26912', then='--vertical-crs EPSG:5703')
+def all_in_feet(plane):
+    dem('metres.tif', far_west(plane), height_factor=1 / SURVEY_FEET)
+    warp('dem.tif', 'metres.tif', 'EPSG:3566')
+    return 'dem.tif'
+
+
+@row(TRN, 'ground control points', 'gdalwarp', options='--crs EPSG:25832', rim=5)
+def control_points(plane):
+    dem('plane.tif', plane, code='')
+    n = gdal.Open('plane.tif').RasterXSize
+    gcps = [gdal.GCP(X0 + 5 * a, Y0 + SIDE - 5 * b, 0, a, b) for a, b in ((0, 0), (n, 0), (n, n), (0, n))]
+    gdal.Translate('dem.tif', 'plane.tif', GCPs=gcps, outputSRS=CODE)
+    return 'dem.tif'
+
+
+@row(TRN, 'no place on the map', 'gdal_translate', options='--crs EPSG:25832',
+     fill={'XMIN YMAX XMAX YMIN': f'{X0} {Y0 + SIDE} {X0 + SIDE} {Y0}'})
+def without_place(plane):
+    cells = plane.cells()
+    data = gdal.GetDriverByName('GTiff').Create('dem.tif', *cells.shape[::-1], 1, gdal.GDT_Float32)
+    data.GetRasterBand(1).WriteArray(cells)
+    return 'dem.tif'
+
+
+def in_unit(unit, size, kind=gdal.GDT_Float64):
+    @row(TRN, f'the elevations are in "{unit}"', 'gdal_translate')
+    def in_a_unit(plane):
+        dem('dem.tif', plane, height_factor=1 / size, unit=unit, kind=kind)
+        return 'dem.tif'
+    in_a_unit.__name__ = f'unit_{unit}'
+
+
+for name, metres in (('dm', .1), ('cm', .01), ('mm', .001), ('ft', FEET), ('US survey foot', SURVEY_FEET)):
+    in_unit(name, metres)
+in_unit('Meereshoehe', 1)
+
+
+@row(TRN, 'as centimetres they would be', 'gdal_translate')
+def whole_centimetres(plane):
+    plane.z0 = max(plane.z0, 1000)  # low ground in centimetres may as well be in metres
+    dem('dem.tif', plane, height_factor=100, kind=gdal.GDT_Int32)
+    return 'dem.tif'
+
+
+@row(TRN, 'as decimetres they would be', 'gdal_translate#1', tolerance=.051)
+def whole_decimetres(plane):
+    plane.z0 = max(plane.z0, 1000)
+    dem('dem.tif', plane, height_factor=10, kind=gdal.GDT_Int32)
+    return 'dem.tif'
+
+
+@row(TRN, 'as feet they would be', 'gdal_translate')
+def high_ground_in_feet(plane):
+    plane.z0 = 3000
+    dem('dem.tif', plane, height_factor=1 / FEET)
+    return 'dem.tif'
+
+
+def grid_with_nan(plane, at):
+    cells = plane.cells()
+    cells[at:at + 3, :8] = np.nan
+    rows = '\n'.join(' '.join(f'{z:.2f}' for z in row) for row in cells)
+    write('dem.asc', f'ncols 40\nnrows 40\nxllcorner {X0}\nyllcorner {Y0}\ncellsize 5\nNODATA_value nan\n{rows}\n')
+    return 'dem.asc'
+
+
+@row(TRN, 'that begins with nan', 'sed', options='--crs EPSG:25832', share=.8)
+def nan_first(plane):
+    return grid_with_nan(plane, 0)
+
+
+@row(TRN, '8 bits', 'gdal_translate', tolerance=.6)
+def bytes_of_heights(plane):
+    plane.z0 = 20
+    dem('dem.tif', plane, kind=gdal.GDT_Byte)
+    return 'dem.tif'
+
+
+@row(TRN, 'with heights in', 'gdal_translate', plane='EPSG:26912')
+def system_of_heights_in_feet(plane):
+    dem('dem.img', far_west(plane), height_factor=1 / SURVEY_FEET, code='EPSG:26912', driver='HFA', kind=gdal.GDT_Float64)
+    gdal.Translate('dem.vrt', 'dem.img', outputSRS='EPSG:26912+6360')
+    return 'dem.vrt'
+
+
+@row(TRN, 'in foot of', 'gdal_translate', then='--crs none')
+def local_feet(plane):
+    dem('dem.tif', plane, factor=1 / FEET, code='LOCAL_CS["site",UNIT["foot",0.3048]]', kind=gdal.GDT_Float64)
+    return 'dem.tif'
+
+
+@row(TRN, 'there is no CRS', '--crs EPSG:code', '--crs none', fill={'EPSG:code': CODE})
+def without_system(plane):
+    dem('dem.tif', plane, code='')
+    return 'dem.tif'
+
+
+@row(TRN, 'there is no CRS', '--crs EPSG:code', fill={'EPSG:code': CODE}, options='--t-srs EPSG:25832')
+def without_system_to_reproject(plane):
+    return without_system(plane)
+
+
+@row(TRN, 'no CRS to reproject from', '--crs EPSG:code', fill={'EPSG:code': CODE}, options='--t-srs EPSG:25832 --crs none')
+def none_to_reproject(plane):
+    return without_system(plane)
+
+
+@row(TRN, 'not EPSG:25833', 'leave --crs', options='--crs EPSG:25833')
+def other_system_given(plane):
+    dem('dem.tif', plane)
+    return 'dem.tif'
+
+
+@row(TRN, 'which the file does not declare as nodata', 'gdal_translate', share=.7)
+def undeclared_nodata(plane):
+    cells = plane.cells()
+    cells[:10, :20] = -32768
+    raster('dem.tif', cells, (X0, Y0 + SIDE), 5)
+    return 'dem.tif'
+
+
+@row(TRN, 'side by side, more than', 'gdal_translate', share=.7)
+def undeclared_level(plane):
+    plane.z0 = max(plane.z0, 1000)  # 0 m in a hillside at 0 m is ground
+    cells = plane.cells()
+    cells[:10, :20] = 0
+    raster('dem.tif', cells, (X0, Y0 + SIDE), 5)
+    return 'dem.tif'
+
+
+@row(TRN, 'lower than any land', '--accept-doubts')
+def below_land(plane):
+    plane.z0 = -700
+    dem('dem.tif', plane)
+    return 'dem.tif'
+
+
+@row(TRN, 'the raster has 2 bands', 'gdal_translate', options='')
+def two_bands(plane):
+    dem('one.tif', plane)
+    gdal.Translate('dem.tif', 'one.tif', bandList=[1, 1])
+    return 'dem.tif'
+
+
+@row(TRN, 'the raster has 2 bands', 'gdal_translate#1', share=.7)
+def band_of_known_cells(plane):
+    cells = plane.cells()
+    cells[:10, :20] = 0
+    data = gdal.GetDriverByName('GTiff').Create('dem.tif', *cells.shape[::-1], 2, gdal.GDT_Float32)
+    data.SetGeoTransform((X0, 5, 0, Y0 + SIDE, 0, -5))
+    data.SetProjection(srs(CODE).ExportToWkt())
+    data.GetRasterBand(1).WriteArray(cells)
+    data.GetRasterBand(2).WriteArray(np.where(cells == 0, 0, 255))
+    return 'dem.tif'
+
+
+@row(TRN, 'colours of a picture', 'gdal_calc.py', tolerance=.1)
+def terrain_rgb(plane):
+    code = np.round((plane.cells() + 10000) * 10).astype(np.int64)
+    data = gdal.GetDriverByName('GTiff').Create('dem.tif', *code.shape[::-1], 3, gdal.GDT_Byte)
+    data.SetGeoTransform((X0, 5, 0, Y0 + SIDE, 0, -5))
+    data.SetProjection(srs(CODE).ExportToWkt())
+    for band, shift in ((1, 16), (2, 8), (3, 0)):
+        data.GetRasterBand(band).WriteArray((code >> shift) & 255)
+    return 'dem.tif'
+
+
+def tiles(plane, folder):
+    os.makedirs(folder, exist_ok=True)
+    dem('plane.tif', plane)
+    gdal.Translate(f'{folder}/west.tif', 'plane.tif', srcWin=[0, 0, 20, 40])
+    gdal.Translate(f'{folder}/east.tif', 'plane.tif', srcWin=[20, 0, 20, 40])
+
+
+@row(TRN, 'is a folder', 'gdalbuildvrt')
+def folder_of_tiles(plane):
+    tiles(plane, 'tiles')
+    return 'tiles'
+
+
+@row(TRN, 'the archive holds 2 rasters', 'unzip')
+def archive_of_tiles(plane):
+    tiles(plane, 'packed')
+    with zipfile.ZipFile('tiles.zip', 'w') as archive:
+        for side in ('west', 'east'):
+            archive.write(f'packed/{side}.tif', f'{side}.tif')
+    return 'tiles.zip'
+
+
+@row(TRN, 'the archive holds 2 rasters', 'mkdir')
+def tar_of_tiles(plane):
+    tiles(plane, 'packed')
+    with tarfile.open('tiles.tar', 'w') as archive:
+        archive.add('packed')
+    return 'tiles.tar'
+
+
+@row(TRN, 'reaches beyond the data', '--window', options=f'--window {X0 + 20},{X0 + 180},{Y0 + 20},{Y0 + 180}', share=.6)
+def extent_of_qgis(plane):
+    dem('dem.tif', plane)
+    return 'dem.tif'
+
+
+@row(TRN, 'does not say what system its heights are in', '--vertical-crs EPSG:code', fill={'EPSG:code': 'EPSG:5773'},
+     options='--t-vertical EPSG:5773')
+def unknown_system_of_heights(plane):
+    dem('dem.tif', plane)
+    return 'dem.tif'
+
+
+@row(TRN, 'does not say what system its heights are in', '--t-srs EPSG:25833',
+     options='--t-srs EPSG:25833+5773', code=CODE, rim=15)
+def target_with_heights(plane):
+    dem('dem.tif', plane)
+    return 'dem.tif'
+
+
+@row(TRN, 'has no CRS, so its heights are in no system', 'leave --vertical-crs', '--crs EPSG:code',
+     fill={'EPSG:code': CODE}, options='--vertical-crs EPSG:5773 --crs none')
+def heights_without_plan(plane):
+    return without_system(plane)
+
+
+@row(TRN, 'not in EPSG:5773', 'leave --vertical-crs', options='--vertical-crs EPSG:5773')
+def other_heights_given(plane):
+    dem('dem.tif', plane, code='EPSG:25832+7837')
+    return 'dem.tif'
+
+
+@row(TRN, 'they look like degrees', '--crs EPSG:4326 --t-srs EPSG:25832', code=CODE, rim=15)
+def degrees_called_metres(plane):
+    in_degrees(plane)
+    gdal.Translate('called.tif', 'dem.tif', outputSRS=CODE)
+    return 'called.tif'
+
+
+@row(TRN, 'is it the CRS', '--crs EPSG:code', fill={'EPSG:code': CODE})
+def other_system_said(plane):
+    dem('dem.tif', plane, code='EPSG:31287')
+    return 'dem.tif'
+
+
+@row(TRN, 'with the other signs', 'gdal_translate')
+def signs_of_south_and_west(plane):
+    raster('dem.tif', plane.cells(), (-(X0), -(Y0)), 5, code=CODE)
+    data = gdal.Open('dem.tif', 1)
+    data.SetGeoTransform((-X0 - SIDE, 5, 0, -Y0, 0, -5))
+    return 'dem.tif'
+
+
+@row(TRN, 'as kilometres they would lie in it', 'gdal_translate', plane='EPSG:2056')
+def kilometres(plane):
+    plane.x0, plane.y0 = 2600000, 1200000
+    dem('dem.tif', plane)
+    gdal.Open('dem.tif', 1).SetGeoTransform((2600, .005, 0, 1200.2, 0, -.005))
+    return 'dem.tif'
+
+
+@row(TRN, 'the eastings begin with the zone number 32', '--crs EPSG:4647 --t-srs EPSG:25832')
+def zone_before_easting(plane):
+    dem('dem.tif', plane)
+    gdal.Open('dem.tif', 1).SetGeoTransform((X0 + 32e6, 5, 0, Y0 + SIDE, 0, -5))
+    return 'dem.tif'
+
+
+@row(TRN, 'on the other side of the equator', '--t-srs EPSG:32719', code='EPSG:32619', plane='EPSG:32619', rim=5)
+def northings_below_zero(plane):
+    plane.x0, plane.y0 = 500000, -1650000
+    dem('dem.tif', plane)
+    return 'dem.tif'
+
+
+# --- surfaces of triangles -----------------------------------------------------------------------
+
+def faces(path, plane, factor=1, header=''):
+    vertices, triangles = mesh(plane)
+    dxf(path, ''.join('0\n3DFACE\n8\nG\n' + ''.join(
+        f'{10 + k}\n{x!r}\n{20 + k}\n{y!r}\n{30 + k}\n{z!r}\n'
+        for k, (x, y, z) in enumerate((vertices[[*face, face[2]]] * factor).tolist())) for face in triangles), header)
+
+
+@row(TRN, 'scales plan and heights', '--unit-m 0.001', options='--crs EPSG:25832 --cell-size-m 5')
+def faces_in_millimetres(plane):
+    faces('faces.dxf', plane, 1000, '9\n$INSUNITS\n70\n4\n')
+    return 'faces.dxf'
+
+
+@row(TRN, 'whatever its header says', '--unit-m 1', options='--crs EPSG:25832 --cell-size-m 5')
+def faces_said_in_millimetres(plane):
+    faces('faces.dxf', plane, 1, '9\n$INSUNITS\n70\n4\n')
+    return 'faces.dxf'
+
+
+@row(TRN, 'linearUnit is USSurveyFoot', '--unit-m 0.3048006096', options='--crs EPSG:25832 --cell-size-m 5')
+def landxml_in_feet(plane):
+    vertices, triangles = mesh(plane)
+    landxml('ground.xml', [('EG', vertices / SURVEY_FEET, triangles)], '<Imperial linearUnit="USSurveyFoot"/>')
+    return 'ground.xml'
+
+
+@row(TRN, 'expected one height in each place', '--accept-doubts', options='--crs EPSG:25832 --cell-size-m 5', tolerance=8)
+def surface_that_folds_over(plane):
+    vertices, triangles = mesh(plane)
+    above = np.vstack([vertices, vertices[12] + [0, 0, 7]])
+    landxml('ground.xml', [('G', above, triangles + [(0, 1, len(vertices))])])
+    return 'ground.xml'
+
+
+@row(TRN, 'in US survey foot', '--crs EPSG:code', options='--unit-m 0.3048006096 --cell-size-m 5', plane='EPSG:26913',
+     fill={'EPSG:code': 'EPSG:26954'}, code='EPSG:26954')
+def landxml_of_a_state_plane(plane):
+    plane.x0, plane.y0 = 950000, 520000
+    vertices, triangles = mesh(plane)
+    landxml('ground.xml', [('EG', vertices / SURVEY_FEET, triangles)], '<Imperial linearUnit="USSurveyFoot"/>',
+            '<CoordinateSystem epsgCode="2232"/>')
+    return 'ground.xml'
+
+
+@row(TRN, '2 surfaces, expected one', 'ground.xml|layername=EG', options='--crs EPSG:25832 --cell-size-m 5')
+def landxml_of_two(plane):
+    vertices, triangles = mesh(plane)
+    landxml('ground.xml', [('EG', vertices, triangles), ('FG', vertices + [0, 0, 7], triangles)])
+    return 'ground.xml'
+
+
+@row(TRN, 'a TIN is not reprojected', 'talus-trn', code=CODE, rim=15, options='--t-srs EPSG:25833 --crs EPSG:25832 --cell-size-m 5')
+def surface_to_reproject(plane):
+    faces('faces.dxf', plane)
+    return 'faces.dxf'
+
+
+# --- contours ------------------------------------------------------------------------------------
+
+@row(TIN, 'there is no CRS', '--crs EPSG:code', '--crs none', fill={'EPSG:code': CODE})
+def lines_without_system(plane):
+    contours('map.gpkg', plane, code='')
+    return 'map.gpkg'
+
+
+@row(TIN, 'not EPSG:25833', 'leave --crs', options='--crs EPSG:25833')
+def lines_of_other_system(plane):
+    contours('map.gpkg', plane)
+    return 'map.gpkg'
+
+
+@row(TIN, 'in degrees', '--t-srs EPSG:32632', code=CODE, tolerance=.1)
+def lines_in_degrees(plane):
+    contours('metres.gpkg', plane)
+    gdal.VectorTranslate('map.gpkg', 'metres.gpkg', dstSRS='EPSG:4326', reproject=True)
+    return 'map.gpkg'
+
+
+@row(TIN, 'nothing says what unit the heights are in', '--elevation-unit-m 0.304800609601', code='EPSG:26912',
+     plane='EPSG:26912', options='--t-srs EPSG:26912', tolerance=.1)
+def lines_in_feet(plane):
+    contours('metres.gpkg', far_west(plane), height_factor=1 / SURVEY_FEET)
+    gdal.VectorTranslate('map.gpkg', 'metres.gpkg', dstSRS='EPSG:3566', reproject=True)
+    return 'map.gpkg'
+
+
+@row(TIN, 'in feet by its name', '--elevation-unit-m 0.3048')
+def field_in_feet(plane):
+    contours('map.gpkg', plane, field='ELEV_FT', height_factor=1 / FEET)
+    return 'map.gpkg'
+
+
+@row(TIN, 'have no elevation', '--elevation-field FIELD', fill={'FIELD': 'KOTA_Q'})
+def field_of_other_name(plane):
+    contours('map.gpkg', plane, field='KOTA_Q')
+    return 'map.gpkg'
+
+
+@row(TIN, 'which stands for an unknown one', 'ogr2ogr')
+def unknown_height(plane):
+    rows = [(line(points), {'ELEV': z}) for z, points in plane.contours()] + [
+        (line([(X0 + 20, Y0 + 30), (X0 + 80, Y0 + 30)]), {'ELEV': -9999.0})]
+    shapes('map.gpkg', rows, fields=[('ELEV', ogr.OFTReal)])
+    return 'map.gpkg'
+
+
+@row(TIN, 'expected the same height: mixed units', '--elevation-field Z', '--elevation-field ELEV',
+     fill={'ELEV': 'ELEV --elevation-unit-m 0.3048'})
+def z_beside_field(plane):
+    rows = [(line(points, z), {'ELEV': z / FEET}) for z, points in plane.contours()]
+    shapes('map.gpkg', rows, fields=[('ELEV', ogr.OFTReal)])
+    return 'map.gpkg'
+
+
+@row(TIN, 'there is no field', '--elevation-field FIELD', fill={'FIELD': 'ELEV'}, options='--elevation-field HEIGHT')
+def field_that_is_not_there(plane):
+    contours('map.gpkg', plane)
+    return 'map.gpkg'
+
+
+@row(TIN, 'changes its height along the line', '--elevation-field', fill={'--elevation-field': '--elevation-field KOTE'})
+def z_that_slopes(plane):
+    rows = [(f'LINESTRING Z ({X0} {Y0 + 2 * k * 10} {k}, {X0 + SIDE} {Y0 + 2 * k * 10} {k + 3})',
+             {'KOTE': plane.z0 + 10 * k}) for k in range(11)]
+    shapes('map.gpkg', rows, fields=[('KOTE', ogr.OFTReal)])
+    return 'map.gpkg'
+
+
+@row(TIN, 'local metres cannot be reprojected', 'leave --t-srs', options='--t-srs EPSG:25833 --crs none')
+def local_to_reproject(plane):
+    contours('map.gpkg', plane, code='')
+    return 'map.gpkg'
+
+
+def lettered(plane, code=CODE, rows=None):
+    shapes('map.gpkg', rows or [(line(points), {}) for _, points in plane.contours()])
+    shapes('labels.gpkg', [(f'POINT ({points[5][0]} {points[5][1]})', {'TEXT': str(z)}) for z, points in plane.contours()],
+           CODE, fields=[('TEXT', ogr.OFTString)])
+    if code != CODE:
+        os.rename('labels.gpkg', 'there.gpkg')
+        gdal.VectorTranslate('letters.gpkg', 'there.gpkg', dstSRS=code, reproject=True)
+
+
+@row(TIN, 'the labels are in', 'ogr2ogr', options='--labels letters.gpkg')
+def labels_elsewhere(plane):
+    lettered(plane, 'EPSG:25833')
+    return 'map.gpkg'
+
+
+@row(TIN, 'there is no field', '--elevation-field labels=FIELD', options='--labels labels.gpkg', fill={'FIELD': 'Q'})
+def labels_of_other_field(plane):
+    shapes('map.gpkg', [(line(points), {}) for _, points in plane.contours()])
+    shapes('labels.gpkg', [(f'POINT ({points[5][0]} {points[5][1]})', {'Q': str(z)}) for z, points in plane.contours()],
+           CODE, fields=[('Q', ogr.OFTString)])
+    return 'map.gpkg'
+
+
+@row(TIN, 'the label says', 'leave --labels', options='--labels labels.gpkg')
+def labels_beside_z(plane):
+    lettered(Plane(plane.z0 + 40), CODE, [(line(points, z), {}) for z, points in plane.contours()])
+    return 'map.gpkg'
+
+
+@row(TIN, 'boundary crosses itself', 'ogr2ogr', options='--boundary rim.gpkg', share=.2)
+def boundary_that_crosses_itself(plane):
+    contours('map.gpkg', plane)
+    shapes('rim.gpkg', [(f'POLYGON (({X0} {Y0}, {X0 + 200} {Y0 + 200}, {X0 + 200} {Y0}, {X0} {Y0 + 200}, {X0} {Y0}))', {})])
+    return 'map.gpkg'
+
+
+@row(TIN, 'as feet they would lie in it', '--unit-m 0.3048', options='--crs EPSG:31287', plane='EPSG:31287')
+def drawn_in_feet_of_austria(plane):
+    plane.x0, plane.y0 = 400000, 400000
+    dxf('map.dxf', ''.join(polyline('C', np.asarray(p) / FEET, z / FEET) for z, p in plane.contours()))
+    return 'map.dxf'
+
+
+@row(TIN, 'in millimetres', '--unit-m 0.001', options='--crs EPSG:25832')
+def drawn_in_millimetres(plane):
+    dxf('map.dxf', ''.join(polyline('C', np.asarray(p) * 1000, z * 1000) for z, p in plane.contours()),
+        '9\n$INSUNITS\n70\n4\n')
+    return 'map.dxf'
+
+
+@row(TIN, 'holds no lines, but 11 polygons', 'ogr2ogr', tolerance=.1)
+def outlines(plane):
+    rows = [(f'POLYGON (({X0} {y}, {X0 + SIDE} {y}, {X0 + SIDE} {y + 1e-3}, {X0} {y + 1e-3}, {X0} {y}))', {'ELEV': z})
+            for z, ((_, y), *_) in plane.contours()]
+    shapes('map.gpkg', rows, fields=[('ELEV', ogr.OFTReal)])
+    return 'map.gpkg'
+
+
+@row(TIN, 'no lines', '--points')
+def points_alone(plane):
+    shapes('map.gpkg', [(f'POINT Z ({x} {y} {z})', {}) for x, y, z in plane.points().tolist()])
+    return 'map.gpkg'
+
+
+@row(TIN, 'UTF-16', 'iconv', options='--points --crs EPSG:25832')
+def points_in_utf16(plane):
+    write('list.csv', 'x,y,z\n'.encode('utf-16') + '\n'.join(
+        f'{x:.3f},{y:.3f},{z:.3f}' for x, y, z in plane.points()).encode('utf-16-le'))
+    return 'list.csv'
+
+
+@row(TIN, 'are no degrees', '--crs EPSG:code', fill={'EPSG:code': CODE})
+def geojson_in_metres(plane):
+    contours('map.geojson', plane, code='', driver='GeoJSON')
+    return 'map.geojson'
+
+
+@row(TIN, 'with x and y exchanged', 'ogr2ogr')
+def lines_with_exchanged_axes(plane):
+    shapes('map.gpkg', [(line(np.asarray(points)[:, ::-1]), {'ELEV': z}) for z, points in plane.contours()],
+           fields=[('ELEV', ogr.OFTReal)])
+    return 'map.gpkg'
+
+
+@row(TIN, '1 height cannot be', '--accept-doubts', tolerance=2000)
+def impossible_height(plane):
+    rows = [(line(points), {'ELEV': z + (1500 if k == 5 else 0)}) for k, (z, points) in enumerate(plane.contours())]
+    shapes('map.gpkg', rows, fields=[('ELEV', ogr.OFTReal)])
+    return 'map.gpkg'
+
+
+@row(TIN, 'expected at most 9000 m either way', '--elevation-unit-m 0.3048')
+def high_contours_in_feet(plane):
+    plane.z0 = 3000
+    contours('map.gpkg', plane, height_factor=1 / FEET)
+    return 'map.gpkg'
+
+
+@row(TIN, 'knows no shift of the datum', '--crs EPSG:code', fill={'EPSG:code': CODE}, options='--t-srs EPSG:25833', code=CODE)
+def unknown_datum(plane):
+    contours('map.gpkg', plane, code='+proj=utm +zone=32 +ellps=GRS80 +units=m')
+    return 'map.gpkg'
+
+
+@row(TIN, 'knows no shift of the datum', '--accept-ballpark', options='--t-srs EPSG:25833', code=CODE)
+def unknown_datum_that_is_this_one(plane):
+    return unknown_datum(plane)
+
+
+@row(TIN, 'a surface of faces needs no contours', 'talus-trn', fill={'EPSG:code': CODE})
+def faces_for_contours(plane):
+    faces('faces.dxf', plane)
+    return 'faces.dxf'
+
+
+@row(TRN, 'a DEM is never reprojected silently', 'talus-trn', options='--reference other.tif')
+def reference_in_other_system(plane):
+    dem('dem.tif', plane)
+    warp('other.tif', 'dem.tif', 'EPSG:25833')
+    return 'dem.tif'
+
+
+@row(TRN, 'nothing says what unit the heights are in', 'ogr2ogr', options='--reference-points points.gpkg', plane='EPSG:26912')
+def reference_points_in_feet(plane):
+    dem('dem.tif', far_west(plane))
+    shapes('m.gpkg', [(f'POINT Z ({x} {y} {z / SURVEY_FEET})', {}) for x, y, z in plane.points(5).tolist()[4:]], 'EPSG:26912')
+    gdal.VectorTranslate('points.gpkg', 'm.gpkg', dstSRS='EPSG:3566', reproject=True)
+    return 'dem.tif'
+
+
+@row(TRN, 'has no layers, filter and unit', 'omit --unit-m', options='--unit-m 1')
+def unit_of_a_ply(plane):
+    contours('map.gpkg', plane)
+    accepted, said = terrain_of(TIN, 'map.gpkg', [])
+    assert accepted, said
+    return 't.ply'
+
+
+@row(TRN, 'takes the raw bytes of a file as heights', 'gdal_translate')
+def raw_bytes(plane):
+    plane.cells().astype('<f4').tofile('heights.bin')
+    write('dem.vrt', f'<VRTDataset rasterXSize="40" rasterYSize="40"><SRS>{CODE}</SRS><GeoTransform>{X0},5,0,{Y0 + SIDE},0,-5'
+          '</GeoTransform><VRTRasterBand dataType="Float32" band="1" subClass="VRTRawRasterBand"><SourceFilename '
+          'relativetoVRT="1">heights.bin</SourceFilename><ByteOrder>LSB</ByteOrder></VRTRasterBand></VRTDataset>')
+    return 'dem.vrt'
+
+
+@row(TRN, 'not expected', 'gdalbuildvrt', options='east.tif')
+def two_tiles(plane):
+    tiles(plane, '.')
+    return 'west.tif'
+
+
+@row(TIN, 'not expected', 'ogrmerge.py', options='north.gpkg')
+def two_maps(plane):
+    rows = [(line(points), {'ELEV': z}) for z, points in plane.contours()]
+    for name, part in (('south', rows[:6]), ('north', rows[6:])):
+        shapes(f'{name}.gpkg', part, fields=[('ELEV', ogr.OFTReal)])
+    return 'south.gpkg'
+
+
+@row(TIN, 'reads other files', 'ogr2ogr')
+def virtual_table(plane):
+    contours('map.gpkg', plane)
+    base = sqlite3.connect('map.gpkg')
+    base.execute('PRAGMA writable_schema = 1')
+    base.execute("INSERT INTO sqlite_master VALUES ('table', 'other', 'other', 0, "
+                 "'CREATE VIRTUAL TABLE other USING VirtualOGR(''x.csv'')')")
+    base.commit()
+    return 'map.gpkg'
+
+
+# --- what a site names ---------------------------------------------------------------------------
+
+SITES = []
+BLOCK = '[blocks.b]\nshape = "box"\nsize_m = [2, 2, 1]\nposition_m = [650100, 5200150]\n'
+END = '[material.rock]\n[solver]\nduration_s = 0.1\n'
+SOURCE = '[source]\n{keys}\n' + ''.join(
+    f'[joints.{name}]\ndip_deg = {dip}\ndip_direction_deg = {direction}\nspacing_m = 8\n'
+    for name, dip, direction in (('sliding', 20, 180), ('rear', 80, 0), ('lateral', 85, 90))) + '[material.rock]\n'
+AREA = 'polygon = [[650060, 5200060], [650140, 5200060], [650140, 5200140], [650060, 5200140]]\n'
+FLAT = 'failure_surface = "normal_depth"\ndepth_m = 5'
+
+
+def site_row(tool, finding, way, truth='', fill=()):
+    """A maker of the text of a site file and of the files that it names; the terrain is trn.tif. What the command of
+    the hint makes takes the place of the file in the site. `truth`: what the tool says then."""
+    def add(make):
+        SITES.append((make, tool, finding, way, truth, dict(fill)))
+        return make
+    return add
+
+
+BLOCKS, DDA = 'talus-blocks', 'talus-dda'
+
+
+def ask(tool):
+    code, out, err = call([BLOCKS, 's.toml', '--trn', 'trn.tif', '-o', 'b.h5', '--no-db', '--overwrite'])
+    if code == 0 and tool == DDA:
+        code, out, err = call([DDA, 's.toml', '--trn', 'trn.tif', '--blocks', 'b.h5', '-o', 'r.h5', '--no-db', '--overwrite'])
+    SAID.append(err)
+    return code, out + err, err
+
+
+def outline(name, wkt=None, code=CODE, driver='GPKG', factor=1.0):
+    """The source as a polygon in a file: 6,400 m2."""
+    shapes(name, [(wkt or square(Plane()), {})], code, driver)
+    return SOURCE.format(keys=f'polygon_file = "{name}"\n' + FLAT)
+
+
+@site_row(DDA, 'is not sound', 'ogr2ogr')
+def ground_that_crosses_itself(_plane):
+    shapes('bow.gpkg', [('POLYGON ((650060 5200060, 650140 5200140, 650140 5200060, 650060 5200140, 650060 5200060))', {})])
+    return ('[ground.rock]\npolygon_file = "bow.gpkg"\nfriction_deg = 30\n[ground.elsewhere]\nfriction_deg = 35\n' +
+            BLOCK + END)
+
+
+@site_row(BLOCKS, 'are no degrees', 'ogr2ogr', 'polygon of 6,400 m2', {'EPSG:code': CODE})
+def outline_as_geojson_in_metres(_plane):
+    return outline('area.geojson', code='', driver='GeoJSON')
+
+
+@site_row(BLOCKS, 'is it the CRS of these coordinates', 'ogr2ogr', 'polygon of 6,400 m2', {'EPSG:code': CODE})
+def outline_of_other_system(_plane):
+    return outline('area.gpkg', code='EPSG:31287')
+
+
+@site_row(BLOCKS, 'they look like degrees', 'ogr2ogr', 'polygon of 6,400 m2')
+def outline_in_degrees_called_metres(_plane):
+    outline('metres.gpkg')
+    gdal.VectorTranslate('degrees.gpkg', 'metres.gpkg', dstSRS='EPSG:4326', reproject=True)
+    gdal.VectorTranslate('area.gpkg', 'degrees.gpkg', dstSRS=CODE, reproject=False)
+    return SOURCE.format(keys='polygon_file = "area.gpkg"\n' + FLAT)
+
+
+@site_row(BLOCKS, 'in millimetres', 'ogr2ogr', 'polygon of 6,400 m2')
+def outline_drawn_in_millimetres(_plane):
+    corners = [(650060e3, 5200060e3), (650140e3, 5200060e3), (650140e3, 5200140e3), (650060e3, 5200140e3)]
+    dxf('area.dxf', polyline('A', corners + corners[:1]), '9\n$INSUNITS\n70\n4\n')
+    return SOURCE.format(keys='polygon_file = "area.dxf"\n' + FLAT)
+
+
+@site_row(BLOCKS, 'the thickness is -5 m', 'gdal_calc.py', '32,000 m3')
+def thickness_below_zero(plane):
+    raster('loss.tif', np.full((40, 40), -5.0), (X0, Y0 + SIDE), 5)
+    return SOURCE.format(keys=AREA + 'failure_surface = "thickness"\nraster = "loss.tif"')
+
+
+@site_row(BLOCKS, 'a raster is never reprojected silently', 'gdalwarp', '3[12],[0-9]00 m3')
+def thickness_in_other_system(plane):
+    raster('there.tif', np.full((40, 40), 5.0), (X0, Y0 + SIDE), 5)
+    gdal.Warp('loss.tif', 'there.tif', dstSRS='EPSG:25833', dstNodata=float('nan'))
+    return SOURCE.format(keys=AREA + 'failure_surface = "thickness"\nraster = "loss.tif"')
+
+
+@site_row(BLOCKS, 'UTF-16', 'iconv', '40 orientations')
+def joints_in_utf16(_plane):
+    write('list.csv', ('Dip direction;Dip\n' + ''.join(f'{200 + k % 7};{40 + k % 5}\n' for k in range(40))).encode('utf-16'))
+    return SOURCE.format(keys=AREA + FLAT).replace('[joints.rear]', '[joints.measured]\nmeasured_file = "list.csv"\nspacing_m = 8\n'
+                                                   '[joints.rear]')
+
+
+@site_row(DDA, 'the classes are in', 'gdalwarp', ', 0 % of the mass moved')
+def classes_in_other_system(_plane):
+    raster('here.tif', np.full((40, 40), 1), (X0, Y0 + SIDE), 5, kind=gdal.GDT_Byte)
+    gdal.Warp('classes.tif', 'here.tif', dstSRS='EPSG:25833', dstNodata=255)
+    return grounds('classes.tif')
+
+
+@site_row(DDA, 'rotated', 'gdalwarp', ', 0 % of the mass moved')
+def classes_rotated(_plane):
+    raster('classes.tif', np.full((10, 10), 0), None, None, place=(X0, 3, 1, Y0 + 60, 1, -3), kind=gdal.GDT_Byte)
+    return grounds('classes.tif')
+
+
+def grounds(name):
+    """Class 0 is smooth; the block lies where it is not."""
+    return (f'[terrain]\nground_raster = "{name}"\n[ground.smooth]\nfriction_deg = 5\nraster_values = [0]\n[ground.rough]\n'
+            'friction_deg = 60\nraster_values = [1]\n[ground.elsewhere]\nfriction_deg = 60\n' + BLOCK + END.replace('0.1', '3'))
+
+
+@site_row(DDA, 'the raster is in', 'gdalwarp')
+def stand_in_other_system(_plane):
+    raster('here.tif', np.full((10, 10), 200.0), (X0, Y0 + SIDE), 20)
+    gdal.Warp('stems.tif', 'here.tif', dstSRS='EPSG:25833', dstNodata=-1)
+    return BLOCK + END + '[forest.f]\nnrtrees_raster = "stems.tif"\ndbh_mean_cm = 30\n'
+
+
+@site_row(DDA, 'has other cells than nrtrees_raster', 'gdalwarp')
+def stand_of_other_cells(_plane):
+    raster('stems.tif', np.full((10, 10), 200.0), (X0, Y0 + SIDE), 20)
+    raster('dbh.tif', np.full((20, 20), 30.0), (X0, Y0 + SIDE), 10)
+    return BLOCK + END + '[forest.f]\nnrtrees_raster = "stems.tif"\ndbhmean_raster = "dbh.tif"\n'
+
+
+@site_row(DDA, 'is it the CRS of these coordinates', 'gdal_translate', fill={'EPSG:code': CODE})
+def stand_called_otherwise(_plane):
+    raster('stems.tif', np.full((10, 10), 200.0), (X0, Y0 + SIDE), 20, code='EPSG:31287')
+    return BLOCK + END + '[forest.f]\nnrtrees_raster = "stems.tif"\ndbh_mean_cm = 30\n'
+
+
+@site_row(BLOCKS, 'utf-8', 'iconv')
+def site_in_latin_1(_plane):
+    return ('# H\u00f6rnli\n' + BLOCK + END).encode('latin-1')
+
+
+@site_row(BLOCKS, '', 'iconv')
+def site_in_utf16(_plane):
+    return (BLOCK + END).encode('utf-16-be')
+
+
+# --- the test ------------------------------------------------------------------------------------
+
+SAID = []
+
+
+def obey(entry, way):
+    make, tool, finding, _, options, fill, then, comparison, tolerance, share, code = entry
+    plane = Plane(-50, code)
+    source, options = make(plane), list(options)
+    accepted, said = terrain_of(tool, source, options, SAID)
+    assert not accepted, f'accepted, expected: {finding}: {said}'
+    assert finding in said, f'expected: {finding}; it says: {said}'
+    source, options = follow(way, hint_in(said), source, options, fill, then, SAID)
+    tool = TRN if way == 'talus-trn' else tool
+    accepted, said = terrain_of(tool, source, options, SAID)
+    if not accepted:  # the second step: its first command, else its first option
+        hint = hint_in(said)
+        assert hint, f'after {way} no hint: {said}'
+        second = commands_in(hint)[0].split()[0] if commands_in(hint) else re.search(r'--[a-z-]+', hint).group()
+        source, options = follow(second, hint, source, options, fill, then, SAID)
+        accepted, said = terrain_of(tool, source, options, SAID)
+    assert accepted, f'refused after two steps: {said}'
+    error, known = errors_of(plane, **comparison)
+    assert error <= tolerance and known >= share, f'{error:.3f} m off the truth, {100 * known:.1f} % known: {said}'
+    return error
+
+
+LITERALS = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')
+OPTION = r'(?<![\w-])--[a-z][a-z-]+ '
+DECLARED = re.compile(r'^void declare\(.*?^}|^\s*//.*?$', re.M | re.S)
+# What no input of this table leads to, and why.
+NOT_OBEYED = {
+    'fetch it first and name the copy': 'needs the network',
+    'pdal translate': 'Debian 12 has no package',
+    'fetch it with projsync': 'needs the network',
+    'write EPSG:code, for example': 'of an option that is misspelt',
+    '--doubts places.gpkg writes': 'shows, and changes nothing',
+    '--report and --doubts list them all': 'shows, and changes nothing',
+    '--hold-out': 'of options that do not go together',
+    '--like': 'of options that do not go together',
+    '--cell-size-m is': 'of options that do not go together',
+    '--unit-m is for faces': 'of options that do not go together',
+    'with talus-tin --t-srs ': 'the contours are not there',
+    'TERRAIN.tif --t-vertical': 'needs a grid of PROJ',
+}
+
+
+def hints_in_sources(source_dir):
+    """Literals that hold a command of the shell, or, where inputs are read, an option: (place, text)."""
+    for folder, pattern in (('libcore', rf'\b{SHELL} '), ('libcore/io', OPTION), ('libcore/import', OPTION),
+                            ('libcore/terrain', OPTION), ('tools/tin', OPTION), ('tools/trn', OPTION),
+                            ('tools', rf'\b{SHELL} ')):
+        for path in sorted((source_dir / folder).rglob('*.cpp')):
+            if path.name == 'gone_options.cpp':
+                continue
+            source = DECLARED.sub('', path.read_text(encoding='utf-8'))
+            for match in LITERALS.finditer(source):
+                words = ''.join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', match[0])).replace('\\"', '"').replace('\\n', '\n')
+                if re.search(pattern, words):
+                    yield f'{path.relative_to(source_dir)}', words.strip('\n')
+
+
+def obey_in_site(entry):
+    """As obey(), of a site: the name of the file changes in the site."""
+    make, tool, finding, way, truth, fill = entry
+    dem('dem.tif', Plane())
+    call([TRN, 'dem.tif', '-o', 'trn.tif', '--no-db'])
+    text = make(Plane())
+    head = f'[site]\nname = "t"\ncrs = "{CODE}"\n'
+    write('s.toml', head + text if isinstance(text, str) else
+          head.encode('utf-16-be' if b'\0' in text else 'ascii') + text)
+    code, said, err = ask(tool)
+    assert code == 1 and finding in err, f'expected: {finding}; it says: {said}'
+    hint = hint_in(err)
+    command = next((words for words in commands_in(hint) if words.split()[0] == way), None)
+    assert command, f'no {way} in the hint: {hint}'
+    for what, instead in fill.items():
+        command = command.replace(what, instead)
+    status, _, trouble = call(command)
+    assert status == 0, f'the command of the hint fails: {command}: {trouble}'
+    made = made_by(command)
+    if made.endswith('.toml'):
+        os.replace(made, 's.toml')
+    else:
+        with open('s.toml', encoding='utf-8') as file:
+            site = file.read()
+        named = [name for name in re.findall(r'"([^"]+[.][a-z]+)"', site) if name in shlex.split(command)]
+        assert len(named) == 1, f'{command} names {named}'
+        write('s.toml', site.replace(named[0], made))
+    code, said, _ = ask(tool)
+    assert code == 0 and re.search(truth, said), f'after {command}, expected: {truth}; it says: {said}'
+
+
+def in_folder(name, function):
+    """Whether it ends well in a folder of its own."""
+    folder = re.sub('[^A-Za-z0-9]+', '_', name)
+    shutil.rmtree(folder, ignore_errors=True)
+    os.mkdir(folder)
+    os.chdir(folder)
+    try:
+        error = function()
+        print(f'{name}: {"obeyed" if error is None else f"{error:.3f} m off"}')
+    except Exception as why:
+        print(f'FAILED: {name}: {type(why).__name__} {why}')
+        return False
+    finally:
+        os.chdir('..')
+    return True
+
+
+def main(source_dir, wanted):
+    failed = 0
+    for entry in TABLE:
+        name = entry[0].__name__
+        for way in entry[3]:
+            if not wanted or name in wanted:
+                failed += not in_folder(f'{name}, {way}', lambda e=entry, w=way: obey(e, w))
+    for entry in SITES:
+        if not wanted or entry[0].__name__ in wanted:
+            failed += not in_folder(entry[0].__name__, lambda e=entry: obey_in_site(e))
+    if not wanted:
+        said = '\n'.join(SAID)
+        for place, words in dict.fromkeys(hints_in_sources(pathlib.Path(source_dir))):
+            if words not in said and not any(part in words for part in NOT_OBEYED):
+                failed += 1
+                print(f'FAILED: {place}: no row leads to the hint "{words}"')
+    return failed
+
+
+if __name__ == '__main__':
+    sys.exit(1 if main(sys.argv[1], sys.argv[2:]) else 0)
