@@ -5,7 +5,9 @@
 namespace talus {
 namespace {
 
-constexpr double rounding = 1e-9;  // of a cell
+constexpr double rounding = 1e-9;     // of a cell
+constexpr double inside = 1e-6;       // of a cell: a node this far from the edges is no border's
+constexpr double layers_apart = 0.1;  // [m]
 
 const Vec3& corner(const Tin& tin, const std::array<int, 3>& triangle, std::size_t k) {
   return tin.points[triangle[k]];
@@ -66,20 +68,29 @@ struct IndexRange {
         last(static_cast<int>(std::clamp(std::floor(to + rounding), -1.0, n - 1.0))) {}
 };
 
-void fill_span(const Span& span, int n_cols, double* elevation) {
+// `two`: where nodes off the ends of the span are asked for another height; may be null.
+void fill_span(const Span& span, int row, int n_cols, double* elevation, TwoHeights* two) {
   const IndexRange cols(span.west.col, span.east.col, n_cols);
   const double width = span.east.col - span.west.col;
   const double slope = width > 0 ? (span.east.z - span.west.z) / width : 0;
-  for (int col = cols.first; col <= cols.last; ++col)
-    elevation[col] = span.west.z + slope * std::clamp(col - span.west.col, 0.0, width);
+  for (int col = cols.first; col <= cols.last; ++col) {
+    const double z = span.west.z + slope * std::clamp(col - span.west.col, 0.0, width);
+    if (two != nullptr && std::abs(elevation[col] - z) > layers_apart &&
+        col > span.west.col + inside && col < span.east.col - inside && two->n++ == 0)
+      *two = {1, row, col, z, elevation[col]};
+    elevation[col] = z;
+  }
 }
 
-void fill_triangle(const GridTriangle& triangle, const GridFrame& frame, double* elevation) {
+void fill_triangle(const GridTriangle& triangle, const GridFrame& frame, double* elevation,
+                   TwoHeights* two) {
   const IndexRange rows(triangle.row_first, triangle.row_last, frame.n_rows);
   for (int row = rows.first; row <= rows.last; ++row) {
-    const double inside = std::clamp<double>(row, triangle.row_first, triangle.row_last);
-    fill_span(span_in_row(triangle, inside), frame.n_cols,
-              elevation + static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.n_cols));
+    const double place = std::clamp<double>(row, triangle.row_first, triangle.row_last);
+    const bool is_off = row > triangle.row_first + inside && row < triangle.row_last - inside;
+    fill_span(span_in_row(triangle, place), row, frame.n_cols,
+              elevation + static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.n_cols),
+              is_off ? two : nullptr);
   }
 }
 
@@ -112,7 +123,7 @@ double natural_cell_size(const Tin& tin) {
 }
 
 std::vector<double> grid_tin(const Tin& tin, const GridFrame& frame,
-                             const ProgressFunction& progress) {
+                             const ProgressFunction& progress, TwoHeights* two) {
   std::vector<double> elevation(
       static_cast<std::size_t>(frame.n_rows) * static_cast<std::size_t>(frame.n_cols),
       std::numeric_limits<double>::quiet_NaN());
@@ -133,7 +144,7 @@ std::vector<double> grid_tin(const Tin& tin, const GridFrame& frame,
     const auto& [a, b, c] = triangle.point;
     triangle.row_first = std::min({a.y(), b.y(), c.y()});
     triangle.row_last = std::max({a.y(), b.y(), c.y()});
-    fill_triangle(triangle, frame, elevation.data());
+    fill_triangle(triangle, frame, elevation.data(), two);
   }
   return elevation;
 }

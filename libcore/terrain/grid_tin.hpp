@@ -17,14 +17,22 @@ namespace talus {
 /// 2 or 5 times a power of ten [m]; 0 when no triangle has an area in plan.
 [[nodiscard]] double natural_cell_size(const Tin& tin);
 
+/// Nodes inside of two triangles that stand at two heights there: a surface in two layers.
+struct TwoHeights {
+  int n = 0;
+  int row = 0, col = 0;     ///< of the first
+  double z = 0, other = 0;  ///< there [m]
+};
+
 /// Elevation of the TIN at the nodes of `frame`, at [r * n_cols + c] [m], NaN outside of it.
 ///
 /// Between the two crossings of a row of nodes with the edges of a triangle the elevation is
 /// linear. The crossings of an edge are computed from the edge alone, so that the two triangles at
 /// an edge leave no gap between them, and slender triangles cannot overshoot their corners by more
 /// than rounding. A node on the border (to 1e-9 of a cell) is inside. Triangles without area in
-/// plan are left out.
+/// plan are left out. `two`, if given, is what was found in two layers, 0.1 m apart and more.
 [[nodiscard]] std::vector<double> grid_tin(const Tin& tin, const GridFrame& frame,
-                                           const ProgressFunction& progress = {});
+                                           const ProgressFunction& progress = {},
+                                           TwoHeights* two = nullptr);
 
 }  // namespace talus

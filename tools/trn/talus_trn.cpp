@@ -158,21 +158,37 @@ void check_frame(const GridFrame& frame, const MapWindow& data, const Options& o
                    "choose a smaller cell or a larger window");
 }
 
-// A surface that folds over has two heights in one place; a terrain has one.
-void check_one_layer(Tool& tool, const Options& o, const talus::TinFile& file, Ground& ground) {
-  if (file.tin.is_judged) return;
-  const talus::FoldedEdges folded = talus::find_folded_edges(file.tin);
-  if (folded.n == 0) return;
-  const talus::Vec3 place = folded.first + file.tin.origin;
-  const std::string finding = "the surface folds over or has two layers at " +
-                              talus::counted(folded.n, "edge") + ", the first at x " +
-                              text(place.x(), 10) + ", y " + text(place.y(), 10);
+// A surface that folds over, or has a second layer, has two heights in one place; a terrain has
+// one.
+void judge_layers(Tool& tool, const Options& o, const std::string& finding, Ground& ground) {
   if (!o.accept_doubts)
     throw InputError(
         {o.source}, finding + "; expected one height in each place",
         "write the ground alone to the file; --accept-doubts takes one of the heights");
   tool.warn(finding + ": one of the heights is taken");
   ground.accepted = finding;
+}
+
+void check_folds(Tool& tool, const Options& o, const talus::TinFile& file, Ground& ground) {
+  if (file.tin.is_judged) return;
+  const talus::FoldedEdges folded = talus::find_folded_edges(file.tin);
+  if (folded.n == 0) return;
+  const talus::Vec3 place = folded.first + file.tin.origin;
+  judge_layers(tool, o,
+               "the surface folds over or has two layers at " + talus::counted(folded.n, "edge") +
+                   ", the first at x " + text(place.x(), 10) + ", y " + text(place.y(), 10),
+               ground);
+}
+
+void check_two_heights(Tool& tool, const Options& o, const talus::TwoHeights& two,
+                       const GridFrame& frame, Ground& ground) {
+  if (two.n == 0 || !ground.accepted.empty()) return;
+  judge_layers(tool, o,
+               "the surface has two layers at " + talus::counted(two.n, "node") +
+                   ", the first at x " + text(frame.x(two.col), 10) + ", y " +
+                   text(frame.y(two.row), 10) + ": " + text(std::min(two.z, two.other), 8) +
+                   " and " + text(std::max(two.z, two.other), 8) + " m",
+               ground);
 }
 
 talus::LayerRef faces_of(const Options& o) {
@@ -199,7 +215,7 @@ Ground ground_of_tin(Tool& tool, const Options& o) {
   Ground ground;
   ground.was_judged = tin.is_judged;
   ground.accepted = tin.accepted_doubts;
-  check_one_layer(tool, o, file, ground);
+  check_folds(tool, o, file, ground);
   const MapWindow data = talus::extent(tin);
   talus::ImportReading reading;
   const std::string crs = talus::crs_of_tin(tin, talus::systems_by_user(o.crs), o.source, reading);
@@ -217,7 +233,10 @@ Ground ground_of_tin(Tool& tool, const Options& o) {
     frame = o.window.x_min > -far ? talus::frame_covering(o.window, size)
                                   : talus::frame_inside(data, size);
   check_frame(frame, data, o);
-  ground.trn = talus::make_trn(frame, crs, talus::grid_tin(tin, frame, tool.progress()));
+  talus::TwoHeights two;
+  ground.trn = talus::make_trn(
+      frame, crs, talus::grid_tin(tin, frame, tool.progress(), tin.is_judged ? nullptr : &two));
+  check_two_heights(tool, o, two, frame, ground);
   return ground;
 }
 

@@ -155,6 +155,28 @@ TEST(GridTin, AGridThatMissesTheTinIsUnknown) {
     for (const double z : talus::grid_tin(tin, frame)) EXPECT_TRUE(std::isnan(z));
 }
 
+// Triangles that share edges have one height at each node; one that lies over others has two.
+TEST(GridTin, ASecondLayerIsFound) {
+  talus::Random random(7, "layers");
+  Tin tin = jittered_tin(random, 9, 0.24);
+  const GridFrame frame = frame_around(tin, 0.9);
+  talus::TwoHeights two;
+  const std::vector<double> below = talus::grid_tin(tin, frame, {}, &two);
+  EXPECT_EQ(two.n, 0);
+  const auto [i, j, k] = tin.triangles[20];
+  const int first = static_cast<int>(tin.points.size());
+  for (const int corner : {i, j, k})
+    tin.points.emplace_back(tin.points[static_cast<std::size_t>(corner)] + Vec3(0, 0, 7));
+  tin.triangles.push_back({first, first + 1, first + 2});
+  const std::vector<double> above = talus::grid_tin(tin, frame, {}, &two);
+  int n_changed = 0;
+  for (std::size_t node = 0; node < above.size(); ++node)
+    if (above[node] > below[node] + 6.9) ++n_changed;
+  EXPECT_EQ(two.n, n_changed);
+  EXPECT_GT(n_changed, 20);
+  EXPECT_NEAR(two.z - two.other, 7, 1e-9);
+}
+
 TEST(GridTin, NaturalCellSizeIsNearTheDistanceOfThePoints) {
   talus::Random random(6, "size");
   EXPECT_EQ(talus::natural_cell_size(jittered_tin(random, 9, 0.24)), 5);  // 8.9 m
