@@ -401,6 +401,14 @@ def surface_that_folds_over(plane):
     return 'ground.xml'
 
 
+@row(TRN, 'has two layers at', '--accept-doubts', options='--crs EPSG:25832 --cell-size-m 5', tolerance=8)
+def two_layers_of_faces(plane):
+    vertices, triangles = mesh(plane)
+    both = np.vstack([vertices, vertices + [0, 0, 7]])
+    landxml('ground.xml', [('G', both, triangles + [tuple(i + len(vertices) for i in face) for face in triangles])])
+    return 'ground.xml'
+
+
 @row(TRN, 'in US survey foot', '--crs EPSG:code', options='--unit-m 0.3048006096 --cell-size-m 5', plane='EPSG:26913',
      fill={'EPSG:code': 'EPSG:26954'}, code='EPSG:26954')
 def landxml_of_a_state_plane(plane):
@@ -749,6 +757,18 @@ def thickness_below_zero(plane):
     return SOURCE.format(keys=AREA + 'failure_surface = "thickness"\nraster = "loss.tif"')
 
 
+@site_row(BLOCKS, 'these are depths', 'failure_surface = "thickness"', '32,000 m3')
+def depths_called_elevations(_plane):
+    raster('loss.tif', np.full((40, 40), 5.0), (X0, Y0 + SIDE), 5)
+    return SOURCE.format(keys=AREA + 'failure_surface = "raster"\nraster = "loss.tif"')
+
+
+@site_row(BLOCKS, 'near the elevation of the ground', 'failure_surface = "raster"', '32,000 m3')
+def elevations_called_depths(plane):
+    raster('surface.tif', plane.cells() - 5, (X0, Y0 + SIDE), 5)
+    return SOURCE.format(keys=AREA + 'failure_surface = "thickness"\nraster = "surface.tif"')
+
+
 @site_row(BLOCKS, 'a raster is never reprojected silently', 'gdalwarp', '3[12],[0-9]00 m3')
 def thickness_in_other_system(plane):
     raster('there.tif', np.full((40, 40), 5.0), (X0, Y0 + SIDE), 5)
@@ -863,7 +883,7 @@ def hints_in_sources(source_dir):
     """Literals that hold a command of the shell, or, where inputs are read, an option: (place, text)."""
     for folder, pattern in (('libcore', rf'\b{SHELL} '), ('libcore/io', OPTION), ('libcore/import', OPTION),
                             ('libcore/terrain', OPTION), ('tools/tin', OPTION), ('tools/trn', OPTION),
-                            ('tools', rf'\b{SHELL} ')):
+                            ('tools', rf'\b{SHELL} '), ('libcore/blocks', r'[a-z_]+ = "[a-z]')):
         for path in sorted((source_dir / folder).rglob('*.cpp')):
             if path.name == 'gone_options.cpp':
                 continue
@@ -886,6 +906,14 @@ def obey_in_site(entry):
     code, said, err = ask(tool)
     assert code == 1 and finding in err, f'expected: {finding}; it says: {said}'
     hint = hint_in(err)
+    if ' = ' in way:  # a key of the site
+        assert way in hint, f'no "{way}" in the hint: {hint}'
+        with open('s.toml', encoding='utf-8') as file:
+            site = file.read()
+        write('s.toml', re.sub(f'(?m)^{way.split()[0]} = .*$', way, site))
+        code, said, _ = ask(tool)
+        assert code == 0 and re.search(truth, said), f'with {way}, expected: {truth}; it says: {said}'
+        return
     command = next((words for words in commands_in(hint) if words.split()[0] == way), None)
     assert command, f'no {way} in the hint: {hint}'
     for what, instead in fill.items():
