@@ -362,13 +362,13 @@ def main():
     out = os.path.abspath(o.out or tempfile.mkdtemp())
     failed, n = [], 0
     print('''# Everyday deliveries
-Each row is a delivery as its sender writes it, made by a script from a ground that is known: 200 m by
-200 m, a slope of 1 : 2 with a hill. The user gives the file to `talus-trn` (rasters, surfaces) or
-`talus-tin` (contours, points) and does what the hints say, one step each.
+Each row is a delivery as its sender writes it, made by a script from a ground that is known: 200 m
+by 200 m, a slope of 1 : 2 with a hill. The user gives the file to `talus-trn` (rasters, surfaces)
+or `talus-tin` (contours, points) and does what the hints say, one step each.
 
 The shift in plan is the one that explains most of the errors of height; the error of height holds
-the interpolation too. `python3 tests/studies/deliveries.py` writes this page, `inputs.test_deliveries`
-runs it.
+the interpolation too. `python3 tests/studies/deliveries.py` writes this page, and the test
+`inputs.test_deliveries` runs it.
 
 | Delivery | Given | Steps, as the hints say | Said | Shift in plan [m] | Height: rms, largest [m] |
 |---|---|---|---|---|---|''')

@@ -374,6 +374,18 @@ def stand_in_int8_with_nodata(plane):
 
 
 @on_site
+def folder_of_rockyfor3d(_plane):
+    head = f'ncols 40\nnrows 40\nxllcorner {X0}\nyllcorner {Y0}\ncellsize 5\nNODATA_value -9999\n'
+    for name, value in (('soiltype', 4), ('nrtrees', 300), ('dbhmean', 35), ('dbhstd', 8), ('conif_percent', 80)):
+        write(f'{name}.asc', head + (f'{value} ' * 40 + '\n') * 40)
+    status, said = run('[terrain]\nground_raster = "soiltype.asc"\n[ground.scree]\nraster_values = [4]\nfriction_deg = 35\n'
+                       '[ground.elsewhere]\nfriction_deg = 20\n' + BLOCK + END + '[forest.f]\n' +
+                       ''.join(f'{name}_raster = "{name}.asc"\n' for name in ('nrtrees', 'dbhmean', 'dbhstd', 'conif_percent')),
+                       'conifers 80')
+    assert status == 0, said
+
+
+@on_site
 def reference_raster_in_feet(plane):
     plane = Plane(1000, 'EPSG:26912', 450000, 4400000)
     dem('map.tif', plane)
