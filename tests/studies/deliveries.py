@@ -17,8 +17,8 @@ import sys
 import tempfile
 import zipfile
 
-from inputs import (FEET, SIDE, SURVEY_FEET, Hill, contours, dem, dxf, follow, gdal, hint_in, landxml, line, mesh, np, ogr,
-                    polyline, shapes, shift_of, srs, terrain_of, write)
+from inputs import (FEET, SIDE, SURVEY_FEET, Hill, call, contours, dem, dxf, follow, gdal, hint_in, landxml, mesh,
+                    np, ogr, polyline, shift_of, srs, terrain_of, write)
 
 TABLE = []
 TRN, TIN = 'talus-trn', 'talus-tin'
@@ -319,6 +319,18 @@ def first_line(said):
     return re.sub(r'^talus-\w+: ', '', said.strip().splitlines()[0]) if said.strip() else ''
 
 
+def check_import(source, options):
+    """Contours and points that talus-import brings to one form first make the same terrain."""
+    os.rename('t.tif', 'direct.tif')
+    write('s.toml', '[site]\nname = "t"\n[terrain]\ncontours = "given"\n')
+    code, _, err = call(['talus-import', 's.toml', '-o', 'inputs.gpkg', '--contours', source, '--no-db', *options])
+    assert code == 0, f'talus-import: {err}'
+    accepted, err = terrain_of(TIN, 'inputs.gpkg', [word for word in options if word == '--points'])
+    assert accepted, f'after talus-import: {err}'
+    direct, imported = (gdal.Open(name).ReadAsArray() for name in ('direct.tif', 't.tif'))
+    assert np.array_equal(direct, imported), 'after talus-import the terrain is another'
+
+
 def taken(entry):
     """(steps, what was said, errors) of a delivery."""
     make, _, tool, options, hill, ways, fill, then, truth, _ = entry
@@ -343,6 +355,8 @@ def taken(entry):
                          if options != given else way)
         accepted, err = terrain_of(tool, source, options)
     assert accepted, f'still refused: {err}'
+    if tool == TIN:
+        check_import(source, options)
     said += ['warned: ' + row.split('warning: ', 1)[1] for row in err.splitlines() if 'warning: ' in row]
     return words, said, shift_of(hill, 't.tif', truth)
 
@@ -367,8 +381,11 @@ by 200 m, a slope of 1 : 2 with a hill. The user gives the file to `talus-trn` (
 or `talus-tin` (contours, points) and does what the hints say, one step each.
 
 The shift in plan is the one that explains most of the errors of height; the error of height holds
-the interpolation too. `python3 tests/studies/deliveries.py` writes this page, and the test
-`inputs.test_deliveries` runs it.
+the interpolation too. Contours and points go through `talus-import` as well: the terrain is the
+same to the bit.
+
+`python3 tests/studies/deliveries.py` writes this page, and the test `inputs.test_deliveries` runs
+it.
 
 | Delivery | Given | Steps, as the hints say | Said | Shift in plan [m] | Height: rms, largest [m] |
 |---|---|---|---|---|---|''')
