@@ -399,12 +399,17 @@ TinFile read_tin_file(const LayerRef& choice) {
   return file;
 }
 
-std::string crs_of_tin(const Tin& tin, const SystemsByUser& said, const std::string& path,
+std::string crs_of_tin(const Tin& tin, const SystemsByUser& said, const LayerRef& choice,
                        ImportReading& reading) {
+  const std::string& path = choice.path;
   const MapWindow data = extent(tin);
   const std::string own =
       tin.crs_wkt.empty() ? std::string() : crs_from_user(tin.crs_wkt, path + ": its CRS");
-  const std::string crs = crs_said({path, own, data, true, false}, said, reading.notes);
+  // metres that the user made of feet are in another system than the file says
+  const bool is_other = choice.unit_m > 0 && length_unit_m(own) != 1;
+  const std::string crs = is_other && said.crs_given
+                              ? said.crs
+                              : crs_said({path, own, data, true, false}, said, reading.notes);
   if (crs.empty() && said.vertical_crs.empty()) return crs;
   const CrsProblem problem =
       find_crs_problem(crs, {0.5 * (data.x_min + data.x_max), 0.5 * (data.y_min + data.y_max)});
@@ -413,10 +418,9 @@ std::string crs_of_tin(const Tin& tin, const SystemsByUser& said, const std::str
   if (!problem.finding.empty())
     throw InputError(
         {path}, problem.finding,
-        length_unit_m(crs) != 1
-            ? "name the system of the same projection in metres with --crs EPSG:code, "
-              "or --crs none for local metres"
-            : way_out + " " + (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to));
+        is_other ? "name the system of the same projection in metres with --crs "
+                   "EPSG:code, or --crs none for local metres"
+                 : way_out + " " + (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to));
   CrsExtent place{crs, data};
   place.way_to_other_crs = way_out;
   place.crs_said_in = said.crs_given ? "--crs" : "the file";

@@ -32,10 +32,11 @@ struct TinFile {
 /// or a unit of a file that has none.
 [[nodiscard]] TinFile read_tin_file(const LayerRef& choice);
 
-/// The CRS of a TIN, WKT, or what the user says of one without; empty: local metres. Throws
-/// InputError where it cannot be computed in, or coordinates cannot be in it.
+/// The CRS of a TIN, WKT, or what the user says of one without, or of one in feet that `choice`
+/// scales to metres; empty: local metres. Throws InputError where it cannot be computed in, or
+/// coordinates cannot be in it.
 [[nodiscard]] std::string crs_of_tin(const Tin& tin, const SystemsByUser& said,
-                                     const std::string& path, ImportReading& reading);
+                                     const LayerRef& choice, ImportReading& reading);
 
 /// Edges at which triangles lie over one another: more than two meet, or both on one side.
 struct FoldedEdges {

@@ -218,7 +218,8 @@ Ground ground_of_tin(Tool& tool, const Options& o) {
   check_folds(tool, o, file, ground);
   const MapWindow data = talus::extent(tin);
   talus::ImportReading reading;
-  const std::string crs = talus::crs_of_tin(tin, talus::systems_by_user(o.crs), o.source, reading);
+  const std::string crs =
+      talus::crs_of_tin(tin, talus::systems_by_user(o.crs), faces_of(o), reading);
   for (const std::string& note : reading.notes) tool.info(note);
   for (const std::string& warning : reading.warnings) tool.warn(warning);
   const double natural_size = talus::natural_cell_size(tin);
