@@ -3,10 +3,12 @@
 
 #include <cpl_string.h>
 #include <cpl_vsi.h>
-#include <gdal.h>
+#include <gdal_priv.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 #include "base/error.hpp"
@@ -73,16 +75,65 @@ bool are_shapefiles_of_one_folder(const std::vector<std::string>& members) {
   });
 }
 
-// One raster of the tiles in an archive.
-std::string tiles_command(const std::string& archive, const std::string& member) {
+// The command that unpacks an archive and makes one raster of its tiles.
+std::string tiles_command(const std::string& archive, const std::vector<std::string>& members) {
   const std::string folder = fs::path(archive).stem().string();
-  const std::string unpack = archive_prefix(archive) == "/vsizip/"
-                                 ? "unzip -q " + shell_word(archive) + " -d " + shell_word(folder)
-                                 : "mkdir " + shell_word(folder) + " && tar -xf " +
-                                       shell_word(archive) + " -C " + shell_word(folder);
-  return "one raster of tiles: " + unpack + " && gdalbuildvrt all.vrt " +
-         shell_word((fs::path(folder) / member).parent_path().string()) + "/*" +
-         fs::path(member).extension().string();
+  std::string command = archive_prefix(archive) == "/vsizip/"
+                            ? "unzip -q " + shell_word(archive) + " -d " + shell_word(folder)
+                            : "mkdir " + shell_word(folder) + " && tar -xf " + shell_word(archive) +
+                                  " -C " + shell_word(folder);
+  command += " && gdalbuildvrt all.vrt";
+  const fs::path first(members.front());
+  const bool are_alike = std::all_of(members.begin(), members.end(), [&first](const fs::path& one) {
+    return one.parent_path() == first.parent_path() && one.extension() == first.extension();
+  });
+  if (are_alike)
+    return command + " " + shell_word((fs::path(folder) / first).parent_path().string()) + "/*" +
+           first.extension().string();
+  for (const std::string& member : members)
+    command += " " + shell_word((fs::path(folder) / member).string());
+  return command;
+}
+
+// Outer edges of a raster; nothing where it has no place, or names other files.
+std::optional<std::array<double, 4>> edges_of(const std::string& raster) {
+  const GdalErrors quiet;
+  if (lower(raster).ends_with(".vrt")) return std::nullopt;
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(raster.c_str(), GDAL_OF_RASTER));
+  std::array<double, 6> g{};
+  if (!dataset || dataset->GetGeoTransform(g.data()) != CE_None) return std::nullopt;
+  const double x = g[0] + g[1] * dataset->GetRasterXSize();
+  const double y = g[3] + g[5] * dataset->GetRasterYSize();
+  return std::array<double, 4>{std::min(g[0], x), std::min(g[3], y), std::max(g[0], x),
+                               std::max(g[3], y)};
+}
+
+// Whether one of two has half of its area or more on the other, among the first of many.
+bool lie_over_one_another(const std::vector<std::string>& rasters) {
+  constexpr std::size_t most = 20;
+  std::vector<std::array<double, 4>> seen;
+  for (std::size_t i = 0; i < std::min(most, rasters.size()); ++i) {
+    const auto edges = edges_of(rasters[i]);
+    if (!edges) continue;
+    const auto& [west, south, east, north] = *edges;
+    for (const auto& other : seen) {
+      const double width = std::min(east, other[2]) - std::max(west, other[0]);
+      const double height = std::min(north, other[3]) - std::max(south, other[1]);
+      const double smaller =
+          std::min((east - west) * (north - south), (other[2] - other[0]) * (other[3] - other[1]));
+      if (width > 0 && height > 0 && 2 * width * height >= smaller) return true;
+    }
+    seen.push_back(*edges);
+  }
+  return false;
+}
+
+// The one that is called like an elevation model, else the first.
+std::string elevation_model_among(const std::vector<std::string>& names) {
+  for (const char* word : {"dem", "dtm", "dgm", "dhm", "mnt", "mdt", "elev", "alti"})
+    for (const std::string& name : names)
+      if (lower(fs::path(name).filename().string()).find(word) != std::string::npos) return name;
+  return names.front();
 }
 
 std::string list_of(const std::vector<std::string>& names) {
@@ -92,6 +143,13 @@ std::string list_of(const std::vector<std::string>& names) {
 }
 
 }  // namespace
+
+std::string way_to_one_raster(const std::vector<std::string>& rasters,
+                              const std::vector<std::string>& names, const std::string& command) {
+  return lie_over_one_another(rasters)
+             ? "they lie over one another; name one: " + shell_word(elevation_model_among(names))
+             : "one raster of tiles: " + command;
+}
 
 std::string source_in(const SourcePath& path, Contents contents,
                       std::vector<std::string>& remarks) {
@@ -107,13 +165,19 @@ std::string source_in(const SourcePath& path, Contents contents,
     const std::string folder = fs::path(members.front()).parent_path().string();
     return folder.empty() ? path.source : path.source + "/" + folder;
   }
-  if (members.size() > 1)
+  if (members.size() > 1) {
+    std::vector<std::string> rasters, names;
+    for (const std::string& member : members) {
+      rasters.push_back(path.source + "/" + member);
+      names.push_back(path.file + "/" + member);
+    }
     throw InputError({path.file},
                      "the archive holds " + std::to_string(members.size()) + " " + kind +
                          "s, expected one; they are: " + list_of(members),
                      contents == Contents::vectors
-                         ? "name one: " + path.file + "/" + members.front()
-                         : tiles_command(path.file, members.front()));
+                         ? "name one: " + shell_word(names.front())
+                         : way_to_one_raster(rasters, names, tiles_command(path.file, members)));
+  }
   remarks.push_back("read from " + members.front() + " in the archive");
   return path.source + "/" + members.front();
 }

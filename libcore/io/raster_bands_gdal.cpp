@@ -73,17 +73,32 @@ void refuse_several_rasters(GDALDataset& dataset, const std::string& path) {
                    "give the name of one of them in place of the file: '" + names.front() + "'");
 }
 
-// The end of the names of the rasters in a folder: the first that GDAL knows.
-std::string extension_in(const std::filesystem::path& folder) {
+// The rasters of a folder that are named like the first that GDAL knows.
+std::vector<std::string> rasters_in(const std::filesystem::path& folder) {
   std::error_code error;
-  std::vector<std::string> names;
+  std::vector<std::string> names, rasters;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
     names.push_back(entry.path().string());
   std::sort(names.begin(), names.end());
-  for (const std::string& name : names)
-    if (GDALIdentifyDriver(name.c_str(), nullptr) != nullptr)
-      return std::filesystem::path(name).extension().string();
-  return ".tif";
+  for (const std::string& name : names) {
+    const bool is_alike = rasters.empty() || std::filesystem::path(name).extension() ==
+                                                 std::filesystem::path(rasters.front()).extension();
+    if (is_alike && GDALIdentifyDriver(name.c_str(), nullptr) != nullptr) rasters.push_back(name);
+  }
+  return rasters;
+}
+
+void refuse_folder(const std::string& path) {
+  const std::vector<std::string> rasters = rasters_in(path);
+  if (rasters.empty())
+    throw InputError({path}, "is a folder, expected a raster", "name a file in it");
+  throw InputError(
+      {path},
+      "is a folder, expected a raster; it holds " +
+          counted(static_cast<std::int64_t>(rasters.size()), "raster") + ": " + list_of(rasters),
+      way_to_one_raster(rasters, rasters,
+                        "gdalbuildvrt all.vrt " + shell_word(path) + "/*" +
+                            std::filesystem::path(rasters.front()).extension().string()));
 }
 
 // Deliveries that need another step first.
@@ -92,9 +107,7 @@ void refuse_what_is_not_a_raster(const std::string& path) {
   const std::string extension = lower(std::filesystem::path(path).extension().string());
   const bool is_folder = std::filesystem::is_directory(path, error);
   if (is_folder && extension != ".adf" && GDALIdentifyDriver(path.c_str(), nullptr) == nullptr)
-    throw InputError({path}, "is a folder, expected a raster",
-                     "one raster of tiles: gdalbuildvrt all.vrt " + shell_word(path) + "/*" +
-                         extension_in(path));
+    refuse_folder(path);
   if (extension == ".las" || extension == ".laz")
     throw InputError({path}, "is a laser scan, expected a raster",
                      ground_points_command(path) + "; then talus-tin ground.csv --points");

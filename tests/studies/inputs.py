@@ -280,6 +280,8 @@ def follow(way, hint, source, options, fill, then, said):
     if way.startswith(('leave ', 'omit ')):
         assert way in hint, f'no "{way}" in the hint: {hint}'
         return source, drop(options, way.split()[1])
+    if way == 'name one':
+        return shlex.split(hint.split('name one: ')[1])[0], options
     if way.startswith('--'):
         return source, with_options(options, options_in(values_of(way, hint), fill))
     if '|' in way:

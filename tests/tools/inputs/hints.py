@@ -210,8 +210,8 @@ def other_system_given(plane):
 def undeclared_nodata(plane):
     cells = plane.cells()
     cells[:10, :20] = -32768
-    raster('dem.tif', cells, (X0, Y0 + SIDE), 5)
-    return 'dem.tif'
+    raster("surveyor's dem.tif", cells, (X0, Y0 + SIDE), 5)
+    return "surveyor's dem.tif"
 
 
 @row(TRN, 'side by side, more than', 'gdal_translate', share=.7)
@@ -269,17 +269,17 @@ def tiles(plane, folder):
 
 @row(TRN, 'is a folder', 'gdalbuildvrt')
 def folder_of_tiles(plane):
-    tiles(plane, 'tiles')
-    return 'tiles'
+    tiles(plane, 'my tiles')
+    return 'my tiles'
 
 
 @row(TRN, 'the archive holds 2 rasters', 'unzip')
 def archive_of_tiles(plane):
     tiles(plane, 'packed')
-    with zipfile.ZipFile('tiles.zip', 'w') as archive:
+    with zipfile.ZipFile('my tiles.zip', 'w') as archive:
         for side in ('west', 'east'):
             archive.write(f'packed/{side}.tif', f'{side}.tif')
-    return 'tiles.zip'
+    return 'my tiles.zip'
 
 
 @row(TRN, 'the archive holds 2 rasters', 'mkdir')
@@ -288,6 +288,37 @@ def tar_of_tiles(plane):
     with tarfile.open('tiles.tar', 'w') as archive:
         archive.add('packed')
     return 'tiles.tar'
+
+
+def dem_among_others(plane, folder):
+    os.makedirs(folder)
+    for name, height in (('blshape', 1), ('dem', None), ('soiltype', 4)):
+        cells = plane.cells() if height is None else np.full((40, 40), float(height))
+        raster(f'{folder}/{name}.tif', cells, (X0, Y0 + SIDE), 5)
+
+
+@row(TRN, 'is a folder', 'name one')
+def folder_of_rockyfor3d(plane):
+    dem_among_others(plane, 'rf3d')
+    return 'rf3d'
+
+
+@row(TRN, 'the archive holds 3 rasters', 'name one')
+def archive_of_rockyfor3d(plane):
+    dem_among_others(plane, 'rf3d')
+    with zipfile.ZipFile('rf3d.zip', 'w') as archive:
+        for name in sorted(os.listdir('rf3d')):
+            archive.write(f'rf3d/{name}')
+    return 'rf3d.zip'
+
+
+@row(TRN, 'the archive holds 2 rasters', 'unzip')
+def archive_of_tiles_in_folders(plane):
+    tiles(plane, 'packed')
+    with zipfile.ZipFile('tiles.zip', 'w') as archive:
+        for side in ('west', 'east'):
+            archive.write(f'packed/{side}.tif', f'{side}/dem.tif')
+    return 'tiles.zip'
 
 
 @row(TRN, 'reaches beyond the data', '--window', options=f'--window {X0 + 20},{X0 + 180},{Y0 + 20},{Y0 + 180}', share=.6)
@@ -337,10 +368,10 @@ def other_system_said(plane):
 
 @row(TRN, 'with the other signs', 'gdal_translate')
 def signs_of_south_and_west(plane):
-    raster('dem.tif', plane.cells(), (-(X0), -(Y0)), 5, code=CODE)
-    data = gdal.Open('dem.tif', 1)
+    raster('my dem.tif', plane.cells(), (-(X0), -(Y0)), 5, code=CODE)
+    data = gdal.Open('my dem.tif', 1)
     data.SetGeoTransform((-X0 - SIDE, 5, 0, -Y0, 0, -5))
-    return 'dem.tif'
+    return 'my dem.tif'
 
 
 @row(TRN, 'as kilometres they would lie in it', 'gdal_translate', plane='EPSG:2056')
@@ -409,8 +440,8 @@ def two_layers_of_faces(plane):
     return 'ground.xml'
 
 
-@row(TRN, 'in US survey foot', '--crs EPSG:code', options='--unit-m 0.3048006096 --cell-size-m 5', plane='EPSG:26913',
-     fill={'EPSG:code': 'EPSG:26954'}, code='EPSG:26954')
+@row(TRN, 'in US survey foot', '--crs EPSG:code', '--crs none', options='--unit-m 0.3048006096 --cell-size-m 5', plane='EPSG:26913',
+     fill={'EPSG:code': 'EPSG:26954'})
 def landxml_of_a_state_plane(plane):
     plane.x0, plane.y0 = 950000, 520000
     vertices, triangles = mesh(plane)
@@ -588,9 +619,9 @@ def geojson_in_metres(plane):
 
 @row(TIN, 'with x and y exchanged', 'ogr2ogr')
 def lines_with_exchanged_axes(plane):
-    shapes('map.gpkg', [(line(np.asarray(points)[:, ::-1]), {'ELEV': z}) for z, points in plane.contours()],
+    shapes('my map.gpkg', [(line(np.asarray(points)[:, ::-1]), {'ELEV': z}) for z, points in plane.contours()],
            fields=[('ELEV', ogr.OFTReal)])
-    return 'map.gpkg'
+    return 'my map.gpkg'
 
 
 @row(TIN, '1 height cannot be', '--accept-doubts', tolerance=2000)
@@ -620,8 +651,8 @@ def unknown_datum_that_is_this_one(plane):
 
 @row(TIN, 'a surface of faces needs no contours', 'talus-trn', fill={'EPSG:code': CODE})
 def faces_for_contours(plane):
-    faces('faces.dxf', plane)
-    return 'faces.dxf'
+    faces('my faces.dxf', plane)
+    return 'my faces.dxf'
 
 
 @row(TRN, 'a DEM is never reprojected silently', 'talus-trn', options='--reference other.tif')
