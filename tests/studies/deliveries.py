@@ -28,8 +28,8 @@ def delivery(words, tool, options, code, corner, steps=(), fill=(), then='', tru
     """A maker of a delivery. `code`, `corner`: the hill's system and south-west corner; `truth`: its system, where the
     terrain is in another; `steps`: the ways of hints that are taken; `heights`: bound of the rms error [m]."""
     def add(make):
-        TABLE.append((make, words, tool, shlex.split(options), Hill(height, code, *corner), steps, dict(fill), then, truth,
-                      heights))
+        TABLE.append((make, words, tool, shlex.split(options), Hill(height, code, *corner), steps, dict(fill), then,
+                      truth, heights))
         return make
     return add
 
@@ -218,8 +218,8 @@ def gk_m31_in_full(hill):
 @delivery('Austria: survey points GK M34, "Y;X;H" with decimal commas', TIN, '--points --crs EPSG:31259', 'EPSG:31259',
           (740000, 330000), heights=1.5)
 def gk_m34(hill):
-    columns('punkte.csv', [(f'{x:.3f}', f'{y:.3f}', f'{z:.3f}') for x, y, z in hill.points(40)], 'Rechtswert;Hochwert;H', '\r\n',
-            comma=True)
+    rows = [(f'{x:.3f}', f'{y:.3f}', f'{z:.3f}') for x, y, z in hill.points(40)]
+    columns('punkte.csv', rows, 'Rechtswert;Hochwert;H', '\r\n', comma=True)
     return 'punkte.csv'
 
 
@@ -241,7 +241,8 @@ def thousands(hill):
     return 'vermessung.csv'
 
 
-@delivery('CAD: contours as DXF in millimetres', TIN, '--crs EPSG:25832', 'EPSG:25832', (650000, 5200000), ['--unit-m 0.001'])
+@delivery('CAD: contours as DXF in millimetres', TIN, '--crs EPSG:25832', 'EPSG:25832', (650000, 5200000),
+          ['--unit-m 0.001'])
 def cad(hill):
     dxf('lageplan.dxf', ''.join(polyline('HL', np.asarray(p)[:, :2] * 1000, z * 1000) for z, p in hill.contours()),
         '9\n$INSUNITS\n70\n4\n')
@@ -273,7 +274,8 @@ def contours_in_feet(hill):
     return 'contours.gpkg'
 
 
-@delivery('Google Earth: 3-D lines as KML', TIN, '', 'EPSG:32632', (650000, 5200000), ['--t-srs EPSG:32632'], truth='EPSG:32632')
+@delivery('Google Earth: 3-D lines as KML', TIN, '', 'EPSG:32632', (650000, 5200000), ['--t-srs EPSG:32632'],
+          truth='EPSG:32632')
 def kml(hill):
     contours('m.gpkg', hill, field='', z=True, code='EPSG:32632')
     gdal.VectorTranslate('lines.kml', 'm.gpkg', format='KML', dstSRS='EPSG:4326', reproject=True)

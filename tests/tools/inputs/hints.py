@@ -16,8 +16,9 @@ import sys
 import tarfile
 import zipfile
 
-from inputs import (CODE, FEET, SHELL, SIDE, SURVEY_FEET, X0, Y0, Plane, call, commands_in, contours, dem, dxf, errors_of,
-                    follow, gdal, hint_in, landxml, line, made_by, mesh, np, ogr, polyline, raster, shapes, square, srs, terrain_of, write)
+from inputs import (CODE, FEET, SHELL, SIDE, SURVEY_FEET, X0, Y0, Plane, call, commands_in, contours, dem, dxf,
+                    errors_of, follow, gdal, hint_in, landxml, line, made_by, mesh, np, ogr, polyline, raster,
+                    shapes, square, srs, terrain_of, write)
 
 TABLE = []
 
@@ -440,8 +441,8 @@ def two_layers_of_faces(plane):
     return 'ground.xml'
 
 
-@row(TRN, 'in US survey foot', '--crs EPSG:code', '--crs none', options='--unit-m 0.3048006096 --cell-size-m 5', plane='EPSG:26913',
-     fill={'EPSG:code': 'EPSG:26954'})
+@row(TRN, 'in US survey foot', '--crs EPSG:code', '--crs none', plane='EPSG:26913',
+     options='--unit-m 0.3048006096 --cell-size-m 5', fill={'EPSG:code': 'EPSG:26954'})
 def landxml_of_a_state_plane(plane):
     plane.x0, plane.y0 = 950000, 520000
     vertices, triangles = mesh(plane)
@@ -457,7 +458,8 @@ def landxml_of_two(plane):
     return 'ground.xml'
 
 
-@row(TRN, 'a TIN is not reprojected', 'talus-trn', code=CODE, rim=15, options='--t-srs EPSG:25833 --crs EPSG:25832 --cell-size-m 5')
+@row(TRN, 'a TIN is not reprojected', 'talus-trn', code=CODE, rim=15,
+     options='--t-srs EPSG:25833 --crs EPSG:25832 --cell-size-m 5')
 def surface_to_reproject(plane):
     faces('faces.dxf', plane)
     return 'faces.dxf'
@@ -542,8 +544,8 @@ def local_to_reproject(plane):
 
 def lettered(plane, code=CODE, rows=None):
     shapes('map.gpkg', rows or [(line(points), {}) for _, points in plane.contours()])
-    shapes('labels.gpkg', [(f'POINT ({points[5][0]} {points[5][1]})', {'TEXT': str(z)}) for z, points in plane.contours()],
-           CODE, fields=[('TEXT', ogr.OFTString)])
+    places = [(f'POINT ({points[5][0]} {points[5][1]})', {'TEXT': str(z)}) for z, points in plane.contours()]
+    shapes('labels.gpkg', places, CODE, fields=[('TEXT', ogr.OFTString)])
     if code != CODE:
         os.rename('labels.gpkg', 'there.gpkg')
         gdal.VectorTranslate('letters.gpkg', 'there.gpkg', dstSRS=code, reproject=True)
@@ -558,8 +560,8 @@ def labels_elsewhere(plane):
 @row(TIN, 'there is no field', '--elevation-field labels=FIELD', options='--labels labels.gpkg', fill={'FIELD': 'Q'})
 def labels_of_other_field(plane):
     shapes('map.gpkg', [(line(points), {}) for _, points in plane.contours()])
-    shapes('labels.gpkg', [(f'POINT ({points[5][0]} {points[5][1]})', {'Q': str(z)}) for z, points in plane.contours()],
-           CODE, fields=[('Q', ogr.OFTString)])
+    places = [(f'POINT ({points[5][0]} {points[5][1]})', {'Q': str(z)}) for z, points in plane.contours()]
+    shapes('labels.gpkg', places, CODE, fields=[('Q', ogr.OFTString)])
     return 'map.gpkg'
 
 
@@ -572,7 +574,8 @@ def labels_beside_z(plane):
 @row(TIN, 'boundary crosses itself', 'ogr2ogr', options='--boundary rim.gpkg', share=.2)
 def boundary_that_crosses_itself(plane):
     contours('map.gpkg', plane)
-    shapes('rim.gpkg', [(f'POLYGON (({X0} {Y0}, {X0 + 200} {Y0 + 200}, {X0 + 200} {Y0}, {X0} {Y0 + 200}, {X0} {Y0}))', {})])
+    bow = f'POLYGON (({X0} {Y0}, {X0 + 200} {Y0 + 200}, {X0 + 200} {Y0}, {X0} {Y0 + 200}, {X0} {Y0}))'
+    shapes('rim.gpkg', [(bow, {})])
     return 'map.gpkg'
 
 
@@ -638,7 +641,8 @@ def high_contours_in_feet(plane):
     return 'map.gpkg'
 
 
-@row(TIN, 'knows no shift of the datum', '--crs EPSG:code', fill={'EPSG:code': CODE}, options='--t-srs EPSG:25833', code=CODE)
+@row(TIN, 'knows no shift of the datum', '--crs EPSG:code', fill={'EPSG:code': CODE}, code=CODE,
+     options='--t-srs EPSG:25833')
 def unknown_datum(plane):
     contours('map.gpkg', plane, code='+proj=utm +zone=32 +ellps=GRS80 +units=m')
     return 'map.gpkg'
@@ -665,7 +669,8 @@ def reference_in_other_system(plane):
 @row(TRN, 'nothing says what unit the heights are in', 'ogr2ogr', options='--reference-points points.gpkg', plane='EPSG:26912')
 def reference_points_in_feet(plane):
     dem('dem.tif', far_west(plane))
-    shapes('m.gpkg', [(f'POINT Z ({x} {y} {z / SURVEY_FEET})', {}) for x, y, z in plane.points(5).tolist()[4:]], 'EPSG:26912')
+    places = [(f'POINT Z ({x} {y} {z / SURVEY_FEET})', {}) for x, y, z in plane.points(5).tolist()[4:]]
+    shapes('m.gpkg', places, 'EPSG:26912')
     gdal.VectorTranslate('points.gpkg', 'm.gpkg', dstSRS='EPSG:3566', reproject=True)
     return 'dem.tif'
 
@@ -737,9 +742,10 @@ BLOCKS, DDA = 'talus-blocks', 'talus-dda'
 
 
 def ask(tool):
-    code, out, err = call([BLOCKS, 's.toml', '--trn', 'trn.tif', '-o', 'b.h5', '--no-db', '--overwrite'])
+    given, kept = ['s.toml', '--trn', 'trn.tif'], ['--no-db', '--overwrite']
+    code, out, err = call([BLOCKS, *given, '-o', 'b.h5', *kept])
     if code == 0 and tool == DDA:
-        code, out, err = call([DDA, 's.toml', '--trn', 'trn.tif', '--blocks', 'b.h5', '-o', 'r.h5', '--no-db', '--overwrite'])
+        code, out, err = call([DDA, *given, '--blocks', 'b.h5', '-o', 'r.h5', *kept])
     SAID.append(err)
     return code, out + err, err
 
@@ -752,7 +758,8 @@ def outline(name, wkt=None, code=CODE, driver='GPKG', factor=1.0):
 
 @site_row(DDA, 'is not sound', 'ogr2ogr')
 def ground_that_crosses_itself(_plane):
-    shapes('bow.gpkg', [('POLYGON ((650060 5200060, 650140 5200140, 650140 5200060, 650060 5200140, 650060 5200060))', {})])
+    bow = 'POLYGON ((650060 5200060, 650140 5200140, 650140 5200060, 650060 5200140, 650060 5200060))'
+    shapes('bow.gpkg', [(bow, {})])
     return ('[ground.rock]\npolygon_file = "bow.gpkg"\nfriction_deg = 30\n[ground.elsewhere]\nfriction_deg = 35\n' +
             BLOCK + END)
 
@@ -809,9 +816,10 @@ def thickness_in_other_system(plane):
 
 @site_row(BLOCKS, 'UTF-16', 'iconv', '40 orientations')
 def joints_in_utf16(_plane):
-    write('list.csv', ('Dip direction;Dip\n' + ''.join(f'{200 + k % 7};{40 + k % 5}\n' for k in range(40))).encode('utf-16'))
-    return SOURCE.format(keys=AREA + FLAT).replace('[joints.rear]', '[joints.measured]\nmeasured_file = "list.csv"\nspacing_m = 8\n'
-                                                   '[joints.rear]')
+    rows = ''.join(f'{200 + k % 7};{40 + k % 5}\n' for k in range(40))
+    write('list.csv', f'Dip direction;Dip\n{rows}'.encode('utf-16'))
+    measured = '[joints.measured]\nmeasured_file = "list.csv"\nspacing_m = 8\n[joints.rear]'
+    return SOURCE.format(keys=AREA + FLAT).replace('[joints.rear]', measured)
 
 
 @site_row(DDA, 'the classes are in', 'gdalwarp', ', 0 % of the mass moved')
@@ -829,8 +837,9 @@ def classes_rotated(_plane):
 
 def grounds(name):
     """Class 0 is smooth; the block lies where it is not."""
-    return (f'[terrain]\nground_raster = "{name}"\n[ground.smooth]\nfriction_deg = 5\nraster_values = [0]\n[ground.rough]\n'
-            'friction_deg = 60\nraster_values = [1]\n[ground.elsewhere]\nfriction_deg = 60\n' + BLOCK + END.replace('0.1', '3'))
+    return (f'[terrain]\nground_raster = "{name}"\n[ground.smooth]\nfriction_deg = 5\nraster_values = [0]\n'
+            '[ground.rough]\nfriction_deg = 60\nraster_values = [1]\n[ground.elsewhere]\nfriction_deg = 60\n' +
+            BLOCK + END.replace('0.1', '3'))
 
 
 @site_row(DDA, 'the raster is in', 'gdalwarp')

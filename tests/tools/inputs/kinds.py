@@ -11,8 +11,8 @@ import struct
 import sys
 import tarfile
 
-from inputs import (CODE, FEET, SIDE, SURVEY_FEET, X0, Y0, Plane, call, contours, dem, errors_of, gdal, landxml, mesh, np, ogr,
-                    osr, raster, shapes, square, srs, terrain_of, write)
+from inputs import (CODE, FEET, SIDE, SURVEY_FEET, X0, Y0, Plane, call, contours, dem, errors_of, gdal, landxml,
+                    mesh, np, ogr, osr, raster, shapes, square, srs, terrain_of, write)
 
 TABLE = []
 TRN, TIN = 'talus-trn', 'talus-tin'
@@ -300,7 +300,8 @@ def joints(lines):
 
 @on_site
 def ply_of_single_precision(plane):
-    corners = [(650100.37 + a, 5200100.61 + b, plane.z(0, 5200100.61) + 1 + c) for c in (0, 1.1) for b in (0, 1.3) for a in (0, 2)]
+    x, y = 650100.37, 5200100.61
+    corners = [(x + a, y + b, plane.z(x, y) + 1 + c) for c in (0, 1.1) for b in (0, 1.3) for a in (0, 2)]
     faces = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
     write('rock.ply', b'ply\nformat binary_little_endian 1.0\nelement vertex 8\nproperty float x\nproperty float y\n'
           b'property float z\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n' +
@@ -332,15 +333,18 @@ def classes_with_oblong_cells(plane):
 
 @on_site
 def ground_across_180(plane):
-    there, back = (osr.CoordinateTransformation(srs(a), srs(b)) for a, b in (('EPSG:4326', 'EPSG:3460'), ('EPSG:3460', 'EPSG:4326')))
+    degrees, fiji = srs('EPSG:4326'), srs('EPSG:3460')
+    there, back = osr.CoordinateTransformation(degrees, fiji), osr.CoordinateTransformation(fiji, degrees)
     x, y, _ = there.TransformPoint(179.9999999, -16.8)
     x0, y0 = round(x - 100), round(y, -1)
     dem('fiji.tif', Plane(500, 'EPSG:3460', x0, y0))
     call(['talus-trn', 'fiji.tif', '-o', 'trn.tif', '--no-db', '--overwrite'])
     (w, s, _), (e, n, _) = back.TransformPoint(x0 + 60, y0 + 60), back.TransformPoint(x0 + 150, y0 + 140)
-    shapes('rock.geojson', [(f'POLYGON (({w} {s}, {e + 360} {s}, {e + 360} {n}, {w} {n}, {w} {s}))', {})], 'EPSG:4326', 'GeoJSON')
-    _, said = run('[ground.rock]\npolygon_file = "rock.geojson"\nfriction_deg = 30\n[ground.elsewhere]\nfriction_deg = 35\n' +
-                  BLOCK.replace('650100, 5200150', f'{x0 + 100}, {y0 + 100}') + END, '', 'EPSG:3460')
+    area = f'POLYGON (({w} {s}, {e + 360} {s}, {e + 360} {n}, {w} {n}, {w} {s}))'
+    shapes('rock.geojson', [(area, {})], 'EPSG:4326', 'GeoJSON')
+    block = BLOCK.replace('650100, 5200150', f'{x0 + 100}, {y0 + 100}')
+    _, said = run('[ground.rock]\npolygon_file = "rock.geojson"\nfriction_deg = 30\n'
+                  '[ground.elsewhere]\nfriction_deg = 35\n' + block + END, '', 'EPSG:3460')
     assert 'refused' not in said and 'lie outside' not in said, said
 
 
