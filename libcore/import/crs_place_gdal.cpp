@@ -282,8 +282,7 @@ MapWindow mapped(const MapWindow& w, const std::function<Vec2(const Vec2&)>& cha
 
 std::string mended_command(const CrsExtent& place, const Where& where, const std::string& function,
                            const MapWindow& moved) {
-  const std::string code = crs_code(place.crs_wkt);
-  const std::string named = code == "CRS" ? std::string() : " -a_srs " + code;
+  const std::string named = " -a_srs " + crs_code(place.crs_wkt);
   if (place.is_raster)
     return function.starts_with("SwapCoords")
                ? "look at its corners: gdalinfo " + command_words(where.file)
@@ -299,8 +298,9 @@ std::string mended_command(const CrsExtent& place, const Where& where, const std
   const std::string column = place.geometry_column.empty() ? "geometry" : place.geometry_column;
   const std::size_t hole = function.find('@');
   return "ogr2ogr" + named + " -f GPKG -nln mended mended.gpkg " + command_words(where.file) +
-         " -dialect sqlite -sql 'SELECT " + function.substr(0, hole) + column +
-         function.substr(hole + 1) + " AS " + column + ", * FROM \"" + place.layer + "\"'";
+         " -dialect sqlite -sql " +
+         shell_word("SELECT " + function.substr(0, hole) + column + function.substr(hole + 1) +
+                    " AS " + column + ", * FROM \"" + place.layer + "\"");
 }
 
 std::string way_out(const CrsExtent& place, const Where& where) {
@@ -332,13 +332,13 @@ int zones_on_datum(const std::string& crs_wkt, int zone, bool is_south) {
     int before, first, last;
   };
   const std::unique_ptr<OGRSpatialReference> base(parse_plan(crs_wkt).CloneGeogCS());
-  const char* const code = base ? base->GetAuthorityCode(nullptr) : nullptr;
-  for (const Zones& zones : {Zones{"4258", false, 25800, 28, 38},  // ETRS89
-                             Zones{"4269", false, 26900, 1, 23},   // NAD83
-                             Zones{"6318", false, 6329, 1, 19},    // NAD83(2011)
-                             Zones{"7844", true, 7800, 46, 59}})   // GDA2020
-    if (code != nullptr && zones.datum == std::string(code) && zones.is_south == is_south &&
-        zones.first <= zone && zone <= zones.last)
+  const std::string code = base ? crs_code(wkt_of(base.get())) : std::string();
+  for (const Zones& zones : {Zones{"EPSG:4258", false, 25800, 28, 38},  // ETRS89
+                             Zones{"EPSG:4269", false, 26900, 1, 23},   // NAD83
+                             Zones{"EPSG:6318", false, 6329, 1, 19},    // NAD83(2011)
+                             Zones{"EPSG:7844", true, 7800, 46, 59}})   // GDA2020
+    if (code == zones.datum && zones.is_south == is_south && zones.first <= zone &&
+        zone <= zones.last)
       return zones.before;
   return is_south ? 32700 : 32600;
 }

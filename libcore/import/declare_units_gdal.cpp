@@ -17,9 +17,9 @@ std::string way_to_metres(const RawLayer& layer, const DrawingUnit& unit) {
   const std::string metres = unit.metres > 0 ? text(unit.metres) : "METRES";
   if (layer.is_of_site())
     return "bring it to metres: ogr2ogr -f GPKG -nln metres metres.gpkg " +
-           command_words(parse_source_path(layer.path()).source) +
-           " -dialect sqlite -sql 'SELECT ScaleCoords(geometry, " + metres +
-           ") AS geometry, * FROM \"" + layer.source.layer->GetName() + "\"'";
+           command_words(parse_source_path(layer.path()).source) + " -dialect sqlite -sql " +
+           shell_word("SELECT ScaleCoords(geometry, " + metres + ") AS geometry, * FROM \"" +
+                      layer.source.layer->GetName() + "\"");
   const std::string option = option_words(layer.source.role, "--unit-m");
   return option + metres + " scales plan and heights; " + option +
          "1 if it is in metres whatever its header says";

@@ -42,7 +42,7 @@ std::string size_text(int n_rows, int n_cols) {
 std::string metres_command(double unit_m, const std::string& crs, const std::string& path) {
   const bool is_in_feet = length_unit_m(crs) != 1;
   const std::string plan = crs_code(crs);
-  const bool is_named = plan.find(':') != std::string::npos;
+  const bool is_named = plan.starts_with("EPSG:");
   if (!is_named || (height_crs(crs).empty() && !is_in_feet)) return scale_command(unit_m, "", path);
   return scale_command(unit_m, plan + (is_in_feet ? "+5703" : ""), path);
 }

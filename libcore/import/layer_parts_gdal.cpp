@@ -308,6 +308,10 @@ void for_each_part(OpenLayer& source, const Visit& visit) {
   if (source.is_drawing && !source.wanted.empty() && source.n_features == 0 &&
       source.filter.empty())
     throw no_such_drawing_layer(source, reader.drawing_layers());
+  if (source.n_features > 0 && source.layers[0]->GetGeomType() == wkbNone)
+    throw InputError(where_of_layer(source), "holds rows of a table, which have no geometry",
+                     "points of a table become text: ogr2ogr points.csv " +
+                         command_words(source.ref.path) + "; then --points");
   if (source.n_features > 0 && reader.n_null() > 0)
     throw InputError(where_of_layer(source),
                      std::to_string(reader.n_null()) + " of " + std::to_string(source.n_features) +

@@ -65,7 +65,7 @@ void take_to_frame(RawInputs& raw) {
     for (Vec3& point : layer.lines.points) point.z() *= layer.taken.unit_m;
     for (const Vec3& point : layer.lines.points)
       check_elevation(point, layer.path(),
-                      "feet need --elevation-unit-m 0.3048, centimetres 0.01; choose another field "
+                      "feet need --elevation-unit-m 0.3048, decimetres 0.1; choose another field "
                       "where this one holds no elevations");
     take_heights(layer, raw);
   }

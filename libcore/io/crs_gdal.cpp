@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "io/errors_gdal.hpp"
 
@@ -118,8 +119,14 @@ std::string crs_name(const std::string& crs_wkt) {
 std::string crs_code(const std::string& crs_wkt) {
   if (crs_wkt.empty()) return "CRS";
   const GdalErrors errors;
-  const std::string code = authority(plan_of(crs_wkt));
-  return code.empty() ? "CRS" : code;
+  const OGRSpatialReference plan = plan_of(crs_wkt);
+  std::string code = authority(plan);
+  if (code.empty())
+    if (OGRSpatialReference* const known = plan.FindBestMatch()) {
+      code = authority(*known);
+      known->Release();
+    }
+  return code.empty() ? shell_word(as_wkt(plan)) : code;
 }
 
 double length_unit_m(const std::string& crs_wkt) {

@@ -24,7 +24,8 @@ namespace talus {
 /// "EPSG:31287 (MGI / Austria Lambert)", or the name alone, or "no CRS".
 [[nodiscard]] std::string crs_name(const std::string& crs_wkt);
 
-/// What a command takes for the system in plan: "EPSG:31287", or CRS where it has no code.
+/// What a command takes for the system in plan: "EPSG:31287", also where a .prj leaves the code
+/// out; the quoted WKT of one that has no code.
 [[nodiscard]] std::string crs_code(const std::string& crs_wkt);
 
 /// Metres in one unit of the plan; 1 for degrees.

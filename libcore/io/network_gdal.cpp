@@ -281,9 +281,19 @@ void check_tables(GDALDataset& database, const std::string& path) {
 }
 
 std::string way_to_open(const std::string& path, const std::string& otherwise) {
-  if (lower(path).ends_with(".parquet"))
-    return "GDAL reads GeoParquet with its driver Parquet, which Debian 12 has not: export a "
-           "GeoPackage";
+  struct Ending {
+    const char* end;
+    const char* way;
+  };
+  for (const Ending& known :
+       {Ending{".parquet",
+               "GDAL reads GeoParquet with its driver Parquet, which Debian 12 has not: "
+               "export a GeoPackage"},
+        Ending{".dwg", "GDAL reads DWG of the year 2000 alone: save it as DXF"},
+        Ending{".7z", "unpack it: archives that are read end in .zip or .tar"},
+        Ending{".rar", "unpack it: archives that are read end in .zip or .tar"},
+        Ending{".stl", "export the surface as OBJ or LandXML, for talus-trn"}})
+    if (lower(path).ends_with(known.end)) return known.way;
   const CPLErrorStateBackuper kept;
   const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
   GDALOpenInfo info(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY);

@@ -525,7 +525,11 @@ Tin parse_tin(std::span<const char> bytes, const std::string& source) {
     read_elements(header, source, cursor, tin);
   }
   if (tin.points.empty() || tin.triangles.empty())
-    refuse(source, "the PLY file has no vertices followed by faces");
+    throw InputError(
+        {source}, "the PLY file has no vertices followed by faces",
+        tin.triangles.empty()
+            ? "export it with faces; points alone as text x,y,z, for talus-tin --points"
+            : "write the TIN anew with talus-tin");
   make_relative(header, tin);
   turn_clockwise_triangles(tin);
   tin.crs_wkt = header.crs_wkt.empty() ? header.crs : header.crs_wkt;

@@ -607,6 +607,20 @@ def points_alone(plane):
     return 'map.gpkg'
 
 
+@row(TIN, 'holds rows of a table', 'ogr2ogr', options='--crs EPSG:25832 --points')
+def workbook(plane):
+    data = ogr.GetDriverByName('XLSX').CreateDataSource('survey.xlsx')
+    sheet = data.CreateLayer('Sheet 1')
+    for name in ('Nr', 'Rechtswert', 'Hochwert', 'H\u00f6he'):
+        sheet.CreateField(ogr.FieldDefn(name, ogr.OFTReal))
+    for k, point in enumerate(plane.points().tolist()):
+        feature = ogr.Feature(sheet.GetLayerDefn())
+        for i, value in enumerate((k, *point)):
+            feature.SetField(i, value)
+        sheet.CreateFeature(feature)
+    return 'survey.xlsx'
+
+
 @row(TIN, 'UTF-16', 'iconv', options='--points --crs EPSG:25832')
 def points_in_utf16(plane):
     write('list.csv', 'x,y,z\n'.encode('utf-16') + '\n'.join(
@@ -623,7 +637,7 @@ def geojson_in_metres(plane):
 @row(TIN, 'with x and y exchanged', 'ogr2ogr')
 def lines_with_exchanged_axes(plane):
     shapes('my map.gpkg', [(line(np.asarray(points)[:, ::-1]), {'ELEV': z}) for z, points in plane.contours()],
-           fields=[('ELEV', ogr.OFTReal)])
+           fields=[('ELEV', ogr.OFTReal)], layer="l'altimetria")
     return 'my map.gpkg'
 
 
@@ -663,6 +677,25 @@ def faces_for_contours(plane):
 def reference_in_other_system(plane):
     dem('dem.tif', plane)
     warp('other.tif', 'dem.tif', 'EPSG:25833')
+    return 'dem.tif'
+
+
+@row(TRN, 'a DEM is never reprojected silently', 'talus-trn', options='--reference other.tif')
+def reference_of_a_terrain_with_prj(plane):
+    dem('dem.asc', plane, driver='AAIGrid', code='')
+    system = srs(CODE)
+    system.MorphToESRI()
+    write('dem.prj', system.ExportToWkt())
+    dem('there.tif', plane)
+    warp('other.tif', 'there.tif', 'EPSG:25833')
+    return 'dem.asc'
+
+
+@row(TRN, 'a DEM is never reprojected silently', 'talus-trn', options='--reference other.tif')
+def reference_of_a_system_without_code(plane):
+    plane.code = '+proj=tmerc +lat_0=0 +lon_0=9.5 +k=1 +x_0=500000 +y_0=0 +ellps=GRS80 +units=m'
+    dem('dem.tif', plane)
+    warp('other.tif', 'dem.tif', '+proj=utm +zone=32 +ellps=GRS80 +units=m')
     return 'dem.tif'
 
 

@@ -118,6 +118,26 @@ def tiles_in_tar_gz(plane):
     return 'dem.tar.gz'
 
 
+@kind(TIN, 'save it as DXF')
+def drawing_of_2013(_plane):
+    write('plan.dwg', b'AC1027' + bytes(500))
+    return 'plan.dwg'
+
+
+@kind(TRN, 'unpack it')
+def delivery_in_7z(_plane):
+    write('RGEALTI.7z', b"7z\xbc\xaf'\x1c" + bytes(200))
+    return 'RGEALTI.7z'
+
+
+@kind(TRN, 'export it with faces; points alone as text')
+def cloud_as_ply(plane):
+    points = plane.points()
+    write('cloud.ply', f'ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty double x\nproperty double y\n'
+          'property double z\nend_header\n' + ''.join(f'{x} {y} {z}\n' for x, y, z in points.tolist()))
+    return 'cloud.ply'
+
+
 @kind(TIN, 'laser scan')
 def scan_as_e57(_plane):
     write('scan.e57', b'ASTM-E57' + bytes(400))
