@@ -11,7 +11,11 @@ using namespace talus::test;
 
 struct Canonical : ImportTest {
   std::string written() {
-    ask(InputRole::contours, contours());
+    ask(InputRole::contours,
+        file("contours", 32632,
+             {{"LineString", "[[650000,5200000,100],[650100,5200000,100]]", ""},
+              {"LineString", "[[650000,5200050,110],[650100,5200050,110]]", ""},
+              {"LineString", "[[650000,5200090,120],[650100,5200090,120]]", ""}}));
     ask(InputRole::spots, file("spots", 0, {{"Point", "[650010.1,5200020.3,104.7]", ""}}));
     ask(InputRole::boundary,
         file("ring", 32632,
@@ -53,7 +57,7 @@ TEST_F(Canonical, ChangedCoordinatesAreRefusedAndOtherBytesAreNot) {
   execute("CREATE TABLE looked_at (id INTEGER)");
   ImportReading read;
   EXPECT_EQ(map_digest(import_map(*canonical_request(path), read)), map_digest(map));
-  execute("DELETE FROM contours WHERE fid = 1");
+  execute("DELETE FROM contours WHERE fid = 3");
   EXPECT_NE(error_of([&] {
               static_cast<void>(import_map(*canonical_request(path), read));
             }).find("was changed since talus-import wrote it"),
