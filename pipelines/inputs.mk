@@ -5,13 +5,14 @@
 # out: $(STAGES)/*.txt, *.files, *.flags, SITE_*
 
 # --- the tools: of this checkout when it is built whole, else on the search path ---
-tool_names := site import tin trn blocks check batch dda reduce runout maps fence places hazard trace \
-  profile fence-search report
+tool_names := site import tin trn blocks check batch dda reduce runout maps fence places hazard \
+  trace profile fence-search report
 whole_build = $(if $(word $(words $(tool_names)),$(wildcard $(tool_names:%=$1talus-%))),$1)
 BIN ?= $(firstword $(call whole_build,$(PIPELINES)../build/release/tools/) \
   $(call whole_build,$(PIPELINES)../build/demo/tools/))
 stages_wanted := $(filter-out terrain blocks check runs runs-shard prepare,$(wanted))
-needed_tools := site import tin trn $(if $(filter-out terrain,$(wanted)),blocks check batch dda reduce) \
+needed_tools := site import tin trn \
+  $(if $(filter-out terrain,$(wanted)),blocks check batch dda reduce) \
   $(if $(stages_wanted),runout maps fence places hazard trace fence-search report profile)
 missing_tools := $(shell for tool in $(needed_tools); do \
   command -v $(BIN)talus-$$tool >/dev/null || echo talus-$$tool; done)
@@ -84,8 +85,8 @@ given = --given $1= $(foreach name,$(call named_in,$2),--given '$1=$(subst ','\'
 flags_of = $(shell echo $1 | tr a-z A-Z)_FLAGS
 given_files := $(if $(CONTOURS),--given import=$(contours_file)) $(DEM:%=--given trn=%) \
   $(if $(LINE),--given 'profile=$(line_file)') \
-  --given report=site.toml $(foreach stage,import tin trn blocks check runout maps fence places hazard \
-  trace search profile report,$(call given,$(stage),$($(call flags_of,$(stage)))))
+  --given report=site.toml $(foreach stage,import tin trn blocks check runout maps fence places \
+  hazard trace search profile report,$(call given,$(stage),$($(call flags_of,$(stage)))))
 # With -n and -q the stage files go to a folder of their own and are compared.
 ifeq ($(is_dry_run),)
 stages_now := $(STAGES)

@@ -27,8 +27,8 @@ profile_products := $(addprefix profile/,profile.gpkg profile.json crossings.csv
 search_products := fence_search.json fence_search.gpkg
 screen_products := search/screen.json search/screen.gpkg
 report_products := report.html site.qgz
-products := $(foreach stage,import tin trn source block check runout map fence change places hazard trace \
-  profile search screen report,$($(stage)_products))
+products := $(foreach stage,import tin trn source block check runout map fence change places \
+  hazard trace profile search screen report,$($(stage)_products))
 
 # As patterns of the shell: a style that comes with its raster, runs with their checkpoints, the
 # registry, what a stage reads, side files that GDAL and QGIS write beside a raster, and hidden

@@ -1,8 +1,9 @@
 # The chain of tools for one site, included by sample_sites/<site>/Makefile. What is computed is in
 # site.toml; the Makefile may set
 #   CONTOURS or DEM     what the ground is made from, instead of [terrain]
-#   IMPORT_FLAGS, TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS,
-#   FENCE_FLAGS, PLACES_FLAGS, HAZARD_FLAGS, TRACE_FLAGS, PROFILE_FLAGS, SEARCH_FLAGS, REPORT_FLAGS
+#   IMPORT_FLAGS, TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS,
+#   MAPS_FLAGS, FENCE_FLAGS, PLACES_FLAGS, HAZARD_FLAGS, TRACE_FLAGS, PROFILE_FLAGS,
+#   SEARCH_FLAGS, REPORT_FLAGS
 #                       further options of the tools
 #   RUNS, SEED, CASES, WEIGHTS, WITHOUT, RUNS_MOST   runs.mk
 #   SHARDS, SHARD, SBATCH_FLAGS                      runs.mk, slurm.mk
