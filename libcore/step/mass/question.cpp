@@ -52,7 +52,7 @@ void become_mass(const IslandMembers& members, const MassShare& share, State& st
 }  // namespace
 
 bool has_settled(const Scene& scene, double h, double change) {
-  return change <= law::least_speed * scene.gravity.norm() * std::min(h, scene.settings.dt);
+  return change <= settled_change(scene, h);
 }
 
 bool is_any_in_mass(const IslandMembers& members, const State& state) {
@@ -91,11 +91,13 @@ bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& stat
     });
   }
   if (2 * n_in_mass > static_cast<int>(members.moving.size())) {
-    const bool is_calm =
-        faster_than(members, state, by_gravity) <= static_cast<int>(law::few_blocks);
-    const int n_steps = static_cast<int>(state.stride);
+    const int n_fast = faster_than(members, state, by_gravity),
+              n_steps = static_cast<int>(state.stride);
     // contacts that grow soft sag at first: that makes them grow so more slowly, and no mass again
-    all.calm = is_calm ? all.calm + n_steps : std::max(0, all.calm - n_steps);
+    if (n_fast <= static_cast<int>(law::few_blocks))
+      all.calm += n_steps;
+    else
+      all.calm = 2 * n_fast > n_in_mass ? 0 : std::max(0, all.calm - n_steps);
     if (all.calm >= calm_steps(scene) || all.unsettled >= law::patience)
       return leave(calm_steps(scene));
   } else {

@@ -14,6 +14,7 @@
 
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
+#include "solver/law_numbers.hpp"
 #include "step/island/data.hpp"
 #include "step/mass/data.hpp"
 #include "step/report.hpp"
@@ -40,6 +41,10 @@ namespace talus {
 /// Whether a substep of `h` is longer than the nominal step.
 [[nodiscard]] inline bool is_long_step(const Scene& scene, double h) {
   return h > 1.5 * scene.settings.dt;
+}
+/// Change of velocities by the last sweep that is too little to count in a substep of `h` [m/s].
+[[nodiscard]] inline double settled_change(const Scene& scene, double h) {
+  return law::least_speed * scene.gravity.norm() * (is_long_step(scene, h) ? scene.settings.dt : h);
 }
 /// Sweeps at least, at an accuracy [-].
 [[nodiscard]] int mass_sweeps(double accuracy);

@@ -16,7 +16,7 @@ MassSettings settings_of(const Scene& scene, const MassShare& share, double h, W
   MassSettings settings;
   settings.sweeps = mass_sweeps(scene.settings.accuracy);
   settings.most_sweeps = std::max(settings.sweeps, 8 * mass::sweeps);
-  settings.settled = law::least_speed * scene.gravity.norm() * std::min(h, scene.settings.dt);
+  settings.settled = settled_change(scene, h);
   settings.compliance = mass_compliance(scene, share);
   settings.shear_ratio = scene.settings.shear_ratio;
   settings.workers = workers;
@@ -25,7 +25,8 @@ MassSettings settings_of(const Scene& scene, const MassShare& share, double h, W
 
 // Overlap is pressed out over so many steps, long ones too: faster, the support of layers rings.
 void set_recovery_time(const Scene& scene, double h, IslandMembers& members) {
-  const double recovery_time = law::recovery_steps * std::max(h, scene.settings.dt);
+  const double recovery_time =
+      law::recovery_steps * (is_long_step(scene, h) ? h : scene.settings.dt);
   for (BlockNumbers& c : members.numbers) c.recovery_time = recovery_time;
 }
 
