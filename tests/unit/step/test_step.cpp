@@ -107,10 +107,10 @@ TEST(Step, MassesDoNotAllocateAfterWarmUp) {
   State state = first;
   Work work = make_work(scene);
   for (int warm_up = 0; warm_up < 4; ++warm_up, state = first)
-    for (int i = 0; i < 150; ++i) step(scene, state, work);
+    while (state.time < 0.75) step(scene, state, work);
   for (int i = 0; i < 3; ++i) step(scene, state, work);
   const long before = n_allocations;
-  for (int i = 0; i < 140; ++i) step(scene, state, work);
+  while (state.time < 0.715) step(scene, state, work);
   EXPECT_EQ(n_allocations, before);
   EXPECT_TRUE(state.mass[0].is_in_mass);
 }
