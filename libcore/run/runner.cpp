@@ -328,6 +328,10 @@ Runner resume_run(const Scene& scene, const RunOptions& options, std::vector<Rec
 
 void advance(Runner& runner) {
   const std::size_t n_crushed = runner.state.crushed.size(), n_breaks = runner.state.breaks.size();
+  const double interval_end =
+      static_cast<double>(runner.file.health.size() + 1) * runner.options.frame_interval;
+  const double ahead = std::min(interval_end, runner.options.duration) - runner.state.time;
+  if (ahead < 3 * half_step(runner)) runner.state.stride = 1;  // a long step would go past the end
   const StepReport report = step_by(runner.law, runner.scene, runner.state, runner.work);
   for (const Segment& segment : runner.work.segments) record(runner, segment);
   record_breaks(runner, n_breaks);
@@ -336,8 +340,6 @@ void advance(Runner& runner) {
   const double next_frame =
       static_cast<double>(runner.sampler.n_closed) * runner.options.frame_interval;
   if (next_frame <= runner.state.time) take(runner, recorded_until(runner.state));
-  const double interval_end =
-      static_cast<double>(runner.file.health.size() + 1) * runner.options.frame_interval;
   if (runner.state.time >= interval_end - half_step(runner)) close_interval(runner);
 }
 
