@@ -113,14 +113,6 @@ std::string way_to_grid(const std::string& grid) { return "fetch it with projsyn
 
 // --- transformations of GDAL that follow one operation -------------------------------------------
 
-OGRSpatialReference parse(const std::string& wkt) {
-  OGRSpatialReference srs;
-  srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  if (srs.importFromWkt(wkt.c_str()) != OGRERR_NONE)
-    throw InputError({}, "the CRS cannot be understood: " + wkt.substr(0, 80));
-  return srs;
-}
-
 std::string as_wkt(const OGRSpatialReference& srs) {
   char* wkt = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
@@ -134,7 +126,7 @@ using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
 
 Transformation transformation_by(const std::string& from, const std::string& to,
                                  const std::string& operation) {
-  const OGRSpatialReference source = parse(from), target = parse(to);
+  const OGRSpatialReference source = parsed_crs(from), target = parsed_crs(to);
   OGRCoordinateTransformationOptions options;
   options.SetCoordinateOperation(operation.c_str(), false);
   return Transformation(OGRCreateCoordinateTransformation(&source, &target, options));
@@ -224,7 +216,7 @@ namespace {
 // A compound system, or the plan with heights above its ellipsoid.
 std::string in_space(const std::string& plan, const std::string& vertical, const Where& where) {
   if (vertical != ellipsoidal_heights) return with_heights(plan, vertical, where);
-  OGRSpatialReference srs = parse(plan);
+  OGRSpatialReference srs = parsed_crs(plan);
   srs.PromoteTo3D(nullptr);
   return as_wkt(srs);
 }
@@ -315,11 +307,11 @@ std::string vertical_crs_from_user(const std::string& user_text, const std::stri
   if (user_text == ellipsoidal_heights) return user_text;
   const std::string wkt = user_text == "none" ? std::string() : crs_from_user(user_text, option);
   const GdalErrors errors;
-  if (wkt.empty() || !parse(wkt).IsVertical() || parse(wkt).IsCompound())
+  if (wkt.empty() || !parsed_crs(wkt).IsVertical() || parsed_crs(wkt).IsCompound())
     throw InputError({"", 0, option}, "\"" + user_text + "\" is not a system of heights",
                      "write the code of a vertical CRS, for example EPSG:5773 (EGM96), or " +
                          std::string(ellipsoidal_heights));
-  const double unit_m = parse(wkt).GetTargetLinearUnits("VERT_CS");
+  const double unit_m = parsed_crs(wkt).GetTargetLinearUnits("VERT_CS");
   if (std::abs(unit_m - 1) > 1e-9)
     throw InputError({"", 0, option},
                      crs_name(wkt) + " is in units of " + text(unit_m, 10) + " m, expected metres",
@@ -345,7 +337,7 @@ namespace {
 bool is_ellipsoidal(const std::string& crs) {
   if (crs.empty()) return false;
   const GdalErrors errors;
-  const OGRSpatialReference srs = parse(crs);
+  const OGRSpatialReference srs = parsed_crs(crs);
   return !srs.IsCompound() && srs.GetAxesCount() == 3 && srs.IsGeocentric() == 0;
 }
 
@@ -379,7 +371,7 @@ bool same_system(const std::string& vertical_a, const std::string& vertical_b) {
   if (vertical_a == vertical_b) return true;
   if (vertical_a == ellipsoidal_heights || vertical_b == ellipsoidal_heights) return false;
   const GdalErrors errors;
-  const OGRSpatialReference a = parse(vertical_a), b = parse(vertical_b);
+  const OGRSpatialReference a = parsed_crs(vertical_a), b = parsed_crs(vertical_b);
   return a.IsSame(&b) != 0;
 }
 

@@ -33,16 +33,8 @@ constexpr double million = 1e6;
 
 using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
 
-OGRSpatialReference parse(const std::string& crs_wkt) {
-  OGRSpatialReference srs;
-  srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  if (srs.importFromWkt(crs_wkt.c_str()) != OGRERR_NONE)
-    throw InputError({}, "the CRS cannot be understood: " + crs_wkt.substr(0, 80));
-  return srs;
-}
-
 OGRSpatialReference parse_plan(const std::string& crs_wkt) {
-  return parse(horizontal_crs(crs_wkt));
+  return parsed_crs(horizontal_crs(crs_wkt));
 }
 
 // --- a system and its place on the Earth ---------------------------------------------------------
@@ -704,7 +696,7 @@ std::string zone_of(const std::string& crs_wkt, const Vec2& place) {
 CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place) {
   if (crs_wkt.empty()) return {"there is no CRS, expected a projected one in metres", {}};
   const GdalErrors errors;
-  const OGRSpatialReference srs = parse(crs_wkt);
+  const OGRSpatialReference srs = parsed_crs(crs_wkt);
   const std::string problem = describe_problem(srs);
   if (problem.empty()) return {};
   const bool fit_in_plan = srs.IsCompound() && describe_problem(parse_plan(crs_wkt)).empty();

@@ -18,14 +18,6 @@
 namespace talus {
 namespace {
 
-OGRSpatialReference parse(const std::string& wkt) {
-  OGRSpatialReference srs;
-  srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  if (srs.importFromWkt(wkt.c_str()) != OGRERR_NONE)
-    throw InputError({}, "the CRS cannot be understood: " + wkt.substr(0, 80));
-  return srs;
-}
-
 std::string copied(char* wkt) {
   std::string text(wkt ? wkt : "");
   CPLFree(wkt);
@@ -41,7 +33,7 @@ std::string as_wkt(const OGRSpatialReference& srs) {
 
 // The system without heights: of a compound one its first half, of a spatial one the plane.
 OGRSpatialReference plan_of(const std::string& wkt) {
-  OGRSpatialReference srs = parse(wkt);
+  OGRSpatialReference srs = parsed_crs(wkt);
   if (srs.IsCompound()) srs.StripVertical();
   if (srs.GetAxesCount() == 3 && !srs.IsGeocentric()) srs.DemoteTo2D(nullptr);
   return srs;
@@ -67,6 +59,14 @@ bool is_undefined(const OGRSpatialReference& srs) {
 
 }  // namespace
 
+OGRSpatialReference parsed_crs(const std::string& crs_wkt) {
+  OGRSpatialReference srs;
+  srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (srs.importFromWkt(crs_wkt.c_str()) != OGRERR_NONE)
+    throw InputError({}, "the CRS cannot be understood: " + crs_wkt.substr(0, 80));
+  return srs;
+}
+
 std::string wkt_of(const OGRSpatialReference* srs) {
   if (!srs || srs->IsEmpty() || is_undefined(*srs)) return {};
   if (srs->IsLocal() && std::abs(srs->GetLinearUnits() - 1) < 1e-9) return {};
@@ -76,7 +76,7 @@ std::string wkt_of(const OGRSpatialReference* srs) {
 bool is_beyond_degrees(const std::string& crs_wkt, const std::vector<Vec3>& points) {
   if (crs_wkt.empty()) return false;
   const GdalErrors errors;
-  const OGRSpatialReference srs = parse(crs_wkt);
+  const OGRSpatialReference srs = parsed_crs(crs_wkt);
   if (!srs.IsGeographic()) return false;
   const double turn = 2 * std::numbers::pi / srs.GetAngularUnits();
   return std::any_of(points.begin(), points.end(), [turn](const Vec3& p) {
@@ -100,7 +100,7 @@ std::string crs_from_user(const std::string& user_text, const std::string& optio
 std::string crs_name(const std::string& crs_wkt) {
   if (crs_wkt.empty()) return "no CRS";
   const GdalErrors errors;
-  const OGRSpatialReference srs = parse(crs_wkt);
+  const OGRSpatialReference srs = parsed_crs(crs_wkt);
   const char* name = srs.GetName();
   const std::string code = authority(srs);
   // What GDAL and PROJ write where there is none.
@@ -161,12 +161,12 @@ std::string horizontal_crs(const std::string& crs_wkt) {
 std::string height_crs(const std::string& crs_wkt) {
   if (crs_wkt.empty()) return {};
   const GdalErrors errors;
-  const OGRSpatialReference srs = parse(crs_wkt);
+  const OGRSpatialReference srs = parsed_crs(crs_wkt);
   const OGR_SRSNode* const node = srs.IsCompound() ? srs.GetAttrNode("VERT_CS") : nullptr;
   if (node == nullptr) return {};
   char* wkt = nullptr;
   node->exportToWkt(&wkt);
-  return as_wkt(parse(copied(wkt)));
+  return as_wkt(parsed_crs(copied(wkt)));
 }
 
 double height_unit_m(const std::string& crs_wkt, const Where& where, const std::string& way_out) {
@@ -185,7 +185,7 @@ bool same_heights(const std::string& a, const std::string& b) {
   const std::string first = height_crs(a), second = height_crs(b);
   if (first.empty() || second.empty() || first == second) return true;
   const GdalErrors errors;
-  return is_same(parse(first), parse(second));
+  return is_same(parsed_crs(first), parsed_crs(second));
 }
 
 std::string assumed_heights(const std::string& a, const std::string& b) {
@@ -196,7 +196,7 @@ std::string assumed_heights(const std::string& a, const std::string& b) {
 
 std::string with_heights(const std::string& plan, const std::string& vertical, const Where& where) {
   const GdalErrors errors;
-  const OGRSpatialReference horizontal = parse(plan), heights = parse(vertical);
+  const OGRSpatialReference horizontal = parsed_crs(plan), heights = parsed_crs(vertical);
   OGRSpatialReference both;
   const std::string name =
       std::string(horizontal.GetName()) + " + " + std::string(heights.GetName());

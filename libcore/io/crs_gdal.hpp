@@ -16,6 +16,9 @@ namespace talus {
 /// one in metres: it names no place (GeoTIFF makes one up, "unnamed", for a raster without a CRS).
 [[nodiscard]] std::string wkt_of(const OGRSpatialReference* srs);
 
+/// For GDAL, x east and y north. Throws InputError for a text that is not WKT of a system.
+[[nodiscard]] OGRSpatialReference parsed_crs(const std::string& crs_wkt);
+
 /// WKT2:2019 of what a user writes: "EPSG:31287", a PROJ string, WKT, the name of a file. "none"
 /// gives an empty text: local metres without a place on the map. Throws InputError that names
 /// `option` when it is not understood.
