@@ -7,13 +7,13 @@
 #include <tuple>
 
 #include "base/percentile.hpp"
-#include "terrain/contours.hpp"
 #include "terrain/lone_levels.hpp"
 
 namespace talus {
 namespace {
 
 constexpr double steepest = 2.7474774194546222;  // tan 70 degrees: a height field ends there
+constexpr double survey_noise_m = 0.5;  // of heights whose places are rounded to centimetres
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -29,7 +29,8 @@ void join_repeated(std::vector<Vec3>& points, PointMesh& found) {
     while (end < points.size() && points[end].head<2>() == points[i].head<2>())
       sum += points[end++].z();
     const double low = points[i].z(), high = points[end - 1].z();
-    if (high - low > same_height_m) found.doubts.push_back({points[end - 1], low, low, true});
+    found.repeated_differ_m = std::max(found.repeated_differ_m, high - low);
+    if (high - low > survey_noise_m) found.doubts.push_back({points[end - 1], low, low, true});
     points[n_kept] = points[i];
     if (end > i + 1) points[n_kept].z() = sum / static_cast<double>(end - i);
     ++n_kept;

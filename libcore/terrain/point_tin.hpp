@@ -22,15 +22,16 @@ struct PointDoubt {
 struct PointMesh {
   TriangleMesh mesh;
   std::size_t n_read = 0;
-  std::size_t n_repeated = 0;  ///< points on another one: one of them is kept, at the mean height
+  std::size_t n_repeated = 0;    ///< points on another one: one of them is kept, at the mean height
+  double repeated_differ_m = 0;  ///< largest difference of their heights
   std::vector<PointDoubt> doubts;
 };
 
 /// A point is in doubt when it stands above all its neighbours, or below them all, by more than 70
 /// degrees along every edge; it is impossible when four in five of its edges are higher than 200 m
-/// and five times their length. Points in one place (x, y) that differ by more than a millimetre in
-/// height are impossible. Uses the points up. Throws InputError naming `source` when all stand on
-/// one line.
+/// and five times their length. Points in one place (x, y) that differ by more than 0.5 m in height
+/// are impossible; laser scans rounded to centimetres leave less. Uses the points up. Throws
+/// InputError naming `source` when all stand on one line.
 [[nodiscard]] PointMesh mesh_of_points(std::vector<Vec3> points, const std::string& source);
 
 /// Of the triangles' edges in plan [m].

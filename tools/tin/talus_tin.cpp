@@ -301,11 +301,17 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
                  {"layer", reading.layers.front().layer},
                  {"elevation_from", reading.layers.front().elevation_from},
                  {"crs", talus::crs_name(map.crs_wkt)},
-                 {"points", {{"n_read", found.n_read}, {"n_repeated", found.n_repeated}}},
+                 {"points",
+                  {{"n_read", found.n_read},
+                   {"n_repeated", found.n_repeated},
+                   {"repeated_differ_m", found.repeated_differ_m}}},
                  {"layers_read", tool.layers_read()}};
   report["in_doubt"] = talus::say_doubts(tool, o.doubts, map.source, map.crs_wkt, rows);
   if (o.doubts.accept) report["doubts_accepted"] = true;
   if (o.doubts.accept) report["accepted_places"] = talus::accepted_places(rows);
+  if (found.repeated_differ_m > talus::same_height_m)
+    tool.warn("of points at one place the mean height is taken; they differ by up to " +
+              text(found.repeated_differ_m, 2) + " m");
   talus::cut_to_rings(map.boundary, found.mesh);
   if (found.mesh.triangles.empty())
     throw InputError({file_of_boundary(o)}, "the boundary and the points share no ground");
