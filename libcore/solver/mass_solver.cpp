@@ -21,26 +21,32 @@ constexpr int n_colour_bits = 64;
 constexpr int alone = n_colour_bits - 1;  // pairs of it share bodies: each has a batch to itself
 constexpr int most_rows = 16;             // pairs with more count as this when they are sorted
 
-// Greedy colours: no two pairs of one colour share a body, but those of `alone`. Pairs are sorted
-// by colour, those with most rows first.
+// Greedy colours: no two pairs of one colour share a body, but those of `alone`. Pairs with what
+// stands (ground, panels, stems) have colours of their own behind the others: what is left of an
+// unfinished solution is between blocks, not in the ground. Pairs are sorted by colour, those with
+// most rows first.
 int colour_pairs(MassSystem& s) {
   s.used.assign(s.inertia.size(), 0);
   s.colour.resize(s.pairs.size());
   s.bucket.assign(static_cast<size_t>(n_colour_bits) * (most_rows + 1) + 1, 0);
   int n_colours = 0;
-  for (size_t i = 0; i < s.pairs.size(); ++i) {
-    const MassPair& pair = s.pairs[i];
-    std::uint64_t used = s.used[pair.a];
-    if (pair.b >= 0) used |= s.used[pair.b];
-    const int colour = std::min(__builtin_ctzll(~used | std::uint64_t{1} << alone), alone);
-    if (colour < alone) {
-      s.used[pair.a] |= std::uint64_t{1} << colour;
-      if (pair.b >= 0) s.used[pair.b] |= std::uint64_t{1} << colour;
+  for (const bool stands : {false, true}) {
+    const int first = stands ? std::min(n_colours, alone) : 0;
+    for (size_t i = 0; i < s.pairs.size(); ++i) {
+      const MassPair& pair = s.pairs[i];
+      if ((pair.b < 0) != stands) continue;
+      std::uint64_t used = s.used[pair.a] | ((std::uint64_t{1} << first) - 1);
+      if (!stands) used |= s.used[pair.b];
+      const int colour = std::min(__builtin_ctzll(~used | std::uint64_t{1} << alone), alone);
+      if (colour < alone) {
+        s.used[pair.a] |= std::uint64_t{1} << colour;
+        if (!stands) s.used[pair.b] |= std::uint64_t{1} << colour;
+      }
+      n_colours = std::max(n_colours, colour + 1);
+      const int n_rows = std::min(pair.row_end - pair.row_begin, most_rows);
+      s.colour[i] = colour * (most_rows + 1) + most_rows - n_rows;
+      ++s.bucket[s.colour[i] + 1];
     }
-    n_colours = std::max(n_colours, colour + 1);
-    const int n_rows = std::min(pair.row_end - pair.row_begin, most_rows);
-    s.colour[i] = colour * (most_rows + 1) + most_rows - n_rows;
-    ++s.bucket[s.colour[i] + 1];
   }
   for (size_t k = 1; k < s.bucket.size(); ++k) s.bucket[k] += s.bucket[k - 1];
   s.order.resize(s.pairs.size());
