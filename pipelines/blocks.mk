@@ -8,7 +8,7 @@ $(eval $(call together,$(block_files)))
 $(OUT)/blocks.h5: $(OUT)/trn.tif $(STAGES)/blocks.txt $(STAGES)/blocks.flags $(STAGES)/blocks.files
 	$(call not_in_a_shard,$@)
 	$(call say,blocks: source and joints -> blocks)
-	$(Q)$(BIN)talus-blocks site.toml --trn $(OUT)/trn.tif -o $(OUT)/blocks.h5 \
+	$(Q)$(BIN)talus-blocks site.toml --trn $(OUT)/trn.tif $(inputs_given) -o $(OUT)/blocks.h5 \
 	  --trn-out $(OUT)/bed.tif --report $(OUT)/blocks.json \
 	  --footprints $(OUT)/blocks.gpkg --stereonet $(OUT)/stereonet.svg \
 	  --size-curve $(OUT)/sizes.svg $(BLOCKS_FLAGS) --overwrite $(DB)

@@ -8,7 +8,7 @@ without := $(filter without,$(kinds))
 fence_files := $(addprefix $(OUT)/,$(fence_products) $(if $(without),$(change_products)))
 $(eval $(call together,$(fence_files)))
 fence_tool = $(BIN)talus-fence site.toml $(OUT)/runs$1 $(if $(without),--without $(OUT)/without$1) \
-  --trn $(ground_of_runs) $(FENCE_FLAGS) --overwrite $(DB)
+  --trn $(ground_of_runs) $(inputs_given) $(FENCE_FLAGS) --overwrite $(DB)
 $(OUT)/fence.gpkg: $(ensembles) $(STAGES)/fence.txt $(STAGES)/fence.flags $(STAGES)/fence.files
 	$(call say,fence: runs -> fences)
 	$(Q)$(fence_tool) $(if $(without),--change $(OUT)/change.tif) -o $@ \

@@ -13,7 +13,7 @@ ifneq ($(SITE_FENCE_SEARCHES),)
 search_files := $(addprefix $(OUT)/,$(search_products))
 $(eval $(call together,$(addprefix $(OUT)/,$(screen_products))))
 search_tool = $(BIN)talus-fence-search site.toml $(OUT)/runs --trn $(ground_of_runs) \
-  $(SEARCH_FLAGS) --overwrite $(DB)
+  $(inputs_given) $(SEARCH_FLAGS) --overwrite $(DB)
 # verify(NAME,OPTIONS): runs in which a proposal stands
 verify = $(batch) --into verify/$1 --seed $(word 4,$(call status_of,runs)) \
   $(call option_of,VERIFY_RUNS,--runs) $2 -- --add $(OUT)/search/$1.toml $(DDA_FLAGS)

@@ -1,15 +1,16 @@
-# What the site names as its contours -> the same in metres, in one system, each decision recorded.
-# in: CONTOURS, [terrain], IMPORT_FLAGS (e.g. --t-srs EPSG:32632)
+# What the site is made from -> the same in metres, in one system, each decision recorded. Stages
+# depend on what they read of it (stages/*.txt), not on the file: another fence is no new ground.
+# They come after it: all need trn.tif, which does.
+# in: CONTOURS, DEM, all files that site.toml names, IMPORT_FLAGS (e.g. --t-srs EPSG:32632)
 # out: $(OUT)/inputs.gpkg, import.json
-$(eval $(call remember,import,$(CONTOURS) $(IMPORT_FLAGS)))
-ifneq ($(CONTOURS),)
+$(eval $(call remember,import,$(CONTOURS) $(DEM) $(IMPORT_FLAGS)))
 import_files := $(addprefix $(OUT)/,$(import_products))
+inputs_given := --inputs $(OUT)/inputs.gpkg
 $(eval $(call together,$(import_files)))
 $(OUT)/inputs.gpkg: $(STAGES)/import.txt $(STAGES)/import.flags $(STAGES)/import.files \
-  | $(contours_file) $(OUT)
+  | $(contours_file) $(DEM) $(OUT)
 	$(call not_in_a_shard,$@)
-	$(call say,import: contours -> metres in one system)
-	$(Q)$(BIN)talus-import site.toml $(contours_given) -o $(OUT)/inputs.gpkg \
+	$(call say,import: what the site names -> metres in one system)
+	$(Q)$(BIN)talus-import site.toml $(contours_given) $(dem_given) -o $(OUT)/inputs.gpkg \
 	  --report $(OUT)/import.json $(IMPORT_FLAGS) --overwrite $(DB)
 	$(call made,talus-import)
-endif

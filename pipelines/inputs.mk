@@ -80,10 +80,12 @@ contours_file = $(if $(findstring |,$(CONTOURS)),$(firstword $(subst |, ,$(CONTO
 contours_given = $(if $(call differ,$(CONTOURS),$(SITE_CONTOURS)),--contours \
   $(contours_file)$(if $(findstring |,$(CONTOURS)),'$(subst ','\'',$(subst \
   $(contours_file)|,|,$(CONTOURS)))'))
+dem_given = $(if $(CONTOURS),,$(if $(call differ,$(DEM),$(SITE_DEM)),--dem $(DEM)))
 # given(NAME,FLAGS): options of talus-site for the files of a list, which may be empty
 given = --given $1= $(foreach name,$(call named_in,$2),--given '$1=$(subst ','\'',$(name))')
 flags_of = $(shell echo $1 | tr a-z A-Z)_FLAGS
-given_files := $(if $(CONTOURS),--given import=$(contours_file)) $(DEM:%=--given trn=%) \
+given_files := $(if $(CONTOURS),--given import=$(contours_file)) \
+  $(DEM:%=--given trn=% --given import=%) \
   $(if $(LINE),--given 'profile=$(line_file)') \
   --given report=site.toml $(foreach stage,import tin trn blocks check runout maps fence places \
   hazard trace search profile report,$(call given,$(stage),$($(call flags_of,$(stage)))))

@@ -6,8 +6,8 @@ places_files := $(OUT)/places.json
 $(OUT)/places.json: $(OUT)/runs/ensemble.json $(STAGES)/place.txt $(STAGES)/places.flags \
   $(STAGES)/places.files
 	$(call say,places: runs -> places)
-	$(Q)$(BIN)talus-places site.toml $(OUT)/runs --trn $(ground_of_runs) --json $@ $(PLACES_FLAGS) \
-	  --overwrite $(DB)
+	$(Q)$(BIN)talus-places site.toml $(OUT)/runs --trn $(ground_of_runs) $(inputs_given) --json $@ \
+	  $(PLACES_FLAGS) --overwrite $(DB)
 	$(call made,talus-places)
 endif
 .PHONY: places

@@ -9,5 +9,5 @@ $(OUT)/rock/blocks_%.h5: $(OUT)/trn.tif $(STAGES)/rock.txt $(STAGES)/blocks.flag
 	$(call not_in_a_shard,$@)
 	$(call say,rock: blocks of mass $*)
 	$(Q)$(BIN)talus-blocks site.toml --trn $(OUT)/trn.tif -o $@ --trn-out $(OUT)/rock/bed_$*.tif \
-	  --sample $* $(BLOCKS_FLAGS) --overwrite $(DB)
+	  --sample $* $(inputs_given) $(BLOCKS_FLAGS) --overwrite $(DB)
 	$(call made,talus-blocks)

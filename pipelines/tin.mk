@@ -5,7 +5,8 @@ $(eval $(call remember,tin,$(TIN_FLAGS)))
 ifneq ($(CONTOURS),)
 tin_files := $(addprefix $(OUT)/,$(tin_products))
 $(eval $(call together,$(tin_files)))
-$(OUT)/tin.ply: $(OUT)/inputs.gpkg $(STAGES)/tin.txt $(STAGES)/tin.flags $(STAGES)/tin.files
+$(OUT)/tin.ply: $(addprefix $(STAGES)/,tin.txt tin.flags tin.files import.flags import.files) \
+  | $(OUT)/inputs.gpkg
 	$(call not_in_a_shard,$@)
 	$(call say,tin: contours -> triangles)
 	$(Q)$(BIN)talus-tin $(OUT)/inputs.gpkg -o $(OUT)/tin.ply --report $(OUT)/tin.json \

@@ -11,5 +11,5 @@ $(OUT)/trace.gpkg: $(OUT)/runs/ensemble.json $(STAGES)/trace.txt $(STAGES)/trace
 	@rm -f $(addprefix $(OUT)/,$(trace_patterns))
 	$(Q)$(BIN)talus-trace site.toml $(OUT)/runs --trn $(ground_of_runs) -o $(OUT)/trace.gpkg \
 	  --json $(OUT)/trace.json --csv $(OUT)/links.csv --rasters $(OUT)/sources --pages png,pdf \
-	  $(TRACE_FLAGS) --overwrite $(DB)
+	  $(inputs_given) $(TRACE_FLAGS) --overwrite $(DB)
 	$(call made,talus-trace)

@@ -6,7 +6,7 @@ trn_files := $(addprefix $(OUT)/,$(trn_products))
 terrain: $(trn_files) ## contours or elevation model -> terrain
 $(eval $(call together,$(trn_files)))
 $(OUT)/trn.tif: $(if $(CONTOURS),$(OUT)/tin.ply) $(STAGES)/trn.txt $(STAGES)/trn.flags \
-  $(STAGES)/trn.files | $(DEM) $(OUT)
+  $(STAGES)/trn.files | $(DEM) $(OUT)/inputs.gpkg
 	$(call not_in_a_shard,$@)
 	$(call say,trn: $(if $(CONTOURS),triangles,elevation model) -> terrain)
 	$(Q)$(BIN)talus-trn $(ground_source) -o $(OUT)/trn.tif --report $(OUT)/trn.json \

@@ -38,6 +38,7 @@ std::vector<BoundaryRing> rings_of(const RawLayer& boundary) {
 
 void make_relative(ContourMap& map) {
   const std::vector<Vec3>& ground = map.contours.points.empty() ? map.spots : map.contours.points;
+  if (ground.empty()) return;
   Vec3 low = ground.front();
   for (const Vec3& p : ground) low = low.cwiseMin(p);
   map.origin = Vec3(std::floor(low.x() / 100) * 100, std::floor(low.y() / 100) * 100, 0);
@@ -49,6 +50,13 @@ void make_relative(ContourMap& map) {
 
 }  // namespace
 
+InputError changed_since(const std::string& layer) {
+  return {
+      {file_of(layer)},
+      "was changed since talus-import wrote it",
+      "write it anew (make does when it is gone), or take a layer of it as it is: '" + layer + "'"};
+}
+
 std::string map_digest(const ContourMap& map) {
   Sha256 hash;
   hash.add(map.origin.data(), sizeof map.origin);
@@ -59,10 +67,11 @@ std::string map_digest(const ContourMap& map) {
   return hash.hex();
 }
 
-ContourMap import_map(const InputsRequest& request, ImportReading& reading) {
+Imported import_inputs(const InputsRequest& request, ImportReading& reading) {
   RawInputs raw = read_inputs(request);
-  ContourMap map;
-  map.source = request.layers.front().ref.path;
+  Imported found;
+  ContourMap& map = found.map;
+  map.source = request.layers.empty() ? "" : request.layers.front().ref.path;
   map.crs_wkt = raw.frame;
   std::string boundary;
   for (RawLayer& layer : raw.layers) {
@@ -70,6 +79,7 @@ ContourMap import_map(const InputsRequest& request, ImportReading& reading) {
     if (layer.role == InputRole::breaklines) map.breaklines = std::move(layer.lines);
     if (layer.role == InputRole::spots || layer.role == InputRole::points)
       map.spots = std::move(layer.lines.points);
+    if (layer.is_of_site()) found.shapes.push_back(take_shapes(layer));
     if (layer.role != InputRole::boundary) continue;
     map.boundary = rings_of(layer);
     boundary = layer.path();
@@ -77,12 +87,12 @@ ContourMap import_map(const InputsRequest& request, ImportReading& reading) {
   reading = std::move(raw.reading);
   make_relative(map);
   check_boundary(map, boundary);
-  if (!request.seal.empty() && map_digest(map) != request.seal)
-    throw InputError(
-        {file_of(map.source)}, "was changed since talus-import wrote it",
-        "write it anew (make does when it is gone), or take a layer of it as it is: '" +
-            map.source + "'");
-  return map;
+  if (!request.seal.empty() && map_digest(map) != request.seal) throw changed_since(map.source);
+  return found;
+}
+
+ContourMap import_map(const InputsRequest& request, ImportReading& reading) {
+  return import_inputs(request, reading).map;
 }
 
 std::vector<Vec3> import_reference_points(const LayerRef& ref, const std::string& crs_wkt,

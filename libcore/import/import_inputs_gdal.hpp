@@ -1,15 +1,18 @@
 // libcore/import/import_inputs_gdal.hpp: public
 // One way in for vector data of any source that OGR reads: contour maps, points of the ground,
 // points to hold it against, and what stands on it. Each question (which layer, where are the
-// heights, which system, which units, can it be) is put once, to all layers of a request. in:    a
-// request out:   metres, x to the east, y to the north, z in one system of heights
+// heights, which system, which units, can it be) is put once, to all layers of a request.
+// in:    a request
+// out:   metres, x to the east, y to the north, z in one system of heights
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "import/layer_reading.hpp"
 #include "import/request.hpp"
+#include "import/vectors_gdal.hpp"
 #include "terrain/contours.hpp"
 
 namespace talus {
@@ -20,6 +23,18 @@ namespace talus {
 /// see docs/tools/talus-tin.md. Laser scans are refused with the command that makes
 /// text of them, and a file of talus-import that was changed since.
 [[nodiscard]] ContourMap import_map(const InputsRequest& request, ImportReading& reading);
+
+/// All that a site is made from: its ground, without points where the request has none, and what
+/// stands on it, in the order of the request.
+struct Imported {
+  ContourMap map;
+  std::vector<VectorShapes> shapes;
+};
+/// As import_map(), and each layer of a site as read_vectors().
+[[nodiscard]] Imported import_inputs(const InputsRequest& request, ImportReading& reading);
+
+/// What a sealed file is refused with; `layer` is one of its own.
+[[nodiscard]] InputError changed_since(const std::string& layer);
 
 /// SHA-256 of all coordinates of a map.
 [[nodiscard]] std::string map_digest(const ContourMap& map);

@@ -23,6 +23,9 @@ struct Magnitude {
   double spread = 0;  ///< half the difference of the 16th and the 84th percentile
 };
 
+/// Of one value at least.
+[[nodiscard]] Magnitude magnitude_of(const std::string& quantity, std::vector<double> values);
+
 struct LayerReading {
   std::string role;   ///< "contours", "reference_points"
   std::string file;   ///< as it was named

@@ -26,9 +26,10 @@ void refuse_laser_scan(const std::string& path) {
                    ground_points_command(path));
 }
 
-const char* name_of(InputRole role) {
-  if (role == InputRole::points) return "points";
-  return role == InputRole::reference ? "reference_points" : role_of(role).input;
+std::string name_of(const RequestedLayer& layer) {
+  if (layer.role == InputRole::points) return "points";
+  if (layer.role == InputRole::reference) return "reference_points";
+  return layer.section.empty() ? role_of(layer.role).input : layer.section;
 }
 
 void append_vertex(const Vec3& point, const OGRFeature& feature, RawLayer& layer) {
@@ -165,7 +166,7 @@ RawLayer open_raw(const RequestedLayer& requested) {
   if (layer.has_heights()) layer.field = HeightField::find(layer.source);
   read_parts(requested, layer);
   layer.taken = reading_of(layer.source);
-  layer.taken.role = name_of(requested.role);
+  layer.taken.role = name_of(requested);
   const SourcePath named = parse_source_path(requested.ref.path);
   layer.decide("layer", layer.taken.layer,
                named.layer.empty() && named.layer_id.empty()

@@ -37,6 +37,11 @@ struct RequestedLayer {
   InputRole role;
   LayerRef ref;
   std::vector<std::string> fields = {};  ///< attributes to read of site_points
+  // Of what stands on the ground, as talus-import writes it; the parts of the ground have none.
+  std::string layer = {};    ///< "fences"
+  std::string section = {};  ///< of the site file, "fence.valley"
+  std::string file = {};     ///< as the section has it
+  std::string digest = {};   ///< of the data set; empty: not known
 };
 
 /// What the user says of the systems of a ground that its file does not, or not as wanted.
@@ -60,7 +65,7 @@ struct InputsRequest : SystemsByUser {
   /// or points, is the ground, and the frame is its system, or t_srs.
   bool has_frame = false;
   std::string frame;  ///< empty: local metres
-  std::string seal;   ///< map_digest() of what talus-import wrote; empty: it did not
+  std::string seal;   ///< of the ground that talus-import wrote; empty: it did not
 };
 
 }  // namespace talus

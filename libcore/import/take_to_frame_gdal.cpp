@@ -15,9 +15,11 @@ namespace {
 void take_plan(RawLayer& layer, RawInputs& raw) {
   std::vector<Vec3>& points = layer.lines.points;
   ImportReading& reading = raw.reading;
+  std::vector<std::string> of_site;  // what stands on the ground says it with what was taken
   const CrsOperation operation =
       plan_operation(layer.crs, raw.frame, window_of(points, layer.crs), layer.where(),
-                     raw.request.accept_ballpark, reading.operations, reading.warnings);
+                     raw.request.accept_ballpark, layer.is_of_site() ? of_site : reading.operations,
+                     reading.warnings);
   if (!carry_out(operation, points))
     throw InputError(
         layer.where(),

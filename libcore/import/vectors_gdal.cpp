@@ -3,16 +3,12 @@
 #include <cmath>
 #include <utility>
 
+#include "base/sha256.hpp"
 #include "geometry/plan2d.hpp"
 #include "import/raw_inputs_gdal.hpp"
 
 namespace talus {
 namespace {
-
-InputRole role_of(VectorKind kind) {
-  if (kind == VectorKind::points) return InputRole::site_points;
-  return kind == VectorKind::lines ? InputRole::site_lines : InputRole::site_areas;
-}
 
 double area_of_ring(const std::vector<Vec3>& ring) {
   double twice = 0;
@@ -25,18 +21,16 @@ double area_of_ring(const std::vector<Vec3>& ring) {
 
 }  // namespace
 
-VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt) {
-  InputsRequest request;
-  request.layers = {{role_of(query.kind), {query.path, "", 0}, query.fields}};
-  request.has_frame = true;
-  request.frame = crs_wkt;
-  RawInputs raw = read_inputs(request);
-  RawLayer& layer = raw.layers.front();
+InputRole role_of(VectorKind kind) {
+  if (kind == VectorKind::points) return InputRole::site_points;
+  return kind == VectorKind::lines ? InputRole::site_lines : InputRole::site_areas;
+}
+
+VectorShapes take_shapes(RawLayer& layer) {
   VectorShapes found;
   static_cast<LayerReading&>(found) = layer.taken;
   found.attributes = std::move(layer.attributes);
   found.operation = layer.operation;
-  found.warnings = std::move(raw.reading.warnings);
   found.n_united = layer.n_united;
   found.n_made = layer.n_made;
   const Polylines& lines = layer.lines;
@@ -47,7 +41,31 @@ VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt) 
     const bool is_hole = l > 0 && layer.polygon[l] == layer.polygon[l - 1];
     found.area_m2 += (is_hole ? -1 : 1) * area_of_ring(found.shapes.back());
   }
+  found.polygon = std::move(layer.polygon);
   return found;
+}
+
+VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt) {
+  InputsRequest request;
+  request.layers = {{role_of(query.kind), {query.path, "", 0}, query.fields}};
+  request.has_frame = true;
+  request.frame = crs_wkt;
+  RawInputs raw = read_inputs(request);
+  VectorShapes found = take_shapes(raw.layers.front());
+  found.warnings = std::move(raw.reading.warnings);
+  return found;
+}
+
+std::string digest_of(const VectorShapes& shapes) {
+  Sha256 hash;
+  for (const std::vector<Vec3>& shape : shapes.shapes) {
+    const std::size_t n = shape.size();
+    hash.add(&n, sizeof n);
+    for (const Vec3& point : shape) hash.add(point.data(), 2 * sizeof point[0]);
+  }
+  for (const std::vector<std::string>& values : shapes.attributes)
+    for (const std::string& value : values) hash.add(value.c_str(), value.size() + 1);
+  return hash.hex();
 }
 
 }  // namespace talus

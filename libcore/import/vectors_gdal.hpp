@@ -8,10 +8,16 @@
 
 #include "base/types.hpp"
 #include "import/layer_reading.hpp"
+#include "import/request.hpp"
 
 namespace talus {
 
+struct RawLayer;
+
 enum class VectorKind { points, lines, areas };
+
+/// What a layer of a site is read for.
+[[nodiscard]] InputRole role_of(VectorKind kind);
 
 /// What is asked for.
 struct VectorQuery {
@@ -26,6 +32,7 @@ struct VectorQuery {
 /// polygon, and in a drawing always.
 struct VectorShapes : LayerReading {
   std::vector<std::vector<Vec3>> shapes;  ///< points, lines, or closed rings without the last point
+  std::vector<int> polygon;               ///< that a ring is of; empty: no areas       (n_shapes)
   /// Of points: the fields asked for, as text; empty where a layer does not have one or it is not
   /// set.                                                                     (n_shapes x n_fields)
   std::vector<std::vector<std::string>> attributes;
@@ -42,5 +49,11 @@ struct VectorShapes : LayerReading {
 /// that is not in metres. A source or target without a CRS is taken to be in the
 /// other's.
 [[nodiscard]] VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt);
+
+/// What read_vectors() makes of a layer that went through all questions; the layer is spent.
+[[nodiscard]] VectorShapes take_shapes(RawLayer& layer);
+
+/// SHA-256 of all places in plan, and of the attributes.
+[[nodiscard]] std::string digest_of(const VectorShapes& shapes);
 
 }  // namespace talus

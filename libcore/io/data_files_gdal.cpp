@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <set>
 
+#include "base/file_paths.hpp"
+#include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "io/dataset_files_gdal.hpp"
 
@@ -27,7 +29,21 @@ std::vector<std::string> data_files(const std::string& path) {
     for (const std::string& file : dataset_files(next))
       if (files.insert(file).second && may_name_others(file)) to_look_at.push_back(file);
   }
+  for (const std::string& file : sidecars_of(path))
+    if (std::filesystem::is_regular_file(file)) files.insert(file);
   return {files.begin(), files.end()};
+}
+
+std::string digest_of_data(const std::string& source) {
+  const std::string file = file_of(source);
+  if (file.empty() || is_virtual(file)) return "";
+  Sha256 hash;
+  for (const std::string& member : data_files(file)) {
+    if (!std::filesystem::is_regular_file(member)) continue;
+    const std::string sha256 = sha256_of_file(member);
+    hash.add(sha256.data(), sha256.size());
+  }
+  return hash.hex();
 }
 
 }  // namespace talus

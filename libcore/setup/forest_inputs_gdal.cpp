@@ -14,8 +14,7 @@
 #include "geometry/repeated_points.hpp"
 #include "scene/stems.hpp"
 #include "setup/forest_section.hpp"
-#include "setup/site_places_gdal.hpp"
-#include "setup/vector_inputs_gdal.hpp"
+#include "setup/site_shapes_gdal.hpp"
 #include "terrain/grid_frame.hpp"
 
 namespace talus {
@@ -74,26 +73,12 @@ void check_drag_keys(const ForestSection& s) {
 
 // In local coordinates; none where only rasters say it.
 std::optional<Area> area_of(const ForestSection& s) {
-  const ForestSettings& f = s.forest;
-  Area area;
-  const auto add = [&area](const std::vector<Vec3>& ring) {
-    area.rings.emplace_back();
-    for (const Vec3& point : ring) area.rings.back().push_back(point.head<2>());
-  };
-  if (!f.polygon.empty()) {
-    add(local_points(s.log, s.site, s.trn, f.polygon, s.name() + ".polygon"));
-    area = without_repeated_corners(std::move(area));
-    check_area(area, s.trn.origin, where_of(s.site, s.name() + ".polygon"));
-    return area;
-  }
-  if (f.polygon_file.empty()) return std::nullopt;
-  const std::string path = resolved(s.site, f.polygon_file);
-  read_data(s.log, s.name(), path);
-  VectorShapes found = read_layer(s.log, s.name(), {path, VectorKind::areas}, s.trn.crs_wkt);
-  for (std::vector<Vec3>& ring : found.shapes) {
-    for (Vec3& point : ring) point -= s.trn.origin;
-    add(ring);
-  }
+  const SitePlace place = place_of(s.forest);
+  if (place.points.empty() && place.file.empty()) return std::nullopt;
+  Area area{shapes_in_plan(s.log, s.site, s.trn, place)};
+  if (place.points.empty()) return area;
+  area = without_repeated_corners(std::move(area));
+  check_area(area, s.trn.origin, where_of(s.site, s.name() + ".polygon"));
   return area;
 }
 
@@ -311,13 +296,10 @@ std::vector<Stem> listed_stems(const ForestSection& s) {
   const ForestSettings& f = s.forest;
   check_list_keys(s);
   StemList list{resolved(s.site, f.stems_file), {}};
-  read_data(s.log, s.name(), list.path);
-  list.points =
-      read_layer(s.log, s.name(), {list.path, VectorKind::points, {"dbh_cm", "species", "conifer"}},
-                 s.trn.crs_wkt);
+  list.points = local_shapes(s.log, s.site, s.trn, stems_of(f));
   std::vector<Stem> stems;
   for (size_t row = 0; row < list.points.shapes.size(); ++row) {
-    const Vec3 at = list.points.shapes[row][0] - s.trn.origin;
+    const Vec3& at = list.points.shapes[row][0];
     const double dbh = diameter_of(list, row);
     const int species = species_of(list, row);
     const double z = elevation_at(s.trn, at.x(), at.y());

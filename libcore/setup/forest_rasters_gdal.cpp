@@ -5,7 +5,7 @@
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "import/dem_gdal.hpp"
-#include "io/crs_gdal.hpp"
+#include "import/site_rasters_gdal.hpp"
 #include "io/raster_commands.hpp"
 #include "setup/forest_section.hpp"
 #include "setup/vector_inputs_gdal.hpp"
@@ -31,17 +31,6 @@ struct StandRaster {
   }
 };
 
-void check_crs(const ForestSection& s, const DemFile& raster) {
-  if (raster.crs_wkt().empty() || s.trn.crs_wkt.empty() ||
-      same_crs(raster.crs_wkt(), s.trn.crs_wkt))
-    return;
-  throw InputError({raster.path()},
-                   "the raster is in " + crs_name(raster.crs_wkt()) + ", the terrain is in " +
-                       crs_name(s.trn.crs_wkt),
-                   warp_command(CellKind::values, "-t_srs " + crs_code(s.trn.crs_wkt),
-                                raster.path(), "warped.tif"));
-}
-
 StandRaster read_raster(const ForestSection& s, const char* key, const std::string& file,
                         const MapBox& box) {
   const std::string path = resolved(s.site, file);
@@ -50,7 +39,7 @@ StandRaster read_raster(const ForestSection& s, const char* key, const std::stri
   options.crs_may_be_missing = true;
   options.has_heights = false;
   const DemFile raster(path, options);
-  check_crs(s, raster);
+  check_raster_system(raster.crs_wkt(), s.trn.crs_wkt, CellKind::values, path);
   const GridFrame& whole = raster.frame();
   StandRaster out{key, path, whole, {}};
   // a cell reaches half its side beyond its centre

@@ -4,18 +4,17 @@
 #include <string>
 
 #include "base/sha256.hpp"
-#include "import/class_raster_gdal.hpp"
+#include "import/site_rasters_gdal.hpp"
 #include "io/areas_gdal.hpp"
-#include "setup/site_places_gdal.hpp"
+#include "setup/site_shapes_gdal.hpp"
 #include "setup/vector_inputs_gdal.hpp"
 #include "site/ground_classes.hpp"
 
 namespace talus {
 namespace {
 
-using Rings = std::vector<std::vector<Vec3>>;
-
 void check_corners(const std::vector<Vec3>& corners, const Where& where) {
+  if (corners.empty()) return;
   std::vector<Vec2> plan;
   for (const Vec3& corner : corners) plan.push_back(corner.head<2>());
   check_polygon(plan, where);
@@ -25,26 +24,13 @@ void check_corners(const std::vector<Vec3>& corners, const Where& where) {
 // one after the other, so that a place in both is in the section.
 void add_ground_areas(InputLog& log, const Site& site, const Trn& trn, int index,
                       std::vector<GroundArea>& areas) {
-  const GroundSettings& ground = site.grounds[index];
-  const std::string section = "ground." + ground.name;
-  const auto add = [&](const Rings& rings) {
-    areas.push_back({index, {}});
-    for (const std::vector<Vec3>& ring : rings) {
-      areas.back().rings.emplace_back();
-      for (const Vec3& point : ring) areas.back().rings.back().push_back(point.head<2>());
-    }
-  };
-  if (!ground.polygon.empty()) {
-    check_corners(ground.polygon, where_of(site, section + ".polygon"));
-    add({local_points(log, site, trn, ground.polygon, section + ".polygon")});
-  }
-  if (ground.polygon_file.empty()) return;
-  const std::string path = resolved(site, ground.polygon_file);
-  read_data(log, section, path);
-  VectorShapes found = read_layer(log, section, {path, VectorKind::areas}, trn.crs_wkt);
-  for (std::vector<Vec3>& ring : found.shapes)
-    for (Vec3& point : ring) point -= trn.origin;
-  add(found.shapes);
+  SitePlace written = place_of(site.grounds[index]), in_file = written;
+  written.file.clear();
+  in_file.points.clear();
+  check_corners(written.points, where_of(site, written.section + ".polygon"));
+  for (const SitePlace& place : {written, in_file})
+    if (!place.points.empty() || !place.file.empty())
+      areas.push_back({index, shapes_in_plan(log, site, trn, place)});
 }
 
 std::string digest_of(const std::vector<std::int32_t>& values) {

@@ -32,9 +32,8 @@ std::set<std::string> further_files(const Site& site, const EffectiveValue& valu
   const std::string path = resolved(site, name), file = file_of(path);
   if (file.empty() || is_virtual(file)) return {};
   std::set<std::string> files;
-  for (const std::vector<std::string>& list : {data_files(file), sidecars_of(file)})
-    for (const std::string& member : list)
-      if (fs::is_regular_file(member)) files.insert(member);
+  for (const std::string& member : data_files(file))
+    if (fs::is_regular_file(member)) files.insert(member);
   files.erase(path.substr(0, path.find('|')));
   return files;
 }

@@ -5,43 +5,15 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/sha256.hpp"
 #include "base/text.hpp"
-#include "import/crs_operation_gdal.hpp"
-#include "import/crs_place_gdal.hpp"
 #include "io/areas_gdal.hpp"
 #include "io/buffer_gdal.hpp"
-#include "io/crs_gdal.hpp"
 #include "scene/site_fence.hpp"
-#include "setup/vector_inputs_gdal.hpp"
+#include "setup/site_shapes_gdal.hpp"
 #include "terrain/extent_text.hpp"
 
 namespace talus {
 namespace {
-
-// Map coordinates of the site file, in the CRS of the terrain.
-void bring_to_ground(InputLog& log, const Site& site, const Trn& ground, const std::string& key,
-                     std::vector<Vec3>& points) {
-  const std::string said =
-      site.info.crs.empty() ? std::string() : crs_from_user(site.info.crs, "site.crs");
-  const std::string crs = said.empty() ? ground.crs_wkt : said;
-  const Where where = where_of(site, key);
-  CrsExtent place{crs, window_of(points, crs), ground.crs_wkt};
-  place.crs_said_in = said.empty() ? "the terrain" : "crs of [site]";
-  for (const std::string& warning : check_place(place, where)) log.warn(warning);
-  if (same_crs(crs, ground.crs_wkt)) return;
-  const CrsOperation operation = find_operation(crs, ground.crs_wkt, place.extent, where);
-  if (!carry_out(operation, points))
-    throw InputError(
-        where, "cannot be reprojected from " + crs_name(crs) + " to " + crs_name(ground.crs_wkt),
-        "check crs of [site]: it is that of the coordinates in the site file");
-  Sha256 hash;
-  for (const Vec3& point : points) hash.add(point.data(), sizeof point);
-  log.content_read(key, hash.hex());
-  log.info(key + ": " + sentence_on(operation));
-  log.record(key + ": " + sentence_on(operation));
-  if (const std::string doubt = doubt_on(operation); !doubt.empty()) log.warn(key + ": " + doubt);
-}
 
 // The part of a segment, as shares of its length, that lies within `near` of another one.
 std::pair<double, double> part_near(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d,
@@ -92,87 +64,15 @@ void check_share_no_ground(InputLog& log, const Site& site, const Trn& trn, cons
 
 }  // namespace
 
-std::vector<Vec3> local_points(InputLog& log, const Site& site, const Trn& ground,
-                               std::vector<Vec3> points, const std::string& key) {
-  if (!points.empty() && !ground.crs_wkt.empty()) bring_to_ground(log, site, ground, key, points);
-  for (Vec3& p : points) p -= ground.origin;
-  return points;
-}
-
 std::vector<RecordLine> fence_lines(InputLog& log, const Site& site, const Trn& trn,
                                     const FenceSettings& fence) {
   const Where where = where_of_fence(site.file, fence);
   if (!fence.line.empty() && !fence.line_file.empty())
     throw InputError(where, "has both line and line_file", "say where the fence is, once");
-  std::vector<std::vector<Vec3>> found;
-  if (!fence.line.empty())
-    found.push_back(local_points(log, site, trn, fence.line, "fence." + fence.name + ".line"));
-  if (!fence.line_file.empty()) {
-    const std::string path = resolved(site, fence.line_file);
-    read_data(log, "fence." + fence.name, path);
-    VectorShapes shapes =
-        read_layer(log, "fence." + fence.name, {path, VectorKind::lines}, trn.crs_wkt);
-    for (std::vector<Vec3>& line : shapes.shapes) {
-      for (Vec3& point : line) point -= trn.origin;
-      found.push_back(std::move(line));
-    }
-  }
-  return lines_of_fence(fence, trn, found, where);
+  return lines_of_fence(fence, trn, local_shapes(log, site, trn, place_of(fence)).shapes, where);
 }
 
 namespace {
-
-Where where_of_object(const Site& site, const ObjectSettings& object) {
-  return {site.file, object.line_number, "object." + object.name};
-}
-
-// What the keys of a section name: where, and of which kind.
-VectorKind kind_of(const Site& site, const ObjectSettings& object) {
-  const int n = !object.polygon.empty() + !object.line.empty() + !object.position_m.empty() +
-                !object.file.empty();
-  if (n != 1)
-    throw InputError(where_of_object(site, object),
-                     n == 0 ? "has no place" : "has more than one place",
-                     "give one of polygon, line, position_m or file");
-  const bool has_width = !std::isnan(object.width_m), has_radius = !std::isnan(object.radius_m);
-  if (has_width && has_radius)
-    throw InputError(where_of_object(site, object), "has both width_m and radius_m",
-                     "width_m is of lines, radius_m of points");
-  if (!object.line.empty() && !has_width)
-    throw InputError(where_of_object(site, object), "is a line without a width",
-                     "give width_m, e.g. that of the road");
-  if (!object.position_m.empty() && !has_radius)
-    throw InputError(where_of_object(site, object), "is a point without a radius",
-                     "give radius_m, or an outline as polygon");
-  if (!object.polygon.empty() && (has_width || has_radius))
-    throw InputError(where_of_object(site, object), "is an area with width_m or radius_m",
-                     "leave them out: a polygon is taken as it is");
-  if (!object.line.empty() || (!object.file.empty() && has_width)) return VectorKind::lines;
-  if (!object.position_m.empty() || (!object.file.empty() && has_radius)) return VectorKind::points;
-  return VectorKind::areas;
-}
-
-std::vector<std::vector<Vec3>> shapes_of(InputLog& log, const Site& site, const Trn& trn,
-                                         const ObjectSettings& object, VectorKind kind) {
-  const std::string section = "object." + object.name;
-  if (!object.polygon.empty())
-    return {local_points(log, site, trn, object.polygon, section + ".polygon")};
-  if (!object.line.empty()) return {local_points(log, site, trn, object.line, section + ".line")};
-  std::vector<std::vector<Vec3>> shapes;
-  if (!object.position_m.empty()) {
-    for (const Vec3& p : local_points(log, site, trn, object.position_m, section + ".position_m"))
-      shapes.push_back({p});
-    return shapes;
-  }
-  const std::string path = resolved(site, object.file);
-  log.read_also(section, path);
-  VectorShapes found = read_layer(log, section, {path, kind}, trn.crs_wkt);
-  for (std::vector<Vec3>& shape : found.shapes) {
-    for (Vec3& p : shape) p -= trn.origin;
-    shapes.push_back(std::move(shape));
-  }
-  return shapes;
-}
 
 void check_on_terrain(InputLog& log, const Site& site, const Trn& trn, const ObjectSettings& object,
                       const RecordObject& made) {
@@ -201,13 +101,13 @@ void check_on_terrain(InputLog& log, const Site& site, const Trn& trn, const Obj
 std::vector<RecordObject> site_objects(InputLog& log, const Site& site, const Trn& trn) {
   std::vector<RecordObject> objects;
   for (const ObjectSettings& object : site.objects) {
-    const VectorKind kind = kind_of(site, object);
+    const SitePlace place = place_of(site, object);
     RecordObject made{object.name, object.kind, {}, 0};
-    if (kind == VectorKind::lines) made.radius = object.width_m / 2;
-    if (kind == VectorKind::points) made.radius = object.radius_m;
-    for (const std::vector<Vec3>& shape : shapes_of(log, site, trn, object, kind)) {
+    if (place.kind == VectorKind::lines) made.radius = object.width_m / 2;
+    if (place.kind == VectorKind::points) made.radius = object.radius_m;
+    for (const std::vector<Vec3>& shape : local_shapes(log, site, trn, place).shapes) {
       ObjectPart part;
-      part.is_area = kind == VectorKind::areas;
+      part.is_area = place.kind == VectorKind::areas;
       for (const Vec3& p : shape) part.points.push_back(p.head<2>());
       if (part.is_area) {
         if (part.points.size() > 3 && part.points.front() == part.points.back())

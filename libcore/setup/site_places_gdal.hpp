@@ -14,11 +14,6 @@
 
 namespace talus {
 
-/// Points of the site file (map coordinates in the CRS of [site]) as local ones; z NaN stays NaN.
-/// `key` is where they stand. Throws InputError when they cannot be reprojected.
-[[nodiscard]] std::vector<Vec3> local_points(InputLog& log, const Site& site, const Trn& ground,
-                                             std::vector<Vec3> points, const std::string& key);
-
 /// The line or lines of a [fence.*], with posts on the ground; several are named NAME.1, NAME.2 ...
 /// Throws InputError for a fence with two sources of its line and as
 /// lines_of_fence().

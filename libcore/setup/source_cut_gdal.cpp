@@ -18,10 +18,10 @@
 #include "blocks/daylight_envelope.hpp"
 #include "blocks/failure_raster.hpp"
 #include "import/dem_gdal.hpp"
+#include "import/site_rasters_gdal.hpp"
 #include "io/crs_gdal.hpp"
-#include "io/raster_commands.hpp"
 #include "setup/ground_class_inputs_gdal.hpp"
-#include "setup/site_places_gdal.hpp"
+#include "setup/site_shapes_gdal.hpp"
 #include "setup/sliding_sets.hpp"
 #include "setup/vector_inputs_gdal.hpp"
 #include "site/joint_list.hpp"
@@ -38,24 +38,7 @@ Area read_area(InputLog& log, const BlocksWork& work) {
                      source.polygon.empty() ? "[source] has neither polygon nor polygon_file"
                                             : "[source] has both polygon and polygon_file",
                      "say where the source is, once");
-  Area area;
-  const auto add_ring = [&](const std::vector<Vec3>& local) {
-    area.rings.emplace_back();
-    for (const Vec3& p : local) area.rings.back().emplace_back(p.head<2>());
-  };
-  if (!source.polygon.empty()) {
-    add_ring(local_points(log, work.site, work.ground, source.polygon, "source.polygon"));
-    return without_repeated_corners(area);
-  }
-  const std::string path = resolved(work.site, source.polygon_file);
-  read_data(log, "source.polygon_file", path);
-  const VectorShapes found =
-      read_layer(log, "source", {path, VectorKind::areas}, work.ground.crs_wkt);
-  for (std::vector<Vec3> ring : found.shapes) {
-    for (Vec3& p : ring) p -= work.ground.origin;
-    add_ring(ring);
-  }
-  return without_repeated_corners(area);
+  return without_repeated_corners({shapes_in_plan(log, work.site, work.ground, place_of(source))});
 }
 
 // Heights of the surface in the terrain's own system, where both say it.
@@ -77,15 +60,7 @@ std::vector<double> read_failure_raster(InputLog& log, const BlocksWork& work) {
   DemOptions options;
   options.crs_may_be_missing = true;
   const DemFile raster(path, options);
-  if (!raster.crs_wkt().empty() && !work.ground.crs_wkt.empty() &&
-      !same_crs(raster.crs_wkt(), work.ground.crs_wkt))
-    throw InputError(
-        {path},
-        "the CRS is " + crs_name(raster.crs_wkt()) + ", that of the terrain is " +
-            crs_name(work.ground.crs_wkt),
-        "a raster is never reprojected silently: " +
-            warp_command(CellKind::heights, "-novshift -t_srs " + crs_code(work.ground.crs_wkt),
-                         path, "surface.tif"));
+  check_raster_system(raster.crs_wkt(), work.ground.crs_wkt, CellKind::heights, path);
   if (!is_thickness) check_heights_of_surface(log, work, raster);
   std::vector<double> z = read_dem(raster, frame_of(work.ground));
   if (is_thickness) {

@@ -4,29 +4,15 @@
 
 #include "base/file_paths.hpp"
 #include "base/grouped_text.hpp"
-#include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "io/data_files_gdal.hpp"
 
 namespace talus {
 namespace {
 
-std::string digest_of(const VectorShapes& found) {
-  Sha256 hash;
-  for (const std::vector<Vec3>& shape : found.shapes) {
-    const std::size_t n = shape.size();
-    hash.add(&n, sizeof n);
-    for (const Vec3& point : shape) hash.add(point.data(), sizeof point);
-  }
-  for (const std::vector<std::string>& values : found.attributes)
-    for (const std::string& value : values) hash.add(value.c_str(), value.size() + 1);
-  return hash.hex();
-}
-
-std::string sentence_on(const VectorShapes& found, const VectorQuery& query) {
-  std::string words = sentence_on(found);
-  if (query.kind == VectorKind::areas)
-    words += " of " + grouped_text(found.area_m2, 4) + " m2 in all";
+std::string sentence_on(const VectorShapes& found) {
+  std::string words = sentence_on(static_cast<const LayerReading&>(found));
+  if (!found.polygon.empty()) words += " of " + grouped_text(found.area_m2, 4) + " m2 in all";
   if (found.n_united > 0)
     words += "; " + std::to_string(found.n_united) + " that overlap or touch were united to " +
              std::to_string(found.n_made);
@@ -34,9 +20,9 @@ std::string sentence_on(const VectorShapes& found, const VectorQuery& query) {
   return words;
 }
 
-LayerRead facts_on(const VectorShapes& found, const std::string& role, const VectorQuery& query) {
-  LayerRead layer = facts_on(found, role);
-  if (query.kind == VectorKind::areas) {
+LayerRead facts_on(const VectorShapes& found) {
+  LayerRead layer = facts_on(found, found.role);
+  if (!found.polygon.empty()) {
     layer.facts.emplace_back("n_united", std::int64_t{found.n_united});
     layer.facts.emplace_back("n_made_of_them", std::int64_t{found.n_made});
     layer.facts.emplace_back("area_m2", found.area_m2);
@@ -86,18 +72,23 @@ LayerRead facts_on(const LayerReading& taken, const std::string& role) {
   return layer;
 }
 
-VectorShapes read_layer(InputLog& log, const std::string& role, const VectorQuery& query,
-                        const std::string& crs_wkt) {
-  VectorShapes found = read_vectors(query, crs_wkt);
-  log.content_read(role, digest_of(found));
-  log.info(sentence_on(found, query));
+void say_shapes(InputLog& log, const VectorShapes& found) {
+  log.content_read(found.role, digest_of(found));
+  log.info(sentence_on(found));
   if (!found.operation.empty()) log.record(found.file + ": " + found.operation);
-  for (const std::string& warning : found.warnings) log.warn(warning);
   for (const std::string& remark : found.remarks) log.info(found.file + ": " + remark);
   if (found.n_passed_over > 0)
     log.warn(found.file + ": layer " + found.layer + " also holds " + found.passed_over +
              ", passed over");
-  log.layer_read(facts_on(found, role, query));
+}
+
+VectorShapes read_layer(InputLog& log, const std::string& role, const VectorQuery& query,
+                        const std::string& crs_wkt) {
+  VectorShapes found = read_vectors(query, crs_wkt);
+  found.role = role;
+  say_shapes(log, found);
+  for (const std::string& warning : found.warnings) log.warn(warning);
+  log.layer_read(facts_on(found));
   return found;
 }
 

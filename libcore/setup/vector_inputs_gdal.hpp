@@ -19,8 +19,11 @@ void read_data(InputLog& log, const std::string& role, const std::string& path);
 [[nodiscard]] std::string sentence_on(const LayerReading& taken);
 [[nodiscard]] LayerRead facts_on(const LayerReading& taken, const std::string& role);
 
+/// Says layer, number and area of what was taken, and what was not; its digest counts as read.
+void say_shapes(InputLog& log, const VectorShapes& found);
+
 /// Reads shapes for the key `role` of a site file ("source", "ground.scree", "fence.upper"). Says
-/// layer, number and area to the log. Throws InputError as read_vectors().
+/// them to the log. Throws InputError as read_vectors().
 [[nodiscard]] VectorShapes read_layer(InputLog& log, const std::string& role,
                                       const VectorQuery& query, const std::string& crs_wkt);
 

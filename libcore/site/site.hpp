@@ -351,6 +351,7 @@ struct Site {
   std::string file;         ///< path as given
   std::string folder;       ///< of the file; relative paths in it start there
   std::string layers_file;  ///< that sections were taken from, as SiteInfo::layers says it
+  std::string inputs;       ///< file of talus-import to read the site's layers from; empty: none
   std::map<std::string, std::string> layer_digests;  ///< "fence.valley" -> of its features there
   SiteInfo info;
   TerrainSettings terrain;

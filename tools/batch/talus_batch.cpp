@@ -179,6 +179,8 @@ class Batch {
          {std::string("-o"), file, std::string("--label"), name_of(member), std::string("--resume"),
           std::string("--overwrite")})
       words.push_back(word);
+    const std::string inputs = (fs::path(plan_.results) / "inputs.gpkg").string();
+    if (fs::exists(inputs)) words.insert(words.end(), {"--inputs", inputs});
     add_registry(words, tool_, plan_);
     if (n_jobs_ > 1) words.insert(words.end(), {"--threads", "1"});
     jobs_.push_back({run, Process(std::move(words))});

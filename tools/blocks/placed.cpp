@@ -17,8 +17,7 @@
 #include "geometry/repeated_points.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/mesh.hpp"
-#include "setup/site_places_gdal.hpp"
-#include "setup/vector_inputs_gdal.hpp"
+#include "setup/site_shapes_gdal.hpp"
 #include "site/joint_plan.hpp"
 
 namespace talus {
@@ -147,17 +146,11 @@ double length_of(const std::vector<Vec2>& line) {
 }
 
 std::vector<Vec3> release_from_file(const PlacedContext& context, const PlacedSettings& section) {
-  const std::string path = resolved(context.site, section.release_file);
-  read_data(context.tool, "blocks." + section.name + ".release", path);
-  const bool along_lines = !std::isnan(section.release_spacing_m);
-  const VectorKind kind = along_lines ? VectorKind::lines : VectorKind::points;
-  const VectorShapes found = read_layer(context.tool, "blocks." + section.name + ".release",
-                                        {path, kind}, context.ground.crs_wkt);
+  const SitePlace release = release_of(section);
   std::vector<Vec3> positions;
-  for (const auto& shape : found.shapes) {
-    std::vector<Vec2> line;
-    for (const Vec3& v : shape) line.push_back(v.head<2>() - context.ground.origin.head<2>());
-    if (along_lines) {
+  for (std::vector<Vec2> line :
+       shapes_in_plan(context.tool, context.site, context.ground, release)) {
+    if (release.kind == VectorKind::lines) {
       check_number(context, section, length_of(line) / section.release_spacing_m, 1);
       line = points_along(line, section.release_spacing_m);
     }

@@ -116,6 +116,7 @@ int main(int argc, char** argv) {
             "Cuts the rock mass of a source into blocks by its joints, or takes blocks from "
             "meshes and shapes.");
   SiteOptions site(tool, DrawScope::rock, false);
+  site.take_inputs();
   declare(tool, o);
   return tool.run(argc, argv, [&] {
     if (!o.sizes.list.empty()) return report_sizes(tool, o.sizes);

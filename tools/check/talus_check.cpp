@@ -96,6 +96,7 @@ int main(int argc, char** argv) {
             "Looks at a site before anything is computed: will the mass move, is everything where "
             "it should be, how long will it take.");
   SiteOptions site_options(tool);
+  site_options.take_inputs();
   declare(tool, o);
   tool.leave_out_of_run_id({"runs"});  // for the time alone, which is said and not written
   return tool.run(argc, argv, [&] {

@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   Tool tool("talus-dda", "Moves blocks by three-dimensional discontinuous deformation analysis.");
   SiteOptions site_options(tool, DrawScope::all);
   site_options.take_additions(tool);
+  site_options.take_inputs();
   declare(tool, site_options, o);
   bool is_written = false;
   const int code = tool.run(argc, argv, [&] {

@@ -272,6 +272,7 @@ int main(int argc, char** argv) {
   Options options;
   Tool tool("talus-fence-search", "Where a fence protects an object best, and what it leaves.");
   SiteOptions site(tool);
+  site.take_inputs();
   RunInputs runs(tool, RunUse::evaluated_with_frames);
   declare(tool, options);
   return tool.run(argc, argv, [&] { run_tool(tool, options, site, runs); });

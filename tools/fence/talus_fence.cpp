@@ -145,6 +145,7 @@ int main(int argc, char** argv) {
   Options options;
   Tool tool("talus-fence", "What fences would meet, what they hold and what they change.");
   SiteOptions site(tool);
+  site.take_inputs();
   site.take_additions(tool);
   RunInputs runs(tool);
   declare(tool, options);

@@ -124,6 +124,9 @@ void refuse_options_beside(const InputsRequest& inputs, const ImportOptions& o) 
 InputsRequest request_of(Tool& tool, ImportOptions& o) {
   if (std::optional<InputsRequest> inputs = canonical_request(o.contours.path)) {
     refuse_options_beside(*inputs, o);
+    tool.leave_out_of_run_id({"contours"});  // its ground counts, not what else stands in the file
+    tool.content_read("contours", inputs->seal);
+    tool.content_read("contours.crs", inputs->frame);
     o.of_points = inputs->layers.front().role == InputRole::points;
     return std::move(*inputs);
   }
@@ -147,10 +150,10 @@ InputsRequest request_of(Tool& tool, ImportOptions& o) {
 }
 
 void say_reading(Tool& tool, const ImportReading& reading) {
-  const LayerReading& ground = reading.layers.front();
-  if (ground.role == "contours" || ground.role == "points")
-    tool.info("elevation from " + ground.elevation_from + " of layer " + ground.layer +
-              (ground.unit_m == 1 ? "" : ", in units of " + text(ground.unit_m) + " m"));
+  for (const LayerReading& layer : reading.layers)
+    if (layer.role == "contours" || layer.role == "points")
+      tool.info("elevation from " + layer.elevation_from + " of layer " + layer.layer +
+                (layer.unit_m == 1 ? "" : ", in units of " + text(layer.unit_m) + " m"));
   for (const std::string& note : reading.notes) tool.info(note);
   for (const std::string& operation : reading.operations) {
     tool.info(operation);

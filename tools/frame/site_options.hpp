@@ -65,6 +65,15 @@ class SiteOptions {
     names_.emplace_back("add");
   }
 
+  /// Declares --inputs: what the site names as talus-import wrote it. Other bytes of that file make
+  /// no other result: what is read of it counts.
+  void take_inputs() {
+    tool_.app().add_option("--inputs", inputs_,
+                           "the site's layers as talus-import wrote them; not given: as the site "
+                           "names them");
+    tool_.leave_out_of_run_id({"inputs"});
+  }
+
   /// Throws InputError (read_site, check_uncertainty, apply_draws), UsageError (--set).
   const Site& load() {
     if (site_) return *site_;
@@ -85,6 +94,8 @@ class SiteOptions {
     check_uncertainty(site);
     check_grounds(site);
     if (draws_) apply_draws(site, *draws_);
+    site.inputs = inputs_;
+    if (!inputs_.empty()) tool_.read_by_content(inputs_);
     site_ = std::make_unique<Site>(std::move(site));
     return *site_;
   }
@@ -109,7 +120,7 @@ class SiteOptions {
   }
 
   Tool& tool_;
-  std::string file_;
+  std::string file_, inputs_;
   std::vector<std::string> overrides_, additions_, names_{"site", "set"};
   std::unique_ptr<Site> site_;
   std::optional<DrawScope> draws_;

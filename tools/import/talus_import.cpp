@@ -1,11 +1,17 @@
 // tools/import/talus_import.cpp
-// What the ground of a site is made from, brought to one form: metres, one system, named layers.
+// What a site is made from, brought to one form: metres, one system, named layers.
 // Page: docs/tools/talus-import.md
 #include "base/text.hpp"
 #include "import/canonical_gdal.hpp"
+#include "import/crs_place_gdal.hpp"
+#include "import/feature_tables_gdal.hpp"
 #include "import/import_inputs_gdal.hpp"
 #include "import/layer_names.hpp"
+#include "import/site_rasters_gdal.hpp"
+#include "import/tin_files_gdal.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/data_files_gdal.hpp"
+#include "setup/site_shapes_gdal.hpp"
 #include "setup/vector_inputs_gdal.hpp"
 #include "tools/frame/import_options.hpp"
 #include "tools/frame/site_options.hpp"
@@ -14,23 +20,81 @@ namespace {
 
 using namespace talus;  // NOLINT: a program of its own
 
-// What no option gives stands in [terrain].
-void take_from_site(Tool& tool, const Site& site, ImportOptions& o) {
+struct Options {
+  ImportOptions ground;
+  std::string dem, out, report;
+};
+
+// What no option gives stands in [terrain]. Of an elevation model the system is taken alone.
+void take_from_site(Tool& tool, const Site& site, Options& o) {
   const TerrainSettings& t = site.terrain;
-  const auto take = [&](const char* role, const std::string& path, LayerRef& ref) {
-    if (!ref.path.empty() || path.empty()) return;
-    ref.path = resolved(site, path);
-    tool.read_also(role, ref.path);
+  const auto take = [&](const char* role, const std::string& path, std::string& given) {
+    if (!given.empty() || path.empty()) return;
+    given = resolved(site, path);
+    tool.read_also(role, given);
   };
-  take("contours", t.contours, o.contours);
-  take("breaklines", t.breaklines, o.breaklines);
-  take("spots", t.spots, o.spots);
-  take("boundary", t.boundary, o.boundary);
+  ImportOptions& ground = o.ground;
+  if (o.dem.empty()) take("contours", t.contours, ground.contours.path);
+  if (ground.contours.path.empty()) {
+    if (o.dem.empty() && !t.dem.empty()) o.dem = resolved(site, t.dem);
+    return;
+  }
+  take("breaklines", t.breaklines, ground.breaklines.path);
+  take("spots", t.spots, ground.spots.path);
+  take("boundary", t.boundary, ground.boundary.path);
   const std::vector<std::string> fields = parted(t.elevation_field, ',');
-  o.fields.insert(o.fields.begin(), fields.begin(), fields.end());
-  if (o.contours.path.empty())
-    throw InputError({site.file}, "[terrain] names no contours",
-                     "an elevation model needs no talus-import: talus-trn reads it");
+  ground.fields.insert(ground.fields.begin(), fields.begin(), fields.end());
+}
+
+// The system of an elevation model or a TIN, which talus-trn reads, checks and reprojects.
+std::string system_of_dem(Tool& tool, const std::string& path, const SystemsByUser& said) {
+  tool.keep(path);
+  tool.leave_out_of_run_id({"dem"});
+  const std::string frame = !said.t_srs.empty() ? said.t_srs
+                            : said.crs_given    ? said.crs
+                            : is_tin_file(path) ? read_tin_file({path, "", 0}).tin.crs_wkt
+                                                : crs_of_source(path);
+  tool.content_read("dem.crs", frame);
+  return frame;
+}
+
+// The layers of the ground, or the system of an elevation model, and all that stands on it; nothing
+// where layers cannot be computed with in that system, since talus-trn takes it to another one.
+InputsRequest whole_request(Tool& tool, const Site& site, Options& o) {
+  InputsRequest request;
+  if (!o.ground.contours.path.empty()) {
+    request = request_of(tool, o.ground);
+  } else if (!o.dem.empty()) {
+    request.frame = system_of_dem(tool, o.dem, systems_by_user(o.ground.crs));
+    request.has_frame = true;
+    const CrsProblem problem = find_crs_problem(request.frame, Vec2::Zero());
+    if (!request.frame.empty() && !problem.finding.empty()) {
+      tool.warn(o.dem + ": " + problem.finding +
+                ": what stands on it is read by each tool itself "
+                "(give talus-import the --t-srs of talus-trn: make IMPORT_FLAGS)");
+      return request;
+    }
+  } else {
+    throw InputError({site.file}, "[terrain] names neither contours nor dem",
+                     "name what the ground is made from, or give --contours or --dem");
+  }
+  for (RequestedLayer& layer : request.layers) layer.digest = digest_of_data(layer.ref.path);
+  for (const RequestedLayer& layer : layers_of(site)) {
+    read_data(tool, layer.section, layer.ref.path);
+    request.layers.push_back(layer);
+  }
+  return request;
+}
+
+// Rasters are used where they are.
+std::vector<LayerReading> look_at_rasters(Tool& tool, const Site& site, const std::string& dem) {
+  std::vector<LayerReading> rasters;
+  if (!dem.empty() && !is_tin_file(dem)) rasters.push_back(look_at_raster("dem", dem));
+  for (const SiteRaster& raster : rasters_of(site)) {
+    read_data(tool, raster.key, raster.path);
+    rasters.push_back(look_at_raster(raster.key, raster.path));
+  }
+  return rasters;
 }
 
 Json as_json(const LayerReading& layer) {
@@ -50,24 +114,29 @@ Json as_json(const LayerReading& layer) {
 // "contours: 163 lines, 100 to 126 m high, half of them below 110 m"
 std::string line_of(const LayerReading& layer) {
   std::string words = layer.role + ": " + counted(layer.n_parts, layer.noun);
-  for (const Magnitude& m : layer.magnitudes)
-    if (m.quantity == "z_m")
-      words += ", " + text(m.lowest, 7) + " to " + text(m.highest, 7) + " m, median " +
-               text(m.median, 7) + " m";
+  for (const Magnitude& m : layer.magnitudes) {
+    const std::string unit = m.quantity == "z_m" ? " m" : "";
+    if (m.quantity == "z_m" || m.quantity == "value")
+      words += ", " + text(m.lowest, 7) + " to " + text(m.highest, 7) + unit + ", median " +
+               text(m.median, 7) + unit;
+  }
   return words;
 }
 
-void run_tool(Tool& tool, const Site& site, ImportOptions& o, const std::string& out,
-              const std::string& report_file) {
+void run_tool(Tool& tool, const Site& site, Options& o) {
   take_from_site(tool, site, o);
+  const std::vector<LayerReading> rasters = look_at_rasters(tool, site, o.dem);
+  const InputsRequest request = whole_request(tool, site, o);
   ImportReading reading;
-  const ContourMap map = import_map(request_of(tool, o), reading);
+  const Imported inputs = import_inputs(request, reading);
   say_reading(tool, reading);
-  measure(map, reading);
-  write_canonical(tool.stage(out), map, reading);
+  for (const VectorShapes& shapes : inputs.shapes) say_shapes(tool, shapes);
+  measure(inputs, reading);
+  reading.layers.insert(reading.layers.end(), rasters.begin(), rasters.end());
+  write_canonical(tool.stage(o.out), request, inputs, reading);
   Json report = {{"tool", "talus-import"},
                  {"run_id", tool.run_id()},
-                 {"crs", crs_name(map.crs_wkt)},
+                 {"crs", crs_name(inputs.map.crs_wkt)},
                  {"layers", Json::array()}};
   std::string summary;
   for (const LayerReading& layer : reading.layers) {
@@ -76,20 +145,20 @@ void run_tool(Tool& tool, const Site& site, ImportOptions& o, const std::string&
   }
   report["notes"] = reading.notes;
   report["operations"] = reading.operations;
-  if (!report_file.empty()) tool.write_text(report_file, json_text(report, 2) + "\n");
+  if (!o.report.empty()) tool.write_text(o.report, json_text(report, 2) + "\n");
   tool.result(report, summary);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string out, report;
-  ImportOptions o;
-  Tool tool("talus-import", "Brings what the ground of a site is made from to one form.");
+  Options o;
+  Tool tool("talus-import", "Brings what a site is made from to one form.");
   SiteOptions site(tool);
-  declare_import_options(tool, o, "--contours");
-  tool.output("-o,--out", out, "layers in metres and in one system (GeoPackage)")->required();
-  tool.output("--report", report, "every decision, and how large the numbers are (JSON)");
+  declare_import_options(tool, o.ground, "--contours");
+  tool.option("--dem", o.dem, "elevation model in place of contours; it is used where it is");
+  tool.output("-o,--out", o.out, "layers in metres and in one system (GeoPackage)")->required();
+  tool.output("--report", o.report, "every decision, and how large the numbers are (JSON)");
   tool.footer("Example:\n  talus-import site.toml -o inputs.gpkg --report import.json");
-  return tool.run(argc, argv, [&] { run_tool(tool, site.load(), o, out, report); });
+  return tool.run(argc, argv, [&] { run_tool(tool, site.load(), o); });
 }

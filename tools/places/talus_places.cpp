@@ -11,7 +11,7 @@
 #include "post/reduce.hpp"
 #include "setup/section_state_gdal.hpp"
 #include "setup/site_places_gdal.hpp"
-#include "setup/vector_inputs_gdal.hpp"
+#include "setup/site_shapes_gdal.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/run_inputs.hpp"
 #include "tools/frame/site_options.hpp"
@@ -20,34 +20,13 @@ namespace {
 
 using namespace talus;  // NOLINT: a program of its own
 
-PlaceRings rings_of(Tool& tool, const Site& site, const Trn& trn, const PlaceSettings& place) {
-  const std::string section = "place." + place.name;
-  std::vector<std::vector<Vec3>> rings;
-  if (!place.polygon.empty()) {
-    rings = {local_points(tool, site, trn, place.polygon, section + ".polygon")};
-  } else {
-    const std::string path = resolved(site, place.polygon_file);
-    tool.read_also(section, path);
-    const VectorShapes found = read_layer(tool, section, {path, VectorKind::areas}, trn.crs_wkt);
-    rings = found.shapes;
-    for (std::vector<Vec3>& ring : rings)
-      for (Vec3& point : ring) point -= trn.origin;
-  }
-  PlaceRings plan;
-  for (const std::vector<Vec3>& ring : rings) {
-    plan.emplace_back();
-    for (const Vec3& point : ring) plan.back().push_back(point.head<2>());
-  }
-  return plan;
-}
-
 std::vector<Place> places_of(Tool& tool, const Site& site, const Trn& trn,
                              const PassageGrid& grid) {
   std::vector<Place> places;
   for (const PlaceSettings& settings : site.places) {
     Place place{settings.name, settings.half_width, {}, settings.fence};
     if (settings.fence.empty()) {
-      place.cells = cells_touched(grid, rings_of(tool, site, trn, settings));
+      place.cells = cells_touched(grid, shapes_in_plan(tool, site, trn, place_of(settings)));
       if (std::find(place.cells.begin(), place.cells.end(), 1) == place.cells.end())
         throw InputError({site.file, settings.line},
                          "[place." + settings.name + "] lies outside of the terrain",
@@ -194,6 +173,7 @@ int main(int argc, char** argv) {
   std::string json;
   Tool tool("talus-places", "How surely runs say that blocks reach the places of a site.");
   SiteOptions site(tool);
+  site.take_inputs();
   RunInputs runs(tool);
   tool.json_output(json, "shares of blocks and runs with their intervals, runs to add (JSON)");
   tool.footer("Example:\n  talus-places site.toml run_*.h5 --trn bed.tif --json places.json");

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
-#include <set>
 
 #include "base/file_paths.hpp"
 #include "base/read_file.hpp"
@@ -73,14 +72,10 @@ bool is_read(const Site& site, const std::string& stage, const EffectiveValue& v
          site.source.failure_surface == "daylighting";
 }
 
-// Digests of the files that a data set is made of. GDAL does not name the encoding of a Shapefile.
+// Digests of the files that a data set is made of.
 std::string digests_of(const std::string& path, FileDigests& digests) {
-  const std::vector<std::string> members = data_files(path);
-  std::set<std::string> files(members.begin(), members.end());
-  for (const std::string& file : sidecars_of(path))
-    if (fs::is_regular_file(file)) files.insert(file);
   std::string out;
-  for (const std::string& file : files) out += " " + digests.of(file);
+  for (const std::string& file : data_files(path)) out += " " + digests.of(file);
   return out;
 }
 

@@ -132,6 +132,7 @@ int main(int argc, char** argv) {
             "Says on which planes of its joint sets the mass of a source could leave, and why "
             "not on others.");
   SiteOptions site(tool);
+  site.take_inputs();
   declare(tool, o);
   return tool.run(argc, argv, [&] {
     BlocksWork work;

@@ -304,6 +304,7 @@ int main(int argc, char** argv) {
   Options options;
   Tool tool("talus-trace", "Which source hits which object, how often and how hard.");
   SiteOptions site(tool);
+  site.take_inputs();
   RunInputs runs(tool);
   declare(tool, options);
   return tool.run(argc, argv, [&] { run_tool(tool, options, site, runs); });

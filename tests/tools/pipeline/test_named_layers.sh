@@ -52,7 +52,7 @@ layers map.gpkg ''
 for part in "high|subset='#,)(' <> 'a' AND elevation_m > 3" "high|subset='#,)(' <> 'b' AND elevation_m > 3" \
   "heights #2 50 % (\$\$x) 'new'"; do
   made named CONTOURS="map.gpkg|layername=$part" terrain
-  prints "import: contours"
+  prints "import: what the site names"
   made named CONTOURS="map.gpkg|layername=$part" -n terrain
   if grep -q '^talus-' out; then fail "nothing changed, and make would start a tool with the layer $part"; fi
 done

@@ -27,7 +27,7 @@ would terrain
 would_be "" "other times"
 replaced slope/dem.tif other.tif
 would terrain
-would_be "trn " "an older elevation model"
+would_be "import trn " "an older elevation model"
 cp dem.tif slope/dem.tif
 would terrain
 would_be "" "a dry run writes nothing"
@@ -55,7 +55,7 @@ would terrain DEM=mine.tif
 would_be "" "nothing changed"
 replaced slope/mine.tif other.tif
 would terrain DEM=mine.tif
-would_be "trn " "an older elevation model given to make"
+would_be "import trn " "an older elevation model given to make"
 made slope terrain DEM=mine.tif TRN_FLAGS='--reference dem.tif'
 replaced slope/dem.tif dem.tif
 would terrain DEM=mine.tif TRN_FLAGS='--reference dem.tif'
@@ -67,17 +67,17 @@ made slope terrain DEM=grid.asc
 gdalsrsinfo -o wkt1 EPSG:32632 >other.prj
 replaced slope/grid.prj other.prj
 would terrain DEM=grid.asc
-would_be "trn " "another CRS beside it"
+would_be "import trn " "another CRS beside it"
 gdalbuildvrt -q slope/mosaic.vrt slope/mine.tif
 made slope terrain DEM=mosaic.vrt
 replaced slope/mine.tif dem.tif
 would terrain DEM=mosaic.vrt
-would_be "trn " "an older part of a mosaic"
+would_be "import trn " "an older part of a mosaic"
 gdalbuildvrt -q slope/mosaics.vrt slope/mosaic.vrt
 made slope terrain DEM=mosaics.vrt
 replaced slope/mine.tif other.tif
 would terrain DEM=mosaics.vrt
-would_be "trn " "an older part of a mosaic of mosaics"
+would_be "import trn " "an older part of a mosaic of mosaics"
 made slope terrain DEM=mine.tif
 gdalinfo -stats slope/mine.tif >/dev/null
 [ -s slope/mine.tif.aux.xml ] || fail "no statistics beside the elevation model"

@@ -68,8 +68,8 @@ says "inputs.gpkg: was changed since talus-import wrote it"
 says "or take a layer of it as it is: 'inputs.gpkg|layername=contours'"
 expect 0 talus-tin 'inputs.gpkg|layername=contours' -o changed.ply --t-srs EPSG:25833
 expect 1 talus-import site.toml --contours none.geojson -o bad.gpkg
-printf '[terrain]\ndem = "dem.tif"\n' >dem.toml
-: >dem.tif
-expect 1 talus-import dem.toml -o bad.gpkg
-says "an elevation model needs no talus-import: talus-trn reads it"
+printf '[terrain]\n' >none.toml
+expect 1 talus-import none.toml -o bad.gpkg
+says "[terrain] names neither contours nor dem"
+says "hint: name what the ground is made from, or give --contours or --dem"
 nothing_left bad.gpkg

@@ -22,12 +22,13 @@ struct Canonical : ImportTest {
              {{"Polygon", "[[[649990,5199990],[650110,5199990],[650110,5200060],[649990,5199990]]]",
                ""}}));
     const std::string path = (folder / "inputs.gpkg").string();
-    map = import_map(request, reading);
-    measure(map, reading);
-    write_canonical(path, map, reading);
+    inputs = import_inputs(request, reading);
+    measure(inputs, reading);
+    write_canonical(path, request, inputs, reading);
     return path;
   }
-  ContourMap map;
+  Imported inputs;
+  const ContourMap& map = inputs.map;
   ImportReading reading;
 };
 

@@ -34,28 +34,6 @@ struct SitePlaces : testing::Test {
   }
 };
 
-TEST_F(SitePlaces, PointsOfTheSiteFileBecomeLocal) {
-  const auto points = local_points(log, site_of(folder), trn, {Vec3(500012, 5000034, 7)}, "a.b");
-  EXPECT_EQ(points[0], Vec3(12, 34, 7));
-  EXPECT_TRUE(log.contents.empty());
-}
-
-TEST_F(SitePlaces, PointsInAnotherCrsAreReprojectedAndCount) {
-  const Site site = site_of(folder, "[site]\ncrs = 'EPSG:25832'\n");
-  const auto points = local_points(log, site, trn, {Vec3(500012, 5000034, 7)}, "a.b");
-  EXPECT_NEAR((points[0] - Vec3(12, 34, 7)).norm(), 0, 2);
-  EXPECT_FALSE(log.digest_of("a.b").empty());
-  EXPECT_TRUE(log.has(Severity::record, "a.b: "));
-}
-
-TEST_F(SitePlaces, ExchangedCoordinatesAreRefused) {
-  EXPECT_HOLDS(refusal_of([&] {
-                 static_cast<void>(
-                     local_points(log, site_of(folder), trn, {Vec3(5000034, 500012, 0)}, "a.b"));
-               }),
-               "with x and y exchanged they would lie in it");
-}
-
 TEST_F(SitePlaces, AFenceHasOneSourceOfItsLine) {
   EXPECT_HOLDS(fences("[fence.low]\nline = " + line + "\nline_file = 'a.geojson'\n"),
                "has both line and line_file");

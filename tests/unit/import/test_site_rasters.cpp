@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "import/class_raster_gdal.hpp"
+#include "import/site_rasters_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/trn_file_gdal.hpp"
 #include "terrain/grid_frame.hpp"

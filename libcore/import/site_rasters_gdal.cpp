@@ -1,10 +1,12 @@
-#include "import/class_raster_gdal.hpp"
+#include "import/site_rasters_gdal.hpp"
 
 #include <gdal_priv.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "base/text.hpp"
 #include "import/crs_place_gdal.hpp"
@@ -20,12 +22,7 @@ using std::size_t;
 Dataset open_classes(const std::string& path, const Trn& trn) {
   Dataset dataset = open_raster(path);
   check_one_band(*dataset, path);
-  const std::string crs = wkt_of(dataset->GetSpatialRef());
-  if (!crs.empty() && !trn.crs_wkt.empty() && !same_crs(crs, trn.crs_wkt))
-    throw InputError(
-        {path},
-        "the classes are in " + crs_name(crs) + ", the terrain is in " + crs_name(trn.crs_wkt),
-        warp_command(CellKind::classes, "-t_srs " + crs_code(trn.crs_wkt), path, "classes.tif"));
+  check_raster_system(wkt_of(dataset->GetSpatialRef()), trn.crs_wkt, CellKind::classes, path);
   return dataset;
 }
 
@@ -66,9 +63,11 @@ struct PixelRows {
     row = wanted;
   }
 
-  [[nodiscard]] std::int32_t at(int col) const {
+  [[nodiscard]] bool is_known(int col) const { return known[col] != 0 && !std::isnan(value[col]); }
+
+  [[nodiscard]] std::int32_t class_at(int col) const {
     const double v = value[col];
-    if (known[col] == 0 || std::isnan(v)) return no_class;
+    if (!is_known(col)) return no_class;
     if (v != std::floor(v) || std::abs(v) > 2e9)
       throw InputError({path, 0, "row " + std::to_string(row) + ", column " + std::to_string(col)},
                        "the value is " + text(v) + ", expected a whole number that names a class");
@@ -77,6 +76,18 @@ struct PixelRows {
 };
 
 }  // namespace
+
+void check_raster_system(const std::string& raster, const std::string& terrain, CellKind kind,
+                         const std::string& path) {
+  if (raster.empty() || terrain.empty() || same_crs(raster, terrain)) return;
+  throw InputError(
+      {path}, "the raster is in " + crs_name(raster) + ", the terrain is in " + crs_name(terrain),
+      "a raster is never reprojected silently: " +
+          warp_command(
+              kind,
+              (kind == CellKind::heights ? "-novshift -t_srs " : "-t_srs ") + crs_code(terrain),
+              path, "in_system.tif"));
+}
 
 std::vector<std::int32_t> read_cell_classes(const std::string& path, const Trn& trn) {
   const Dataset dataset = open_classes(path, trn);
@@ -95,10 +106,48 @@ std::vector<std::int32_t> read_cell_classes(const std::string& path, const Trn& 
       const double east = std::floor((corner.x() + (c + 0.5) * trn.cell_size - g[0]) / g[1]);
       if (!(east >= 0 && east < dataset->GetRasterXSize())) continue;
       classes[static_cast<size_t>(r) * static_cast<size_t>(n_cols) + static_cast<size_t>(c)] =
-          rows.at(static_cast<int>(east));
+          rows.class_at(static_cast<int>(east));
     }
   }
   return classes;
+}
+
+LayerReading look_at_raster(const std::string& role, const std::string& path) {
+  const Dataset dataset = open_raster(path);
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  const int n_rows = band.GetYSize(), n_cols = band.GetXSize();
+  std::array<double, 6> g{};
+  dataset->GetGeoTransform(g.data());
+  LayerReading found;
+  found.role = role;
+  found.file = path;
+  found.noun = "row";
+  found.n_parts = n_rows;
+  const std::string crs = wkt_of(dataset->GetSpatialRef());
+  int has_unknown = 0;
+  const double unknown = band.GetNoDataValue(&has_unknown);
+  found.decisions = {
+      {"form", "used where it is", "it is not copied"},
+      {"system", crs_name(crs), crs.empty() ? "the file says none" : "the file says it"},
+      {"cells",
+       std::to_string(n_cols) + " x " + std::to_string(n_rows) + " of " + text(g[1]) + " m",
+       "the file says it"},
+      {"unknown value", has_unknown != 0 ? text(unknown) : "none", "the file says it"}};
+  // blocks of a file are read whole: so many rows that no more than the wanted cells are
+  constexpr double most_cells = 4e6;
+  int n_block_cols = 0, n_block_rows = 0;
+  band.GetBlockSize(&n_block_cols, &n_block_rows);
+  const double share = most_cells / n_cols / n_rows;
+  const int step = share >= 1 ? 1 : static_cast<int>(std::ceil(std::max(1, n_block_rows) / share));
+  PixelRows rows{path, band, -1, {}, {}};
+  std::vector<double> values;
+  for (int row = std::min(step, n_rows) / 2; row < n_rows; row += step) {
+    rows.read(row);
+    for (int col = 0; col < n_cols; ++col)
+      if (rows.is_known(col)) values.push_back(rows.value[col]);
+  }
+  if (!values.empty()) found.magnitudes = {magnitude_of("value", std::move(values))};
+  return found;
 }
 
 }  // namespace talus
