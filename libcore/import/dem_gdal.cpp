@@ -16,7 +16,6 @@
 #include "base/length_units.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
-#include "base/units.hpp"
 #include "import/crs_place_gdal.hpp"
 #include "import/systems_gdal.hpp"
 #include "io/crs_gdal.hpp"

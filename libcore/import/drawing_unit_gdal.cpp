@@ -3,7 +3,6 @@
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 
-#include <array>
 #include <cmath>
 #include <memory>
 

@@ -3,7 +3,6 @@
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "base/source_path.hpp"
 #include "base/text.hpp"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <utility>
 
 #include "base/source_path.hpp"
 #include "base/text.hpp"

@@ -1,8 +1,6 @@
 // The part of import/raw_inputs_gdal.hpp that takes all layers to the frame, by one operation a
 // layer in plan and one in height.
-#include <cmath>
 
-#include "base/text.hpp"
 #include "import/crs_place_gdal.hpp"
 #include "import/raw_inputs_gdal.hpp"
 #include "import/systems_gdal.hpp"

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "base/error.hpp"

@@ -3,7 +3,6 @@
 #include <cpl_string.h>
 #include <gdal.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
 

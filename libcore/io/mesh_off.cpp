@@ -1,5 +1,4 @@
 // io/mesh.hpp for OFF.
-#include <cmath>
 
 #include "io/mesh_builder.hpp"
 

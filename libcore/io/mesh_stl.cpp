@@ -1,6 +1,5 @@
 // io/mesh.hpp for STL, binary and text.
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 #include "io/mesh_builder.hpp"

@@ -9,7 +9,6 @@
 // ground is too steep to stand on, and where the line itself climbs too much.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "record/object_hits.hpp"

@@ -1,5 +1,4 @@
 // Magnitudes of what stands in a forest, which show a unit that was not meant: forest_section.hpp.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>

@@ -2,7 +2,6 @@
 // The candidate lines of [fence_search.*], as every tool makes them from the same terrain.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "base/input_log.hpp"

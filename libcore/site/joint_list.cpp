@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 #include "base/column_text.hpp"
 #include "base/error.hpp"

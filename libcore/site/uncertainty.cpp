@@ -11,6 +11,7 @@
 #include "base/words.hpp"
 #include "blocks/joint_sets.hpp"
 #include "sampling/design.hpp"
+#include "sampling/distribution.hpp"
 #include "site/number_key.hpp"
 
 namespace talus {

@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "sampling/distribution.hpp"
 #include "site/site.hpp"
 
 namespace talus {

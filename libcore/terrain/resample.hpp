@@ -11,7 +11,6 @@
 // cells it is a copy, bit for bit; and nothing jumps between the three.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "terrain/grid_frame.hpp"

@@ -1,8 +1,6 @@
 #include "terrain/slider.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "base/percentile.hpp"
 

@@ -1,7 +1,5 @@
 #include "tools/frame/doubts_layer.hpp"
 
-#include <cmath>
-
 #include "base/text.hpp"
 #include "io/geopackage_gdal.hpp"
 

@@ -1,8 +1,6 @@
 #include "tools/frame/failure_plane_choice.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
