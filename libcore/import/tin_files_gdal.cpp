@@ -33,8 +33,6 @@
 namespace talus {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 std::string extension_of(const std::string& path) {
   return lower(std::filesystem::path(path).extension().string());
 }
@@ -69,7 +67,7 @@ class FaceCollector {
   }
   // Counter-clockwise; without an area in plan it is no ground.
   void triangle(int a, int b, int c) {
-    const Vec3 &p = tin_.points[index(a)], &q = tin_.points[index(b)], &r = tin_.points[index(c)];
+    const Vec3 &p = tin_.points[a], &q = tin_.points[b], &r = tin_.points[c];
     const double area = (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
     if (area > 0)
       tin_.triangles.push_back({a, b, c});
@@ -347,8 +345,7 @@ TinFile read_obj(const std::string& path, double user_unit_m) {
   for (int f = 0; f < n_faces(surface); ++f) {
     const std::span<const int> corners = face(surface, f);
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-      faces.triangle(number[index(corners[0])], number[index(corners[k])],
-                     number[index(corners[k + 1])]);
+      faces.triangle(number[corners[0]], number[corners[k]], number[corners[k + 1]]);
   }
   if (faces.n_triangles() == 0) throw InputError({path}, "no face has an area in plan");
   TinFile file;
@@ -438,7 +435,7 @@ FoldedEdges find_folded_edges(const Tin& tin) {
   for (std::size_t i = 1; i < edges.size(); ++i) {
     if (edges[i] != edges[i - 1]) continue;  // two on one side, or the third of an edge
     const auto [a, b] = edges[i];
-    if (folded.n++ == 0) folded.first = (tin.points[index(a)] + tin.points[index(b)]) / 2;
+    if (folded.n++ == 0) folded.first = (tin.points[a] + tin.points[b]) / 2;
   }
   return folded;
 }

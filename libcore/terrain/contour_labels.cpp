@@ -15,8 +15,6 @@ namespace {
 constexpr double clearly_nearer = 0.5;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 // A line as a label sees it.
 struct LineBeside {
   int line = -1;
@@ -26,10 +24,10 @@ struct LineBeside {
 };
 
 LineBeside look(const Polylines& lines, int line, const Vec2& label) {
-  const int begin = lines.begin[index(line)], end = lines.begin[index(line) + 1];
+  const int begin = lines.begin[line], end = lines.begin[line + 1];
   LineBeside beside;
   beside.line = line;
-  const auto point = [&](int i) { return Vec2(lines.points[index(i)].head<2>()); };
+  const auto point = [&](int i) { return Vec2(lines.points[i].head<2>()); };
   const bool is_ring = point(begin) == point(end - 1);
   for (int i = begin; i + 1 < end; ++i) {
     const Vec2 a = point(i), d = point(i + 1) - a;
@@ -66,21 +64,21 @@ bool is_gap_between(const LineBeside& a, const LineBeside& b) {
 
 // Lines that share an end, by the first of them.
 std::vector<int> contours_of(const Polylines& lines) {
-  std::vector<int> first(index(lines.n_lines()));
+  std::vector<int> first(lines.n_lines());
   std::iota(first.begin(), first.end(), 0);
   const auto leader = [&](int line) {
-    while (first[index(line)] != line) line = first[index(line)];
+    while (first[line] != line) line = first[line];
     return line;
   };
   std::map<std::pair<double, double>, int> line_at;
   for (int l = 0; l < lines.n_lines(); ++l)
-    for (const int i : {lines.begin[index(l)], lines.begin[index(l) + 1] - 1}) {
-      const Vec3& end = lines.points[index(i)];
+    for (const int i : {lines.begin[l], lines.begin[l + 1] - 1}) {
+      const Vec3& end = lines.points[i];
       const auto [at, is_new] = line_at.try_emplace({end.x(), end.y()}, l);
       const auto [low, high] = std::minmax({leader(l), leader(at->second)});
-      first[index(high)] = low;
+      first[high] = low;
     }
-  for (int l = 0; l < lines.n_lines(); ++l) first[index(l)] = leader(l);
+  for (int l = 0; l < lines.n_lines(); ++l) first[l] = leader(l);
   return first;
 }
 
@@ -89,9 +87,9 @@ std::vector<int> contours_of(const Polylines& lines) {
 LabelledLines heights_from_labels(const Polylines& lines, const std::vector<Vec3>& labels) {
   LabelledLines found;
   const std::vector<int> contour = contours_of(lines);
-  std::vector<double> height(index(lines.n_lines()), std::nan(""));
+  std::vector<double> height(lines.n_lines(), std::nan(""));
   const auto set = [&](int line, double label) {
-    double& there = height[index(contour[index(line)])];
+    double& there = height[contour[line]];
     if (!std::isnan(there) && std::abs(there - label) > same_height_m && found.line_at_two < 0)
       found.line_at_two = line, found.two_heights = {there, label};
     there = label;
@@ -99,8 +97,7 @@ LabelledLines heights_from_labels(const Polylines& lines, const std::vector<Vec3
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const auto [first, second] = two_nearest(lines, labels[i].head<2>());
     const bool is_gap = is_gap_between(first, second);
-    const bool is_one =
-        second.line < 0 || contour[index(first.line)] == contour[index(second.line)];
+    const bool is_one = second.line < 0 || contour[first.line] == contour[second.line];
     if (first.distance > clearly_nearer * second.distance && !is_gap && !is_one) {
       found.unclear.push_back(static_cast<int>(i));
       continue;
@@ -110,7 +107,7 @@ LabelledLines heights_from_labels(const Polylines& lines, const std::vector<Vec3
       set(second.line, labels[i].z());
   }
   for (int l = 0; l < lines.n_lines(); ++l) {
-    found.height.push_back(height[index(contour[index(l)])]);
+    found.height.push_back(height[contour[l]]);
     if (std::isnan(found.height.back())) found.without.push_back(l);
   }
   return found;

@@ -81,17 +81,16 @@ void gather_lines(const Polylines& lines, Kind kind, int first_line, Network& ne
                   CleaningCounts& counts) {
   for (int l = 0; l < lines.n_lines(); ++l) {
     const int first = static_cast<int>(network.points.size());
-    const int begin = lines.begin[index(l)];
-    int n = lines.begin[index(l) + 1] - begin;
-    const bool closed =
-        n > 1 && plan(lines.points[index(begin)]) == plan(lines.points[index(begin + n - 1)]);
+    const int begin = lines.begin[l];
+    int n = lines.begin[l + 1] - begin;
+    const bool closed = n > 1 && plan(lines.points[begin]) == plan(lines.points[begin + n - 1]);
     if (closed) --n;
     bool one_place = true;
     for (int i = 0; i < n; ++i) {
-      network.points.push_back(lines.points[index(begin + i)]);
+      network.points.push_back(lines.points[begin + i]);
       network.kind.push_back(kind);
       network.line.push_back(first_line + l);
-      one_place &= plan(network.points.back()) == plan(lines.points[index(begin)]);
+      one_place &= plan(network.points.back()) == plan(lines.points[begin]);
       if (i > 0) network.segments.push_back({first + i - 1, first + i, first_line + l});
     }
     if (closed && n > 2) network.segments.push_back({first + n - 1, first, first_line + l});
@@ -126,18 +125,17 @@ struct PlacedPoint {
 // Points of one place become the first of them, a contour's point when there is one.
 void join_equal_points(Network& network, HeightJudge& judge, CleaningCounts& counts) {
   const int n = static_cast<int>(network.points.size());
-  std::vector<PlacedPoint> sorted(index(n));
-  for (int i = 0; i < n; ++i)
-    sorted[index(i)] = {network.points[index(i)].x(), network.points[index(i)].y(), i};
-  const auto rank = [&](int i) { return std::pair(network.kind[index(i)], i); };
+  std::vector<PlacedPoint> sorted(n);
+  for (int i = 0; i < n; ++i) sorted[i] = {network.points[i].x(), network.points[i].y(), i};
+  const auto rank = [&](int i) { return std::pair(network.kind[i], i); };
   std::sort(sorted.begin(), sorted.end(), [&](const PlacedPoint& p, const PlacedPoint& q) {
     if (p.x != q.x) return p.x < q.x;
     return p.y != q.y ? p.y < q.y : rank(p.id) < rank(q.id);
   });
-  std::vector<int> joined_to(index(n));
+  std::vector<int> joined_to(n);
   for (std::size_t i = 0, first = 0; i < index(n); ++i) {
     if (sorted[i].x != sorted[first].x || sorted[i].y != sorted[first].y) first = i;
-    joined_to[index(sorted[i].id)] = sorted[first].id;
+    joined_to[sorted[i].id] = sorted[first].id;
     if (i == first) continue;
     const auto kept = index(sorted[first].id), other = index(sorted[i].id);
     judge.agree(plan(network.points[kept]), network.points[kept].z(), network.kind[kept],
@@ -145,7 +143,7 @@ void join_equal_points(Network& network, HeightJudge& judge, CleaningCounts& cou
     ++(network.kind[kept] == network.kind[other] ? counts.duplicate_points
                                                  : counts.breakline_meetings);
   }
-  std::vector<int> new_id(index(n), -1);
+  std::vector<int> new_id(n, -1);
   std::size_t n_kept = 0;
   for (std::size_t i = 0; i < index(n); ++i) {
     if (joined_to[i] != static_cast<int>(i)) continue;
@@ -158,8 +156,8 @@ void join_equal_points(Network& network, HeightJudge& judge, CleaningCounts& cou
   network.kind.resize(n_kept);
   network.line.resize(n_kept);
   for (Segment& s : network.segments) {
-    s.a = new_id[index(joined_to[index(s.a)])];
-    s.b = new_id[index(joined_to[index(s.b)])];
+    s.a = new_id[joined_to[s.a]];
+    s.b = new_id[joined_to[s.b]];
   }
 }
 
@@ -185,7 +183,7 @@ SegmentMeetings find_meetings(const Network& network) {
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = plan(network.points[i]);
   for (const Segment& s : network.segments) {
     segments.push_back({s.a, s.b});
-    has_segment[index(s.a)] = has_segment[index(s.b)] = true;
+    has_segment[s.a] = has_segment[s.b] = true;
   }
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!has_segment[i]) segments.push_back({static_cast<int>(i), static_cast<int>(i)});
@@ -193,12 +191,11 @@ SegmentMeetings find_meetings(const Network& network) {
 }
 
 double share_along(const Network& network, const Segment& s, const Vec2& place) {
-  return share_along_segment<Vec2>(place, plan(network.points[index(s.a)]),
-                                   plan(network.points[index(s.b)]));
+  return share_along_segment<Vec2>(place, plan(network.points[s.a]), plan(network.points[s.b]));
 }
 
 double height_along(const Network& network, const Segment& s, double share) {
-  const double z_a = network.points[index(s.a)].z(), z_b = network.points[index(s.b)].z();
+  const double z_a = network.points[s.a].z(), z_b = network.points[s.b].z();
   return z_a == z_b ? z_a : z_a + share * (z_b - z_a);
 }
 
@@ -215,9 +212,9 @@ class Splitter {
       : network_(network), n_contours_(n_contours), judge_(judge), counts_(counts) {}
 
   void touch(const SegmentTouch& touch) {
-    const Segment& s = network_.segments[index(touch.segment)];
-    Vec3& point = network_.points[index(touch.point)];
-    const Kind kind_point = network_.kind[index(touch.point)];
+    const Segment& s = network_.segments[touch.segment];
+    Vec3& point = network_.points[touch.point];
+    const Kind kind_point = network_.kind[touch.point];
     const double share = share_along(network_, s, plan(point));
     const double height = height_along(network_, s, share);
     if (!judge_.agree(plan(point), height, kind_of(s), point.z(), kind_point)) return;
@@ -227,11 +224,11 @@ class Splitter {
   }
 
   void cross(const SegmentCrossing& crossing) {
-    const Segment& s = network_.segments[index(crossing.first)];
-    const Segment& t = network_.segments[index(crossing.second)];
-    const Vec2 a = plan(network_.points[index(s.a)]), b = plan(network_.points[index(s.b)]);
+    const Segment& s = network_.segments[crossing.first];
+    const Segment& t = network_.segments[crossing.second];
+    const Vec2 a = plan(network_.points[s.a]), b = plan(network_.points[s.b]);
     const double share =
-        crossing_share(a, b, plan(network_.points[index(t.a)]), plan(network_.points[index(t.b)]));
+        crossing_share(a, b, plan(network_.points[t.a]), plan(network_.points[t.b]));
     const Vec2 place = a + share * (b - a);
     const double share_t = share_along(network_, t, place);
     const double height_s = height_along(network_, s, share);
@@ -253,13 +250,13 @@ class Splitter {
     });
     for (std::size_t i = 0; i < splits_.size();) {
       const int segment = splits_[i].segment;
-      const auto [a, b, line] = network_.segments[index(segment)];
+      const auto [a, b, line] = network_.segments[segment];
       int from = a;
       for (; i < splits_.size() && splits_[i].segment == segment; ++i) {
         network_.segments.push_back({from, splits_[i].point, line});
         from = splits_[i].point;
       }
-      network_.segments[index(segment)] = {from, b, line};
+      network_.segments[segment] = {from, b, line};
     }
   }
 
@@ -303,8 +300,7 @@ CleanLines contours_first(const Network& network, const CleaningCounts& counts) 
     if (contours) clean.n_contour_points = static_cast<int>(clean.points.size());
   }
   clean.segments.reserve(network.segments.size());
-  for (const Segment& s : network.segments)
-    clean.segments.push_back({new_id[index(s.a)], new_id[index(s.b)]});
+  for (const Segment& s : network.segments) clean.segments.push_back({new_id[s.a], new_id[s.b]});
   return clean;
 }
 
@@ -312,9 +308,9 @@ CleanLines contours_first(const Network& network, const CleaningCounts& counts) 
 
 std::vector<double> contour_levels(const ContourMap& map) {
   std::vector<double> levels;
-  levels.reserve(index(map.contours.n_lines()));
+  levels.reserve(map.contours.n_lines());
   for (int l = 0; l < map.contours.n_lines(); ++l)
-    levels.push_back(map.contours.points[index(map.contours.begin[index(l)])].z());
+    levels.push_back(map.contours.points[map.contours.begin[l]].z());
   std::sort(levels.begin(), levels.end());
   const auto same = [](double lower, double upper) { return upper - lower <= same_height_m; };
   levels.erase(std::unique(levels.begin(), levels.end(), same), levels.end());
@@ -335,8 +331,8 @@ std::vector<Vec3> hold_back_contours(int every, ContourMap& map) {
   std::vector<Vec3> held_back;
   Polylines kept;
   for (int l = 0; l < map.contours.n_lines(); ++l) {
-    const auto begin = map.contours.points.begin() + map.contours.begin[index(l)];
-    const auto end = map.contours.points.begin() + map.contours.begin[index(l) + 1];
+    const auto begin = map.contours.points.begin() + map.contours.begin[l];
+    const auto end = map.contours.points.begin() + map.contours.begin[l + 1];
     const auto level = std::lower_bound(levels.begin(), levels.end(), begin->z() - same_height_m);
     const bool takes_out =
         level + 1 < levels.end() && (level - levels.begin()) % every == every - 1;
@@ -344,7 +340,7 @@ std::vector<Vec3> hold_back_contours(int every, ContourMap& map) {
     to.insert(to.end(), begin, end);
     if (takes_out) continue;
     kept.begin.push_back(static_cast<int>(kept.points.size()));
-    kept.feature.push_back(map.contours.feature[index(l)]);
+    kept.feature.push_back(map.contours.feature[l]);
   }
   map.contours = std::move(kept);
   return held_back;

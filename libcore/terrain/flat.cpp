@@ -28,15 +28,14 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 double plan_area(const TriangleMesh& mesh, std::size_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
-  const Vec3 u = mesh.points[index(b)] - mesh.points[index(a)];
-  const Vec3 v = mesh.points[index(c)] - mesh.points[index(a)];
+  const Vec3 u = mesh.points[b] - mesh.points[a];
+  const Vec3 v = mesh.points[c] - mesh.points[a];
   return cross(u.head<2>(), v.head<2>()) / 2;
 }
 
 double slope(const TriangleMesh& mesh, std::size_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
-  const Vec3 normal = (mesh.points[index(b)] - mesh.points[index(a)])
-                          .cross(mesh.points[index(c)] - mesh.points[index(a)]);
+  const Vec3 normal = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
   return normal.head<2>().norm() / std::max(normal.z(), 1e-12);
 }
 
@@ -59,8 +58,8 @@ std::vector<int> number_regions(const TriangleMesh& mesh, const std::vector<std:
       for (std::size_t k = 0; k < 3; ++k) {
         const int next = mesh.neighbors[t][k];
         if (next < 0 || is_constrained(mesh, t, k)) continue;
-        if (flat[index(next)] == 0 || region[index(next)] >= 0) continue;
-        region[index(next)] = n_regions;
+        if (flat[next] == 0 || region[next] >= 0) continue;
+        region[next] = n_regions;
         stack.push_back(next);
       }
     }
@@ -74,8 +73,8 @@ enum class Part : std::uint8_t { kept, flat, beside };
 
 double rise(const TriangleMesh& mesh, std::size_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
-  const auto [low, high] = std::minmax(
-      {mesh.points[index(a)].z(), mesh.points[index(b)].z(), mesh.points[index(c)].z()});
+  const auto [low, high] =
+      std::minmax({mesh.points[a].z(), mesh.points[b].z(), mesh.points[c].z()});
   return high - low;
 }
 
@@ -86,16 +85,16 @@ std::vector<Part> find_parts(const TriangleMesh& mesh, const std::vector<std::ui
                              const Lattice& lattice, double interval) {
   int n_regions = 0;
   const std::vector<int> region = number_regions(mesh, flat, n_regions);
-  std::vector<int> n_nodes(index(n_regions), 0);
+  std::vector<int> n_nodes(n_regions, 0);
   for (const int t : lattice.triangle)
-    if (t >= 0 && region[index(t)] >= 0) ++n_nodes[index(region[index(t)])];
+    if (t >= 0 && region[t] >= 0) ++n_nodes[region[t]];
   std::vector<Part> part(flat.size(), Part::kept);
   for (std::size_t t = 0; t < flat.size(); ++t) {
     if (flat[t] != 0) part[t] = Part::flat;
     for (std::size_t k = 0; k < 3 && part[t] == Part::kept; ++k) {
       const int next = mesh.neighbors[t][k];
-      if (next < 0 || flat[index(next)] == 0 || is_constrained(mesh, t, k)) continue;
-      if (n_nodes[index(region[index(next)])] >= fewest_nodes && rise(mesh, t) < 1.5 * interval)
+      if (next < 0 || flat[next] == 0 || is_constrained(mesh, t, k)) continue;
+      if (n_nodes[region[next]] >= fewest_nodes && rise(mesh, t) < 1.5 * interval)
         part[t] = Part::beside;
     }
   }
@@ -108,7 +107,7 @@ std::vector<std::array<int, 2>> border_of(const TriangleMesh& mesh, const std::v
   for (std::size_t t = 0; t < part.size(); ++t)
     for (std::size_t k = 0; k < 3 && part[t] != Part::kept; ++k) {
       const int next = mesh.neighbors[t][k];
-      if (next < 0 || part[index(next)] != Part::kept || is_constrained(mesh, t, k)) continue;
+      if (next < 0 || part[next] != Part::kept || is_constrained(mesh, t, k)) continue;
       border.push_back({mesh.triangles[t][(k + 1) % 3], mesh.triangles[t][(k + 2) % 3]});
     }
   return border;
@@ -121,7 +120,7 @@ std::vector<float> tension(const TriangleMesh& mesh, const Lattice& lattice,
   std::vector<std::uint8_t> known(lattice.size(), 0);
   for (std::size_t node = 0; node < lattice.size(); ++node) {
     const int t = lattice.triangle[node];
-    if (t < 0 || part[index(t)] != Part::kept) continue;
+    if (t < 0 || part[t] != Part::kept) continue;
     known[node] = 1;
     tau[node] = static_cast<float>(std::min(slope(mesh, index(t)), steepest_slope));
   }
@@ -153,7 +152,7 @@ PlateProblem pose_problem(const TriangleMesh& mesh, const Lattice& lattice,
   std::transform(lattice.triangle.begin(), lattice.triangle.end(), problem.node.begin(),
                  [&](int t) {
                    if (t < 0) return Role::outside;
-                   return part[index(t)] == Part::kept ? Role::known : Role::free;
+                   return part[t] == Part::kept ? Role::known : Role::free;
                  });
   problem.tension = tension(mesh, lattice, part, interval);
   const auto for_each_anchor = [&](const auto& visit) {
@@ -181,9 +180,9 @@ bool is_wanted(std::size_t node, const Lattice& lattice, float distance) {
 }
 
 double bounded_height(const TriangleMesh& mesh, int t, Part part, double height, double interval) {
-  const auto& [a, b, c] = mesh.triangles[index(t)];
-  const auto [low, high] = std::minmax(
-      {mesh.points[index(a)].z(), mesh.points[index(b)].z(), mesh.points[index(c)].z()});
+  const auto& [a, b, c] = mesh.triangles[t];
+  const auto [low, high] =
+      std::minmax({mesh.points[a].z(), mesh.points[b].z(), mesh.points[c].z()});
   if (part == Part::beside) return bend_into(height, low, high);
   return bend_into(height, low - interval / 2, low + interval / 2);
 }
@@ -194,8 +193,8 @@ std::vector<std::uint8_t> find_flat_triangles(const TriangleMesh& mesh, Measured
   std::vector<std::uint8_t> flat(mesh.triangles.size(), 0);
   for (std::size_t t = 0; t < flat.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    const auto [low, high] = std::minmax(
-        {mesh.points[index(a)].z(), mesh.points[index(b)].z(), mesh.points[index(c)].z()});
+    const auto [low, high] =
+        std::minmax({mesh.points[a].z(), mesh.points[b].z(), mesh.points[c].z()});
     const bool on_contours = std::none_of(
         mesh.triangles[t].begin(), mesh.triangles[t].end(),
         [&](int corner) { return corner >= measured.first && corner < measured.last; });
@@ -228,8 +227,8 @@ double lattice_spacing(const TriangleMesh& mesh) {
     area += plan_area(mesh, t);
     for (std::size_t k = 0; k < 3; ++k) {
       if (!is_constrained(mesh, t, k) || mesh.neighbors[t][k] > static_cast<int>(t)) continue;
-      const Vec3& a = mesh.points[index(mesh.triangles[t][(k + 1) % 3])];
-      length += (mesh.points[index(mesh.triangles[t][(k + 2) % 3])] - a).head<2>().norm();
+      const Vec3& a = mesh.points[mesh.triangles[t][(k + 1) % 3]];
+      length += (mesh.points[mesh.triangles[t][(k + 2) % 3]] - a).head<2>().norm();
       ++n_segments;
     }
   }
@@ -270,10 +269,10 @@ MendingPoints mend_flat_triangles(TriangleMesh& mesh, const std::vector<std::uin
   std::size_t unknown = 0;
   for (std::size_t node = 0; node < lattice.size(); ++node) {
     const int t = lattice.triangle[node];
-    if (t < 0 || part[index(t)] == Part::kept) continue;
+    if (t < 0 || part[t] == Part::kept) continue;
     const double solved = plate.height[unknown++];
     if (!std::isfinite(solved) || !is_wanted(node, lattice, distance[node])) continue;
-    const double height = bounded_height(mesh, t, part[index(t)], solved, mending.contour_interval);
+    const double height = bounded_height(mesh, t, part[t], solved, mending.contour_interval);
     mended.largest_change = std::max(mended.largest_change, std::abs(height - height_of(node)));
     mended.points.emplace_back(lattice.place(node).x(), lattice.place(node).y(), height);
   }

@@ -20,7 +20,7 @@ struct RisingEdge {
 // The ends are always taken in the same order, so that both triangles of an edge find the same bits
 // and no node falls between them.
 RisingEdge rising_edge(const TriangleMesh& mesh, int a, int b) {
-  const Vec3 *low = &mesh.points[index(a)], *high = &mesh.points[index(b)];
+  const Vec3 *low = &mesh.points[a], *high = &mesh.points[b];
   if (low->y() > high->y() || (low->y() == high->y() && a > b)) std::swap(low, high);
   const double rise = high->y() - low->y();
   return {low->y(), high->y(), low->x(), rise > 0 ? (high->x() - low->x()) / rise : 0, high->x()};
@@ -33,9 +33,9 @@ int rounded_up(double x) { return static_cast<int>(x) + (x > static_cast<int>(x)
 
 // Marks the nodes under triangle t, borders included. The lattice begins south-west of the mesh.
 void scan_triangle(const TriangleMesh& mesh, int t, Lattice& lattice) {
-  const auto& [a, b, c] = mesh.triangles[index(t)];
-  const auto [y_low, y_high] = std::minmax(
-      {mesh.points[index(a)].y(), mesh.points[index(b)].y(), mesh.points[index(c)].y()});
+  const auto& [a, b, c] = mesh.triangles[t];
+  const auto [y_low, y_high] =
+      std::minmax({mesh.points[a].y(), mesh.points[b].y(), mesh.points[c].y()});
   const int row_first = rounded_up((y_low - lattice.low.y()) / lattice.spacing);
   const int row_last = rounded_down((y_high - lattice.low.y()) / lattice.spacing);
   if (row_first > row_last) return;
@@ -142,9 +142,9 @@ Lattice lay_lattice(const TriangleMesh& mesh, double spacing) {
 }
 
 double height_in_triangle(const TriangleMesh& mesh, int t, const Vec2& place) {
-  const auto& [a, b, c] = mesh.triangles[index(t)];
-  const Vec3& origin = mesh.points[index(a)];
-  const Vec3 u = mesh.points[index(b)] - origin, v = mesh.points[index(c)] - origin;
+  const auto& [a, b, c] = mesh.triangles[t];
+  const Vec3& origin = mesh.points[a];
+  const Vec3 u = mesh.points[b] - origin, v = mesh.points[c] - origin;
   const Vec2 w = place - origin.head<2>();
   const double area = cross(u.head<2>(), v.head<2>());
   const double share_b = cross(w, v.head<2>()) / area, share_c = cross(u.head<2>(), w) / area;
@@ -157,8 +157,8 @@ std::vector<Vec3> points_between(const TriangleMesh& mesh, double spacing) {
     for (std::size_t k = 0; k < 3; ++k) {
       const bool constrained = (mesh.constrained[t] >> k & 1) != 0;
       if (!constrained || mesh.neighbors[t][k] > static_cast<int>(t)) continue;  // once for both
-      const Vec3& a = mesh.points[index(mesh.triangles[t][(k + 1) % 3])];
-      const Vec3& b = mesh.points[index(mesh.triangles[t][(k + 2) % 3])];
+      const Vec3& a = mesh.points[mesh.triangles[t][(k + 1) % 3]];
+      const Vec3& b = mesh.points[mesh.triangles[t][(k + 2) % 3]];
       const int n = static_cast<int>(std::ceil((b - a).head<2>().norm() / spacing));
       for (int i = 1; i < n; ++i) between.push_back(a + (b - a) * (static_cast<double>(i) / n));
     }

@@ -32,12 +32,12 @@ struct PlanLine {
 };
 
 std::vector<PlanLine> plan_lines(const Polylines& contours) {
-  std::vector<PlanLine> lines(index(contours.n_lines()));
+  std::vector<PlanLine> lines(contours.n_lines());
   for (int l = 0; l < contours.n_lines(); ++l) {
-    PlanLine& line = lines[index(l)];
-    const int begin = contours.begin[index(l)], end = contours.begin[index(l) + 1];
-    line.height = contours.points[index(begin)].z();
-    for (int i = begin; i < end; ++i) line.points.push_back(contours.points[index(i)].head<2>());
+    PlanLine& line = lines[l];
+    const int begin = contours.begin[l], end = contours.begin[l + 1];
+    line.height = contours.points[begin].z();
+    for (int i = begin; i < end; ++i) line.points.push_back(contours.points[i].head<2>());
     line.is_closed = line.n_points() > 3 && line.points.front() == line.points.back();
     if (line.is_closed) line.points.pop_back();
     line.original = line.points;
@@ -73,19 +73,19 @@ Joined join(const std::vector<PlanLine>& lines) {
       const auto [at, is_new] =
           id_of.try_emplace({p.x(), p.y()}, static_cast<int>(joined.points.size()));
       if (is_new) joined.points.push_back(p), joined.at_point.emplace_back();
-      joined.at_point[index(at->second)].push_back({static_cast<int>(l), i});
+      joined.at_point[at->second].push_back({static_cast<int>(l), i});
       ids[l].push_back(at->second);
     }
   std::map<std::array<int, 2>, int> segment_of;
   for (std::size_t l = 0; l < lines.size(); ++l)
     for (int i = 0; i < lines[l].n_segments(); ++i) {
-      const int a = ids[l][index(i)], b = ids[l][(index(i) + 1) % ids[l].size()];
+      const int a = ids[l][i], b = ids[l][(index(i) + 1) % ids[l].size()];
       if (a == b) continue;
       const std::array<int, 2> ends = {std::min(a, b), std::max(a, b)};
       const auto [at, is_new] =
           segment_of.try_emplace(ends, static_cast<int>(joined.segments.size()));
       if (is_new) joined.segments.push_back(ends), joined.on_segment.emplace_back();
-      joined.on_segment[index(at->second)].push_back({static_cast<int>(l), i, a > b ? 1 : 0});
+      joined.on_segment[at->second].push_back({static_cast<int>(l), i, a > b ? 1 : 0});
     }
   return joined;
 }
@@ -108,8 +108,8 @@ class EventFinder {
 
  private:
   void add(int line_a, double along_a, int line_b, double along_b, const Vec2& place) {
-    const bool meet = line_a < line_b && std::abs(lines_[index(line_a)].height -
-                                                  lines_[index(line_b)].height) > same_height_m;
+    const bool meet =
+        line_a < line_b && std::abs(lines_[line_a].height - lines_[line_b].height) > same_height_m;
     if (meet) found_[{line_a, line_b}].push_back({along_a, along_b, place});
   }
 
@@ -119,26 +119,26 @@ class EventFinder {
   }
 
   void add_touch(const SegmentTouch& touch) {
-    const auto& [a, b] = joined_.segments[index(touch.segment)];
-    const Vec2 &from = joined_.points[index(a)], &to = joined_.points[index(b)];
-    const Vec2& p = joined_.points[index(touch.point)];
+    const auto& [a, b] = joined_.segments[touch.segment];
+    const Vec2 &from = joined_.points[a], &to = joined_.points[b];
+    const Vec2& p = joined_.points[touch.point];
     const double share = (p - from).dot(to - from) / (to - from).squaredNorm();
-    for (const auto& on : joined_.on_segment[index(touch.segment)])
-      for (const auto& at : joined_.at_point[index(touch.point)]) {
+    for (const auto& on : joined_.on_segment[touch.segment])
+      for (const auto& at : joined_.at_point[touch.point]) {
         add(on[0], along(on, share), at[0], at[1], p);
         add(at[0], at[1], on[0], along(on, share), p);
       }
   }
 
   void add_crossing(const SegmentCrossing& crossing) {
-    const auto& [a, b] = joined_.segments[index(crossing.first)];
-    const auto& [c, d] = joined_.segments[index(crossing.second)];
-    const Vec2 &pa = joined_.points[index(a)], &pb = joined_.points[index(b)];
-    const Vec2 &pc = joined_.points[index(c)], &pd = joined_.points[index(d)];
+    const auto& [a, b] = joined_.segments[crossing.first];
+    const auto& [c, d] = joined_.segments[crossing.second];
+    const Vec2 &pa = joined_.points[a], &pb = joined_.points[b];
+    const Vec2 &pc = joined_.points[c], &pd = joined_.points[d];
     const double share = crossing_share(pa, pb, pc, pd), other = crossing_share(pc, pd, pa, pb);
     const Vec2 place = pa + share * (pb - pa);
-    for (const auto& one : joined_.on_segment[index(crossing.first)])
-      for (const auto& two : joined_.on_segment[index(crossing.second)]) {
+    for (const auto& one : joined_.on_segment[crossing.first])
+      for (const auto& two : joined_.on_segment[crossing.second]) {
         add(one[0], along(one, share), two[0], along(two, other), place);
         add(two[0], along(two, other), one[0], along(one, share), place);
       }
@@ -304,14 +304,14 @@ std::optional<Moves> moves_home(const PlanLine& line, const PlanLine& other,
         is_off ? Vec2((nearest.place - line.at(i)) / nearest.distance) : Vec2(home * nearest.left);
     const Vec2 to = nearest.place + gap_share * tolerance * out;
     moves.points.emplace_back(i, to);
-    moves.largest = std::max(moves.largest, (to - line.original[index(i)]).norm());
+    moves.largest = std::max(moves.largest, (to - line.original[i]).norm());
   }
   if (moves.largest > tolerance) return std::nullopt;
   return moves;
 }
 
 void apply(const Moves& moves, PlanLine& line) {
-  for (const auto& [point, to] : moves.points) line.points[index(point)] = to;
+  for (const auto& [point, to] : moves.points) line.points[point] = to;
 }
 
 enum class Outcome { moved, waits, stuck };
@@ -356,7 +356,7 @@ void collect_moves(const std::vector<PlanLine>& lines, Mending& mending) {
 void take_over(const std::vector<PlanLine>& lines, Polylines& contours) {
   for (std::size_t l = 0; l < lines.size(); ++l) {
     const int begin = contours.begin[l], n = contours.begin[l + 1] - begin;
-    for (int i = 0; i < n; ++i) contours.points[index(begin + i)].head<2>() = lines[l].at(i);
+    for (int i = 0; i < n; ++i) contours.points[begin + i].head<2>() = lines[l].at(i);
   }
 }
 
@@ -366,10 +366,10 @@ double accuracy_of_lines(const Polylines& lines) {
   constexpr std::size_t fewest = 30;
   std::vector<double> bends;
   for (int l = 0; l < lines.n_lines(); ++l)
-    for (int i = lines.begin[index(l)] + 1; i + 1 < lines.begin[index(l) + 1]; ++i) {
-      const Vec2 a = lines.points[index(i - 1)].head<2>();
-      const Vec2 chord = lines.points[index(i + 1)].head<2>() - a;
-      const double twice_area = std::abs(cross(chord, lines.points[index(i)].head<2>() - a));
+    for (int i = lines.begin[l] + 1; i + 1 < lines.begin[l + 1]; ++i) {
+      const Vec2 a = lines.points[i - 1].head<2>();
+      const Vec2 chord = lines.points[i + 1].head<2>() - a;
+      const double twice_area = std::abs(cross(chord, lines.points[i].head<2>() - a));
       if (twice_area > 0 && chord.norm() > 0) bends.push_back(twice_area / chord.norm());
     }
   if (bends.size() < fewest) return 0;
@@ -391,8 +391,8 @@ Mending mend_meetings(double tolerance, ContourMap& map) {
     goes_on = false;
     for (const auto& [pair, places] : events) {
       if (stuck.contains(pair)) continue;
-      const Outcome outcome = move_apart(places, tolerance, round > 0, lines[index(pair.first)],
-                                         lines[index(pair.second)]);
+      const Outcome outcome =
+          move_apart(places, tolerance, round > 0, lines[pair.first], lines[pair.second]);
       if (outcome == Outcome::stuck) stuck.insert(pair);
       goes_on |= outcome == Outcome::moved;
     }

@@ -27,7 +27,7 @@ void for_each_edge(const TriangleMesh& mesh, const LinesOfPoints& lines, const V
   for (const auto& corners : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = corners[k], b = corners[(k + 1) % 3];
-      if (a >= n || b >= n || lines.line[index(a)] == lines.line[index(b)]) continue;
+      if (a >= n || b >= n || lines.line[a] == lines.line[b]) continue;
       if (b < lines.n_contour_points) visit(a, b);
       if (a < lines.n_contour_points) visit(b, a);
     }
@@ -38,7 +38,7 @@ template <class Visit>
 void for_each_step(const TriangleMesh& mesh, const LinesOfPoints& lines, const Visit& visit) {
   for_each_edge(mesh, lines, [&](int point, int other) {
     if (point >= lines.n_contour_points) return;
-    const double above = mesh.points[index(point)].z() - mesh.points[index(other)].z();
+    const double above = mesh.points[point].z() - mesh.points[other].z();
     if (std::abs(above) > same_height_m) visit(point, other, above);
   });
 }
@@ -53,7 +53,7 @@ bool stands_off(std::int64_t n_above, std::int64_t n_below, std::int64_t n_edges
 
 // Whether an edge is too high for its length, as a step between cells side by side would be.
 bool is_impossible_edge(const TriangleMesh& mesh, int a, int b) {
-  const Vec3 edge = mesh.points[index(b)] - mesh.points[index(a)];
+  const Vec3 edge = mesh.points[b] - mesh.points[a];
   return std::abs(edge.z()) > impossible_step(edge.head<2>().norm());
 }
 
@@ -70,17 +70,17 @@ struct Candidate {
 // For each line its candidate, -1: none.
 std::vector<int> find_candidates(const TriangleMesh& mesh, const LinesOfPoints& lines,
                                  double interval, std::vector<Candidate>& candidates) {
-  std::vector<std::int64_t> n_above(index(lines.n_lines)), n_below = n_above, n_edges = n_above;
+  std::vector<std::int64_t> n_above(lines.n_lines), n_below = n_above, n_edges = n_above;
   for_each_step(mesh, lines, [&](int point, int, double above) {
-    const std::size_t line = index(lines.line[index(point)]);
+    const std::size_t line = index(lines.line[point]);
     n_above[line] += above > contour_steps * interval ? 1 : 0;
     n_below[line] += above < -contour_steps * interval ? 1 : 0;
     ++n_edges[line];
   });
-  std::vector<int> candidate_of(index(lines.n_lines), -1);
+  std::vector<int> candidate_of(lines.n_lines, -1);
   for (int l = 0; l < lines.n_lines; ++l) {
-    if (!stands_off(n_above[index(l)], n_below[index(l)], n_edges[index(l)])) continue;
-    candidate_of[index(l)] = static_cast<int>(candidates.size());
+    if (!stands_off(n_above[l], n_below[l], n_edges[l])) continue;
+    candidate_of[l] = static_cast<int>(candidates.size());
     candidates.emplace_back().outlier.line = l;
   }
   return candidate_of;
@@ -89,34 +89,33 @@ std::vector<int> find_candidates(const TriangleMesh& mesh, const LinesOfPoints& 
 void gather_neighbours(const TriangleMesh& mesh, const LinesOfPoints& lines,
                        const std::vector<int>& candidate_of, std::vector<Candidate>& candidates) {
   for_each_step(mesh, lines, [&](int point, int other, double above) {
-    const int c = candidate_of[index(lines.line[index(point)])];
+    const int c = candidate_of[lines.line[point]];
     if (c < 0) return;
-    Candidate& candidate = candidates[index(c)];
-    const double z = mesh.points[index(other)].z();
-    if (candidate.above.empty()) candidate.outlier.place = mesh.points[index(point)];
+    Candidate& candidate = candidates[c];
+    const double z = mesh.points[other].z();
+    if (candidate.above.empty()) candidate.outlier.place = mesh.points[point];
     candidate.outlier.low = std::min(candidate.outlier.low, z);
     candidate.outlier.high = std::max(candidate.outlier.high, z);
     candidate.above.push_back(above);
     candidate.n_impossible += is_impossible_edge(mesh, point, other) ? 1 : 0;
-    candidate.neighbours.push_back(lines.line[index(other)]);
-    candidate.has_sound_neighbour |= candidate_of[index(lines.line[index(other)])] < 0;
+    candidate.neighbours.push_back(lines.line[other]);
+    candidate.has_sound_neighbour |= candidate_of[lines.line[other]] < 0;
   });
 }
 
 void gather_steps(const TriangleMesh& mesh, const LinesOfPoints& lines,
                   const std::vector<int>& candidate_of, std::vector<Candidate>& candidates) {
-  std::vector<std::vector<int>> beside(index(lines.n_lines));  // candidates beside each line
+  std::vector<std::vector<int>> beside(lines.n_lines);  // candidates beside each line
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     std::vector<int>& neighbours = candidates[c].neighbours;
     std::sort(neighbours.begin(), neighbours.end());
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     for (const int line : neighbours)
-      if (candidate_of[index(line)] < 0) beside[index(line)].push_back(static_cast<int>(c));
+      if (candidate_of[line] < 0) beside[line].push_back(static_cast<int>(c));
   }
   for_each_step(mesh, lines, [&](int point, int other, double above) {
-    if (candidate_of[index(lines.line[index(other)])] >= 0) return;
-    for (const int c : beside[index(lines.line[index(point)])])
-      candidates[index(c)].steps.push_back(std::abs(above));
+    if (candidate_of[lines.line[other]] >= 0) return;
+    for (const int c : beside[lines.line[point]]) candidates[c].steps.push_back(std::abs(above));
   });
 }
 
@@ -136,9 +135,8 @@ bool stands_off(const Candidate& candidate, double step) {
 bool is_beside_culprit(const Candidate& candidate, const std::vector<int>& candidate_of,
                        const std::vector<Candidate>& candidates) {
   if (candidate.has_sound_neighbour) return false;
-  return std::any_of(candidate.neighbours.begin(), candidate.neighbours.end(), [&](int line) {
-    return candidates[index(candidate_of[index(line)])].has_sound_neighbour;
-  });
+  return std::any_of(candidate.neighbours.begin(), candidate.neighbours.end(),
+                     [&](int line) { return candidates[candidate_of[line]].has_sound_neighbour; });
 }
 
 std::vector<Outlier> contour_outliers(const TriangleMesh& mesh, const LinesOfPoints& lines,
@@ -169,7 +167,7 @@ std::vector<Outlier> measured_outliers(const TriangleMesh& mesh, const LinesOfPo
   std::vector<std::int64_t> n_edges(low.size()), n_impossible(low.size());
   for_each_edge(mesh, lines, [&](int point, int contour) {
     if (index(point) < first) return;
-    const double z = mesh.points[index(contour)].z();
+    const double z = mesh.points[contour].z();
     low[index(point) - first] = std::min(low[index(point) - first], z);
     high[index(point) - first] = std::max(high[index(point) - first], z);
     ++n_edges[index(point) - first];

@@ -16,8 +16,6 @@ constexpr double steepest = 2.7474774194546222;  // tan 70 degrees: a height fie
 constexpr double survey_noise_m = 0.5;  // of heights whose places are rounded to centimetres
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 // Points in one place become one, in the order of x, y, z.
 void join_repeated(std::vector<Vec3>& points, PointMesh& found) {
   std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
@@ -60,8 +58,8 @@ void find_doubts(const TriangleMesh& mesh, std::vector<PointDoubt>& doubts) {
   for (const auto& corners : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = corners[k], b = corners[(k + 1) % 3];
-      look(mesh.points[index(a)], mesh.points[index(b)], around[index(a)]);
-      look(mesh.points[index(b)], mesh.points[index(a)], around[index(b)]);
+      look(mesh.points[a], mesh.points[b], around[a]);
+      look(mesh.points[b], mesh.points[a], around[b]);
     }
   for (std::size_t i = 0; i < around.size(); ++i) {
     const Surroundings& s = around[i];
@@ -90,9 +88,8 @@ EdgeLengths edge_lengths(const TriangleMesh& mesh) {
   lengths.reserve(3 * mesh.triangles.size());
   for (const auto& corners : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k)
-      lengths.push_back((mesh.points[index(corners[k])] - mesh.points[index(corners[(k + 1) % 3])])
-                            .head<2>()
-                            .norm());
+      lengths.push_back(
+          (mesh.points[corners[k]] - mesh.points[corners[(k + 1) % 3]]).head<2>().norm());
   if (lengths.empty()) return {};
   const double longest = *std::max_element(lengths.begin(), lengths.end());
   return {median(std::move(lengths)), longest};

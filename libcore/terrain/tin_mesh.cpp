@@ -18,8 +18,6 @@
 namespace talus {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 struct RingEdge {
   Vec2 a = Vec2::Zero(), b = Vec2::Zero();
   int polygon = 0;
@@ -102,9 +100,8 @@ void check_boundary(const ContourMap& map, const std::string& source) {
     const SegmentMeetings meetings = find_segment_meetings(points, edges);
     if (meetings.crossings.empty()) continue;
     const auto [first, second] = meetings.crossings.front();
-    const Vec2 a = points[index(edges[index(first)][0])], b = points[index(edges[index(first)][1])];
-    const double share = crossing_share(a, b, points[index(edges[index(second)][0])],
-                                        points[index(edges[index(second)][1])]);
+    const Vec2 a = points[edges[first][0]], b = points[edges[first][1]];
+    const double share = crossing_share(a, b, points[edges[second][0]], points[edges[second][1]]);
     const Vec2 place = a + share * (b - a) + map.origin.head<2>();
     throw InputError({source},
                      "polygon " + std::to_string(rings[begin].polygon + 1) +
@@ -123,19 +120,19 @@ void cut_to_rings(const std::vector<BoundaryRing>& rings, TriangleMesh& mesh) {
   int n_kept = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    const Vec3 sum = mesh.points[index(a)] + mesh.points[index(b)] + mesh.points[index(c)];
+    const Vec3 sum = mesh.points[a] + mesh.points[b] + mesh.points[c];
     if (!bands.contains(sum.head<2>() / 3)) continue;
-    mesh.triangles[index(n_kept)] = mesh.triangles[t];
-    if (has_neighbors) mesh.neighbors[index(n_kept)] = mesh.neighbors[t];
-    if (has_neighbors) mesh.constrained[index(n_kept)] = mesh.constrained[t];
+    mesh.triangles[n_kept] = mesh.triangles[t];
+    if (has_neighbors) mesh.neighbors[n_kept] = mesh.neighbors[t];
+    if (has_neighbors) mesh.constrained[n_kept] = mesh.constrained[t];
     new_number[t] = n_kept++;
   }
-  mesh.triangles.resize(index(n_kept));
+  mesh.triangles.resize(n_kept);
   if (!has_neighbors) return;
-  mesh.neighbors.resize(index(n_kept));
-  mesh.constrained.resize(index(n_kept));
+  mesh.neighbors.resize(n_kept);
+  mesh.constrained.resize(n_kept);
   for (auto& neighbors : mesh.neighbors)
-    for (int& t : neighbors) t = t < 0 ? -1 : new_number[index(t)];
+    for (int& t : neighbors) t = t < 0 ? -1 : new_number[t];
 }
 
 Tin to_tin(TriangleMesh mesh, const ContourMap& map) {
@@ -145,16 +142,16 @@ Tin to_tin(TriangleMesh mesh, const ContourMap& map) {
   tin.crs_wkt = map.crs_wkt;
   std::vector<int> new_number(mesh.points.size(), -1);
   for (const auto& corners : mesh.triangles)
-    for (const int corner : corners) new_number[index(corner)] = 0;
+    for (const int corner : corners) new_number[corner] = 0;
   int n_used = 0;
   for (std::size_t i = 0; i < new_number.size(); ++i) {
     if (new_number[i] < 0) continue;
-    mesh.points[index(n_used)] = mesh.points[i];
+    mesh.points[n_used] = mesh.points[i];
     new_number[i] = n_used++;
   }
-  mesh.points.resize(index(n_used));
+  mesh.points.resize(n_used);
   for (auto& corners : mesh.triangles)
-    for (int& corner : corners) corner = new_number[index(corner)];
+    for (int& corner : corners) corner = new_number[corner];
   tin.points = std::move(mesh.points);
   tin.triangles = std::move(mesh.triangles);
   return tin;
