@@ -9,10 +9,6 @@ FeatureCounts feature_counts(const Trn& trn) {
   return {m * n, (n - 1) * m + (m - 1) * n + (m - 1) * (n - 1), 2 * (m - 1) * (n - 1)};
 }
 
-std::int64_t contact_combinations(const FeatureCounts& a, const FeatureCounts& b) {
-  return (a.vertices + a.edges + a.faces) * (b.vertices + b.edges + b.faces);
-}
-
 void check_trn(const Trn& trn, const std::string& file) {
   const Where where{file};
   if (trn.n_rows < 2 || trn.n_cols < 2)

@@ -2,7 +2,7 @@
 // Terrain as a triangulated regular network (TRN): one elevation a node, two triangles a cell.
 // in:    elevation raster written by talus-trn
 // out:   cell, triangle, plane and elevation at a point, in a time that the size does not enter
-// paper: Zhang et al. 2018, Sect. 3 (TRN) and Eq. (4)
+// paper: Zhang et al. 2018, Sect. 3 (TRN)
 //
 // Row r counts southwards from the northernmost row, column c eastwards. Cell (r, c) has node (r,
 // c) at its north-west corner and is cut along the diagonal (r, c) - (r + 1, c + 1), as in the
@@ -72,11 +72,6 @@ struct FeatureCounts {
 
 /// v_a = m n, e_a = (n - 1) m + (m - 1) n + (m - 1)(n - 1), f_a = 2 (m - 1)(n - 1).
 [[nodiscard]] FeatureCounts feature_counts(const Trn& trn);
-
-/// Eq. (4): discrete contact combinations of two bodies, N = (v_a + e_a + f_a)(v_b + e_b + f_b):
-/// what a search that looks at all of them would look at; the tests hold the paper's figures
-/// against it.
-[[nodiscard]] std::int64_t contact_combinations(const FeatureCounts& a, const FeatureCounts& b);
 
 /// Throws InputError naming `file` unless the grid has at least 2 x 2 nodes, a positive finite cell
 /// size, one elevation a node and at least one triangle of known ground.
@@ -189,11 +184,6 @@ void check_trn(const Trn& trn, const std::string& file);
 /// The same by the triangle's index.
 [[nodiscard]] inline TrianglePlane triangle_plane(const Trn& trn, int triangle) {
   return triangle_plane(trn, cell_of_triangle(trn, triangle), triangle % 2 != 0);
-}
-
-/// Plane of the triangle that holds a place: the quickest way, as it needs no index.
-[[nodiscard]] inline TrianglePlane plane_at(const Trn& trn, const GridPoint& point) {
-  return triangle_plane(trn, point.cell, is_upper(point));
 }
 
 /// Elevation of the ground at a place in its cell; NaN when its triangle is not ground [m].

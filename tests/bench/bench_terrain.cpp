@@ -52,7 +52,8 @@ void plane_at_a_point(benchmark::State& state) {
   const std::vector<Vec2> points = points_about_the_middle(trn, 20);
   for (auto _ : state)
     for (const Vec2& p : points) {
-      const talus::TrianglePlane plane = talus::plane_at(trn, talus::locate(trn, p.x(), p.y()));
+      const talus::TrianglePlane plane =
+          talus::triangle_plane(trn, talus::triangle_at(trn, p.x(), p.y()));
       benchmark::DoNotOptimize(plane.normal.dot(Vec3(p.x(), p.y(), 0) - plane.point));
     }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));

@@ -108,7 +108,8 @@ inline double depth_in_ground(const Scene& scene, const Body& body, int b, const
     if (!contains(trn, v.x(), v.y())) return 0;
   }
   const test::GroundOverlap overlap = test::vertical_overlap(trn, placed);
-  return overlap.height * plane_at(trn, locate(trn, overlap.at.x(), overlap.at.y())).normal.z();
+  return overlap.height *
+         triangle_plane(trn, triangle_at(trn, overlap.at.x(), overlap.at.y())).normal.z();
 }
 
 inline void watch(const Scene& scene, const std::vector<Body>& bodies, const State& state,
