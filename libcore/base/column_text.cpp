@@ -51,7 +51,6 @@ std::vector<std::string> split(std::string_view line, char delimiter) {
     }
   }
   end_word();
-  if (delimiter != ' ' && words.size() > 1 && words.back().empty()) words.pop_back();
   return words;
 }
 
@@ -72,7 +71,7 @@ bool has_decimal_commas(std::string_view line) {
 }
 
 char delimiter_of(std::string_view line) {
-  for (const char c : {';', '\t'})
+  for (const char c : {';', '\t', '|'})
     if (line.find(c) != line.npos) return c;
   return line.find(',') == line.npos || has_decimal_commas(line) ? ' ' : ',';
 }
@@ -124,11 +123,17 @@ struct LineBefore {
   bool is_remark = false;
 };
 
+bool ends_empty(const std::vector<std::string>& row) {
+  return row.size() > 1 && row.back().empty();
+}
+
 void take_names(const LineBefore& before, ColumnText& columns) {
   const std::size_t n_columns = columns.rows.front().size();
   for (const char delimiter : {columns.delimiter, delimiter_of(before.words)}) {
     std::vector<std::string> names = split(before.words, delimiter);
-    if (names.size() != n_columns) continue;
+    if (ends_empty(names)) names.pop_back();
+    const bool has_last = ends_empty(columns.rows.front()) && names.size() + 1 == n_columns;
+    if (names.size() != n_columns && !has_last) continue;
     columns.names = std::move(names);
     columns.names_in_remark = before.is_remark;
     return;
@@ -139,6 +144,21 @@ void take_names(const LineBefore& before, ColumnText& columns) {
                        counted(static_cast<std::int64_t>(n_columns), "column") +
                        " of the lines below it",
                    "name each column, between the same marks as the numbers; # makes it a remark");
+}
+
+// A delimiter behind the last column parts nothing.
+void drop_last_delimiters(ColumnText& columns) {
+  const bool has_names = !columns.names.empty();
+  if (!has_names && !std::all_of(columns.rows.begin(), columns.rows.end(), ends_empty)) return;
+  for (std::vector<std::string>& row : columns.rows)
+    if (ends_empty(row) && (!has_names || row.size() == columns.names.size() + 1)) row.pop_back();
+}
+
+// What stands before a remark behind it: a sign between blanks begins one, PT#5 is a word.
+std::string_view before_remark(std::string_view line) {
+  const std::size_t at = line.find(" #");
+  const bool is_remark = at != line.npos && (at + 2 == line.size() || line[at + 2] == ' ');
+  return is_remark ? line.substr(0, at) : line;
 }
 
 }  // namespace
@@ -153,8 +173,7 @@ ColumnText parse_columns(const std::string& text, const std::string& file) {
   for (int number = 1; !rest.empty(); ++number) {
     std::string_view line = take_line(rest);
     const std::size_t mark = remark_mark(line);
-    const std::string_view words =
-        trimmed(mark > 0 ? line.substr(mark) : line.substr(0, line.find('#')));
+    const std::string_view words = trimmed(mark > 0 ? line.substr(mark) : before_remark(line));
     if (words.empty() || (mark > 0 && (!columns.rows.empty() || holds_value(words)))) continue;
     if (columns.rows.empty() && !holds_value(words)) {
       if (mark == 0 || before.words.empty() || before.is_remark) before = {words, number, mark > 0};
@@ -166,15 +185,20 @@ ColumnText parse_columns(const std::string& text, const std::string& file) {
   }
   if (columns.rows.empty()) throw InputError({file}, "holds no line with a number");
   take_names(before, columns);
+  drop_last_delimiters(columns);
   return columns;
 }
 
+bool parse_decimal(std::string word, double& value) {
+  const std::size_t comma = word.find(',');
+  if (comma == word.npos) return parse_double(word, value);
+  if (word.find_first_of(",.", comma + 1) != word.npos || word.find('.') < comma) return false;
+  word[comma] = '.';
+  return parse_double(word, value);
+}
+
 bool parse_number(const ColumnText& columns, const std::string& word, double& value) {
-  if (parse_double(word, value)) return true;
-  if (columns.delimiter == ',' || std::count(word.begin(), word.end(), ',') != 1) return false;
-  std::string with_point = word;
-  std::replace(with_point.begin(), with_point.end(), ',', '.');
-  return parse_double(with_point, value);
+  return columns.delimiter == ',' ? parse_double(word, value) : parse_decimal(word, value);
 }
 
 std::string plain_name(const std::string& name) {

@@ -2,10 +2,10 @@
 // them.
 #include <gdal_priv.h>
 
+#include "base/column_text.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "import/drawing_unit_gdal.hpp"
-#include "import/point_table.hpp"
 #include "import/raw_inputs_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "terrain/contour_labels.hpp"

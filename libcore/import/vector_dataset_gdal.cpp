@@ -38,33 +38,9 @@ std::string read_all(const std::string& source) {
   return text;
 }
 
-void add_fields(const PointTable& table, OGRLayer& layer) {
-  for (std::size_t k = 0; k < table.names.size(); ++k) {
-    OGRFieldDefn field(table.names[k].c_str(), table.is_number[k] ? OFTReal : OFTString);
-    layer.CreateField(&field);
-  }
-}
-
-void add_points(const PointTable& table, const std::string& file, OGRLayer& layer) {
-  for (std::size_t row = 0; row < table.points.size(); ++row) {
-    OGRFeature feature(layer.GetLayerDefn());
-    feature.SetFID(table.line[row]);
-    for (std::size_t k = 0; k < table.names.size(); ++k) {
-      const std::string& word = table.values[row][k];
-      double value = 0;
-      if (table.is_number[k] && parse_double(word, value))
-        feature.SetField(static_cast<int>(k), value);
-      else if (!word.empty())
-        feature.SetField(static_cast<int>(k), word.c_str());
-    }
-    OGRPoint point(table.points[row].x(), table.points[row].y());
-    feature.SetGeometry(&point);
-    if (layer.CreateFeature(&feature) != OGRERR_NONE)
-      throw InputError({file, table.line[row]}, "cannot be kept as a point");
-  }
-}
-
+// The coordinates become points, the other columns fields.
 VectorDataset table_as_dataset(const PointTable& table, const std::string& name) {
+  const ColumnText& columns = table.columns;
   VectorDataset made;
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("Memory");
   made.dataset = GDALDatasetUniquePtr(driver->Create(name.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
@@ -73,9 +49,30 @@ VectorDataset table_as_dataset(const PointTable& table, const std::string& name)
   if (table.is_degrees) degrees.importFromEPSG(4326);
   OGRLayer* layer =
       made.dataset->CreateLayer(name.c_str(), table.is_degrees ? &degrees : nullptr, wkbPoint);
-  add_fields(table, *layer);
-  add_points(table, name, *layer);
-  made.remarks.push_back("x from " + table.x_from + ", y from " + table.y_from +
+  std::vector<std::size_t> fields;  // their columns
+  for (std::size_t c = 0; c < columns.names.size(); ++c) {
+    if (c == table.x || c == table.y) continue;
+    OGRFieldDefn field(columns.names[c].c_str(), table.is_number[c] ? OFTReal : OFTString);
+    layer->CreateField(&field);
+    fields.push_back(c);
+  }
+  for (std::size_t row = 0; row < columns.rows.size(); ++row) {
+    OGRFeature feature(layer->GetLayerDefn());
+    feature.SetFID(columns.line[row]);
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+      const std::string& word = columns.rows[row][fields[k]];
+      double value = 0;
+      if (table.is_number[fields[k]] && parse_number(columns, word, value))
+        feature.SetField(static_cast<int>(k), value);
+      else if (!word.empty())
+        feature.SetField(static_cast<int>(k), word.c_str());
+    }
+    OGRPoint point(table.points[row].x(), table.points[row].y());
+    feature.SetGeometry(&point);
+    if (layer->CreateFeature(&feature) != OGRERR_NONE)
+      throw InputError({columns.file, columns.line[row]}, "cannot be kept as a point");
+  }
+  made.remarks.push_back("x from " + columns.names[table.x] + ", y from " + columns.names[table.y] +
                          (table.is_degrees ? ", taken to be in EPSG:4326 (WGS 84)" : ""));
   return made;
 }
@@ -176,10 +173,10 @@ VectorDataset open_vectors(const SourcePath& path) {
   const std::string named =
       lower(source).ends_with(".gz") ? source.substr(0, source.size() - 3) : source;
   if (is_table_name(named)) {
-    std::string text = read_all(source);
+    const std::string text = read_all(source);
     if (!has_wkt_column(text)) {
-      VectorDataset made = table_as_dataset(parse_point_table(std::move(text), path.file),
-                                            fs::path(named).stem().string());
+      VectorDataset made =
+          table_as_dataset(parse_point_table(text, path.file), fs::path(named).stem().string());
       made.remarks.insert(made.remarks.begin(), opened.remarks.begin(), opened.remarks.end());
       return made;
     }
