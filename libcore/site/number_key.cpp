@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <type_traits>
-#include <utility>
 
 #include "base/error.hpp"
 
@@ -11,34 +10,11 @@ namespace {
 
 // Calls take(path, section, row) for each key of each section that stands in the site.
 template <class SiteType, class Take>
-struct KeyVisitor {
-  SiteType& site;
-  Take& take;
-  template <class Section>
-  void keys(const std::string& path, Section& section) const {
-    for (const auto& row : keys_of<std::remove_const_t<Section>>()) {
-      std::string at = path;
-      at.append(".").append(row.name);
-      take(std::as_const(at), section, row);
-    }
-  }
-  template <class Section>
-  void operator()(const char* name, Section& section) const {
-    keys(name, section);
-  }
-  template <class Section>
-  void operator()(const char* group, std::vector<Section>& sections) const {
-    for (Section& section : sections) keys(group + ("." + section.name), section);
-  }
-  template <class Section>
-  void operator()(const char* group, const std::vector<Section>& sections) const {
-    for (const Section& section : sections) keys(group + ("." + section.name), section);
-  }
-};
-
-template <class SiteType, class Take>
-void for_each_key(SiteType& site, Take take) {
-  for_each_group(site, KeyVisitor<SiteType, Take>{site, take});
+void for_each_key(SiteType& site, const Take& take) {
+  for_each_section(site, [&take](const char* group, const std::string& name, auto& section) {
+    for (const auto& row : keys_of<std::remove_cvref_t<decltype(section)>>())
+      take(path_of(group, name) + "." + row.name, section, row);
+  });
 }
 
 template <class Section>

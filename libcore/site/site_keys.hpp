@@ -95,4 +95,21 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("hazard.class", site.hazard_classes);
 }
 
+/// Calls visit(group, name, section) for every section that stands in the site; the name of a
+/// single one is empty.
+template <class SiteType, class Visit>
+void for_each_section(SiteType& site, const Visit& visit) {
+  for_each_group(site, [&visit](const char* group, auto& sections) {
+    if constexpr (requires { sections.front(); })
+      for (auto& section : sections) visit(group, section.name, section);
+    else
+      visit(group, std::string(), sections);
+  });
+}
+
+/// "joints.J1"; the group alone for a single section.
+[[nodiscard]] inline std::string path_of(const std::string& group, const std::string& name) {
+  return name.empty() ? group : group + "." + name;
+}
+
 }  // namespace talus

@@ -274,11 +274,11 @@ void read_section(Site& site, Section& section, const std::string& name, const t
   }
 }
 
-int& line_field(FenceSettings& fence) { return fence.line_number; }
-int& line_field(ObjectSettings& object) { return object.line_number; }
-template <class Section>
-int& line_field(Section& section) {
-  return section.line;
+int& line_field(auto& section) {
+  if constexpr (requires { section.line_number; })
+    return section.line_number;
+  else
+    return section.line;
 }
 
 // Keys of a group that stand beside its named sections; none in most groups.
@@ -301,16 +301,17 @@ Texts keys_beside(const std::string& group) {
                       : "did you mean " + nearest + "? A section is written [" + group + ".NAME]");
 }
 
-// [group.NAME] sections, in the order of the file (tables are kept sorted by name).
 // A name stands in messages, tables, pages and commands.
 void check_name(const std::string& group, const std::string& name, const Where& where) {
-  if (printable(name) == name && name.find_first_of("\n\t") == std::string::npos) return;
+  const bool is_seen = printable(name) == name && name.find_first_of("\n\t") == std::string::npos;
+  if (is_seen && !name.empty()) return;
   throw InputError(where,
                    "the name " + name + " of a section [" + group +
-                       ".*] holds control characters, or others that are not seen",
+                       ".*] is empty, or holds control characters or others that are not seen",
                    "use letters of any alphabet, digits, blanks and signs");
 }
 
+// [group.NAME] sections, in the order of the file (tables are kept sorted by name).
 template <class Section>
 void read_named(Site& site, std::vector<Section>& sections, const std::string& group,
                 const toml::table& tables) {
@@ -334,19 +335,6 @@ void read_named(Site& site, std::vector<Section>& sections, const std::string& g
     sections.push_back(std::move(section));
   }
 }
-
-// Of the sections that there are in `group`, with it: "ground.scree".
-struct SectionNames {
-  const std::string& group;
-  Texts& names;
-  template <class Section>
-  void operator()(const char*, const Section&) const {}
-  template <class Section>
-  void operator()(const char* candidate, const std::vector<Section>& sections) const {
-    if (group != candidate) return;
-    for (const Section& section : sections) names.push_back(group + "." + section.name);
-  }
-};
 
 Texts group_names() {
   Texts names;
@@ -449,47 +437,6 @@ toml::array value_for(const SiteKey<Section>& key, const std::string& value) {
   const bool takes_text = std::holds_alternative<std::string Section::*>(key.field);
   return takes_text && !parsed[0].is_string() ? toml::array{value} : std::move(parsed);
 }
-
-// Is "section.key" one of the site's?
-struct KeyFinder {
-  std::string section, key;
-  bool& is_found;
-
-  template <class Section>
-  void operator()(const char* candidate, const Section&) const {
-    is_found = is_found || (section == candidate && has_key<Section>(key));
-  }
-  template <class Section>
-  void operator()(const char* candidate, const std::vector<Section>& sections) const {
-    for (const Section& fields : sections)
-      is_found = is_found || (section == candidate + ("." + fields.name) && has_key<Section>(key));
-  }
-};
-
-struct Overrider {
-  Site& site;
-  std::string section, key;  // "hazard", "fence.upper", "hazard.class.V1"
-  const std::string& value;
-  bool& is_done;
-
-  template <class Section>
-  void set(Section& fields, const std::string& path) const {
-    const Where where{"", 0, "command line"};
-    const auto& row = key_named<Section>(key, path, where);
-    read_value(fields, row, path + "." + key, value_for(row, value)[0], where);
-    site.sources[path + "." + key] = {ValueSource::from_cli, 0};
-    is_done = true;
-  }
-  template <class Section>
-  void operator()(const char* candidate, Section& fields) const {
-    if (section == candidate) set(fields, section);
-  }
-  template <class Section>
-  void operator()(const char* candidate, std::vector<Section>& sections) const {
-    for (Section& fields : sections)
-      if (section == candidate + ("." + fields.name)) set(fields, section);
-  }
-};
 
 // --- layers ------------------------------------------------------------------------------------
 
@@ -604,8 +551,11 @@ std::size_t end_of_key(const Site& site, const std::string& words) {
     const std::size_t last = words.rfind('.', at);
     if (last == std::string::npos) continue;
     bool is_found = false;
-    for_each_group(
-        site, KeyFinder{words.substr(0, last), words.substr(last + 1, at - last - 1), is_found});
+    for_each_section(site, [&](const char* group, const std::string& name, const auto& fields) {
+      is_found |=
+          path_of(group, name) == words.substr(0, last) &&
+          has_key<std::remove_cvref_t<decltype(fields)>>(words.substr(last + 1, at - last - 1));
+    });
     if (is_found) return at;
   }
   return words.find('=');
@@ -616,17 +566,23 @@ void override_value(Site& site, const std::string& key, const std::string& value
   if (first == std::string::npos)
     throw InputError({"", 0, "command line"}, "\"" + key + "\" is not section.key",
                      "e.g. solver.duration_s");
-  const std::string group = key.substr(0, first);
+  const std::string group = key.substr(0, first), section = key.substr(0, last),
+                    word = key.substr(last + 1);
+  Texts known;
   bool is_done = false;
-  const Overrider overrider{site, key.substr(0, last), key.substr(last + 1), value, is_done};
-  for_each_group(site, overrider);
-  if (!is_done) {
-    Texts known;
-    for_each_group(site, SectionNames{group, known});
-    throw InputError({"", 0, "command line"}, "no section [" + key.substr(0, last) + "]",
-                     known.empty() ? did_you_mean(group, group_names())
-                                   : did_you_mean(key.substr(0, last), known));
-  }
+  for_each_section(site, [&](const std::string& candidate, const std::string& name, auto& fields) {
+    if (!name.empty() && candidate == group) known.push_back(path_of(group, name));
+    if (path_of(candidate, name) != section) return;
+    const Where where{"", 0, "command line"};
+    const auto& row = key_named<std::remove_cvref_t<decltype(fields)>>(word, section, where);
+    read_value(fields, row, section + "." + word, value_for(row, value)[0], where);
+    site.sources[section + "." + word] = {ValueSource::from_cli, 0};
+    is_done = true;
+  });
+  if (!is_done)
+    throw InputError(
+        {"", 0, "command line"}, "no section [" + section + "]",
+        known.empty() ? did_you_mean(group, group_names()) : did_you_mean(section, known));
   fill_from_soils(site);
   check_names(site);
 }

@@ -65,88 +65,61 @@ std::string key_text(const std::string& name) {
   return is_bare ? name : quoted(name);
 }
 
-struct ValueLister {
-  const Site& site;
-  std::vector<EffectiveValue>& values;
+std::string source_of(const Site& site, const auto& fields, const std::string& path) {
+  const auto found = site.sources.find(path);
+  if (found == site.sources.end()) return "default";
+  const ValueSource& source = found->second;
+  if constexpr (requires { fields.soil; })
+    if (const Soil* soil = soil_named(fields.soil);
+        soil != nullptr && source.kind == ValueSource::from_soil)
+      return std::string("soil ") + soil->name + " (" + soil->mark + ")";
+  if (source.kind == ValueSource::from_cli) return "cli";
+  if (source.kind == ValueSource::from_draw || source.kind == ValueSource::from_layer)
+    return source.words;
+  return "file, line " + std::to_string(source.line);
+}
 
-  // `section` is the name for people, `path` the key of Site::sources.
-  template <class Section>
-  void list(const std::string& section, const std::string& path, const Section& fields) const {
-    for (const auto& key : keys_of<Section>())
-      std::visit(
-          [&](auto field) {
-            const auto& value = fields.*field;
-            values.push_back({section, key.name, is_given(value) ? literal(value) : "",
-                              source_of(fields, key.name, path), note_on(fields, key.name)});
-          },
-          key.field);
-  }
-  template <class Section>
-  std::string source_of(const Section& fields, const std::string& key,
-                        const std::string& path) const {
-    const auto found = site.sources.find(path + "." + key);
-    if (found == site.sources.end()) return "default";
-    const ValueSource& source = found->second;
-    if constexpr (std::is_same_v<Section, GroundSettings>)
-      if (const Soil* soil = soil_named(fields.soil);
-          soil != nullptr && source.kind == ValueSource::from_soil)
-        return std::string("soil ") + soil->name + " (" + soil->mark + ")";
-    if (source.kind == ValueSource::from_cli) return "cli";
-    if (source.kind == ValueSource::from_draw || source.kind == ValueSource::from_layer)
-      return source.words;
-    return "file, line " + std::to_string(source.line);
-  }
-  // How sure the values of a soil are, and where they are from.
-  template <class Section>
-  static std::string note_on(const Section& fields, const std::string& key) {
-    if constexpr (std::is_same_v<Section, GroundSettings>)
-      if (const Soil* soil = soil_named(fields.soil); soil != nullptr && key == "soil")
-        return std::string(soil->mark) + ": " + soil->source;
-    return "";
-  }
-  template <class Section>
-  void operator()(const char* name, const Section& fields) const {
-    list(name, name, fields);
-  }
-  template <class Section>
-  void operator()(const char* group, const std::vector<Section>& sections) const {
-    for (const Section& fields : sections)
-      list(group + ("." + key_text(fields.name)), group + ("." + fields.name), fields);
-  }
-};
+// How sure the values of a soil are, and where they are from.
+std::string note_on(const auto& fields, const std::string& key) {
+  if constexpr (requires { fields.soil; })
+    if (const Soil* soil = soil_named(fields.soil); soil != nullptr && key == "soil")
+      return std::string(soil->mark) + ": " + soil->source;
+  return "";
+}
 
-struct KeyLister {
-  std::vector<KeyDescription>& rows;
-  template <class Section>
-  void list(const std::string& name, const Section& values) const {
-    for (const auto& key : keys_of<Section>())
-      std::visit(
-          [&](auto field) {
-            const bool has_range = std::isfinite(key.range.low) || std::isfinite(key.range.high);
-            rows.push_back({name, key.name, type_text(values.*field),
-                            is_given(values.*field) ? literal(values.*field) : "",
-                            *key.choices ? key.choices
-                            : has_range  ? text_of(key.range)
-                                         : "",
-                            key.help});
-          },
-          key.field);
-  }
-  template <class Section>
-  void operator()(const char* name, const Section& values) const {
-    list(name, values);
-  }
-  template <class Section>
-  void operator()(const char* group, const std::vector<Section>&) const {
-    list(std::string(group) + ".NAME", Section{});
-  }
-};
+template <class Section>
+void describe_keys(const std::string& name, const Section& values,
+                   std::vector<KeyDescription>& rows) {
+  for (const auto& key : keys_of<Section>())
+    std::visit(
+        [&](auto field) {
+          const bool has_range = std::isfinite(key.range.low) || std::isfinite(key.range.high);
+          rows.push_back({name, key.name, type_text(values.*field),
+                          is_given(values.*field) ? literal(values.*field) : "",
+                          *key.choices ? key.choices
+                          : has_range  ? text_of(key.range)
+                                       : "",
+                          key.help});
+        },
+        key.field);
+}
 
 }  // namespace
 
 std::vector<EffectiveValue> effective_values(const Site& site) {
   std::vector<EffectiveValue> values;
-  for_each_group(site, ValueLister{site, values});
+  for_each_section(site, [&](const char* group, const std::string& name, const auto& fields) {
+    const std::string shown = path_of(group, name.empty() ? name : key_text(name));
+    for (const auto& key : keys_of<std::remove_cvref_t<decltype(fields)>>())
+      std::visit(
+          [&](auto field) {
+            const auto& value = fields.*field;
+            values.push_back({shown, key.name, is_given(value) ? literal(value) : "",
+                              source_of(site, fields, path_of(group, name) + "." + key.name),
+                              note_on(fields, key.name)});
+          },
+          key.field);
+  });
   return values;
 }
 
@@ -165,7 +138,12 @@ std::string print_config(const Site& site) {
 std::vector<KeyDescription> site_keys() {
   std::vector<KeyDescription> rows;
   const Site site;
-  for_each_group(site, KeyLister{rows});
+  for_each_group(site, [&rows]<class Group>(const std::string& group, const Group& fields) {
+    if constexpr (requires { fields.front(); })
+      describe_keys(group + ".NAME", typename Group::value_type(), rows);
+    else
+      describe_keys(group, fields, rows);
+  });
   return rows;
 }
 
