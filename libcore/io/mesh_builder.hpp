@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/printable.hpp"
 #include "base/text.hpp"
 #include "io/mesh.hpp"
 
@@ -70,7 +71,7 @@ class TextReader {
     const std::string_view word = next_word();
     double value = 0;
     if (!parse_double(word, value))
-      throw InputError(where(), "\"" + std::string(word.substr(0, 40)) + "\" is not a number");
+      throw InputError(where(), "\"" + printable(word.substr(0, 40)) + "\" is not a number");
     return value;
   }
   /// A whole number from 0 to `most`.

@@ -9,8 +9,8 @@
 //   comment doubts_accepted WORDS     places that the user accepted, in lines of 400 bytes
 #pragma once
 
-#include <span>
 #include <string>
+#include <string_view>
 
 #include "terrain/tin.hpp"
 
@@ -21,15 +21,14 @@ namespace talus {
 /// cannot be written.
 void write_tin(const std::string& path, const Tin& tin);
 
-/// Reads a TIN written by write_tin, or any PLY of triangles, as text or little-endian: float or
-/// double x y z, further numbers at a vertex or behind a face's corners are passed over. Clockwise
-/// triangles are turned. Without an origin in the file the lowest corner, floored to 100 m, is
+/// Reads a TIN written by write_tin, or any PLY of triangles (ply.hpp). Clockwise triangles are
+/// turned. Without an origin in the file the lowest corner, floored to 100 m, is
 /// taken. `is_judged` holds where the file has the digest of its own data; else no doubts count as
 /// accepted. Throws InputError, with what was expected, for anything else, a truncated or a lying
 /// file.
 [[nodiscard]] Tin read_tin(const std::string& path);
 
 /// The same from memory; `source` names it in messages.
-[[nodiscard]] Tin parse_tin(std::span<const char> bytes, const std::string& source);
+[[nodiscard]] Tin parse_tin(std::string_view bytes, const std::string& source);
 
 }  // namespace talus
