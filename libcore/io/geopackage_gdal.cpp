@@ -24,94 +24,51 @@ class FixedDate {
   FixedDate& operator=(const FixedDate&) = delete;
 };
 
-OGRwkbGeometryType ogr_type(GeometryType type) {
-  switch (type) {
-    case GeometryType::point:
-      return wkbPoint;
-    case GeometryType::point_z:
-      return wkbPoint25D;
-    case GeometryType::multi_point_z:
-      return wkbMultiPoint25D;
-    case GeometryType::line:
-      return wkbLineString;
-    case GeometryType::line_z:
-      return wkbLineString25D;
-    case GeometryType::line_zm:
-      return wkbLineStringZM;
-    case GeometryType::multi_polygon:
-      return wkbMultiPolygon;
-    case GeometryType::none:
-      break;
-  }
-  return wkbNone;
-}
+// In the order of GeometryType.
+constexpr OGRwkbGeometryType ogr_types[] = {wkbPoint,        wkbPoint25D,      wkbMultiPoint25D,
+                                            wkbLineString,   wkbLineString25D, wkbLineStringZM,
+                                            wkbMultiPolygon, wkbNone};
 
-std::unique_ptr<OGRGeometry> line_of(const VectorFeature& feature) {
-  auto line = std::make_unique<OGRLineString>();
-  for (const Vec3& p : feature.points) line->addPoint(p.x(), p.y());
-  return line;
-}
+OGRwkbGeometryType ogr_type(GeometryType type) { return ogr_types[static_cast<int>(type)]; }
 
-std::unique_ptr<OGRGeometry> line_z_of(const VectorFeature& feature) {
-  auto line = std::make_unique<OGRLineString>();
-  for (const Vec3& p : feature.points) line->addPoint(p.x(), p.y(), p.z());
-  return line;
-}
-
-std::unique_ptr<OGRGeometry> points_z_of(const VectorFeature& feature) {
-  auto points = std::make_unique<OGRMultiPoint>();
-  for (const Vec3& p : feature.points) {
-    const OGRPoint point(p.x(), p.y(), p.z());
-    points->addGeometry(&point);
-  }
-  return points;
-}
-
-std::unique_ptr<OGRGeometry> line_zm_of(const VectorFeature& feature) {
-  auto line = std::make_unique<OGRLineString>();
-  for (std::size_t i = 0; i < feature.points.size(); ++i) {
-    const Vec3& p = feature.points[i];
-    line->addPoint(p.x(), p.y(), p.z(), feature.measure.empty() ? 0 : feature.measure[i]);
-  }
-  return line;
+OGRPoint point_of(const VectorFeature& feature, std::size_t i, OGRwkbGeometryType type) {
+  const Vec3& p = feature.points.at(i);
+  if (OGR_GT_HasM(type) != 0)
+    return {p.x(), p.y(), p.z(), feature.measure.empty() ? 0 : feature.measure[i]};
+  return OGR_GT_HasZ(type) != 0 ? OGRPoint(p.x(), p.y(), p.z()) : OGRPoint(p.x(), p.y());
 }
 
 std::unique_ptr<OGRGeometry> multi_polygon_of(const VectorFeature& feature) {
   auto multi = std::make_unique<OGRMultiPolygon>();
   for (const auto& rings : feature.polygons) {
-    auto polygon = std::make_unique<OGRPolygon>();
+    OGRPolygon polygon;
     for (const auto& points : rings) {
-      auto ring = std::make_unique<OGRLinearRing>();
-      for (const Vec2& p : points) ring->addPoint(p.x(), p.y());
-      ring->closeRings();
-      polygon->addRingDirectly(ring.release());
+      OGRLinearRing ring;
+      for (const Vec2& p : points) ring.addPoint(p.x(), p.y());
+      ring.closeRings();
+      polygon.addRing(&ring);
     }
-    multi->addGeometryDirectly(polygon.release());
+    multi->addGeometry(&polygon);
   }
   return multi;
 }
 
-std::unique_ptr<OGRGeometry> geometry_of(const VectorFeature& feature, GeometryType type) {
-  switch (type) {
-    case GeometryType::point:
-      return std::make_unique<OGRPoint>(feature.points.at(0).x(), feature.points.at(0).y());
-    case GeometryType::point_z:
-      return std::make_unique<OGRPoint>(feature.points.at(0).x(), feature.points.at(0).y(),
-                                        feature.points.at(0).z());
-    case GeometryType::multi_point_z:
-      return points_z_of(feature);
-    case GeometryType::line:
-      return line_of(feature);
-    case GeometryType::line_z:
-      return line_z_of(feature);
-    case GeometryType::line_zm:
-      return line_zm_of(feature);
-    case GeometryType::multi_polygon:
-      return multi_polygon_of(feature);
-    case GeometryType::none:
-      break;
+std::unique_ptr<OGRGeometry> geometry_of(const VectorFeature& feature, GeometryType wanted) {
+  const OGRwkbGeometryType type = ogr_type(wanted), flat = wkbFlatten(type);
+  if (type == wkbNone) return nullptr;
+  if (type == wkbMultiPolygon) return multi_polygon_of(feature);
+  if (flat == wkbPoint) return std::make_unique<OGRPoint>(point_of(feature, 0, type));
+  auto points = std::make_unique<OGRMultiPoint>();
+  auto line = std::make_unique<OGRLineString>();
+  for (std::size_t i = 0; i < feature.points.size(); ++i) {
+    const OGRPoint point = point_of(feature, i, type);
+    if (flat == wkbMultiPoint)
+      points->addGeometry(&point);
+    else
+      line->addPoint(&point);
   }
-  return nullptr;
+  if (flat == wkbMultiPoint) return points;
+  return line;
 }
 
 void set_field(OGRFeature& feature, int index, const FieldValue& value) {

@@ -74,7 +74,8 @@ void write_outputs(Tool& tool, const BlocksOutputs& files, const BlocksWork& wor
     std::vector<std::vector<Vec2>> rings = work.area.rings;
     for (auto& ring : rings)
       for (Vec2& p : ring) p += work.ground.origin.head<2>();
-    write_footprints(tool.stage(files.footprints), work.blocks, rings, {{"RUN_ID", tool.run_id()}});
+    write_geopackage(tool.stage(files.footprints), work.blocks.crs_wkt,
+                     footprint_layers(work.blocks, rings), {{"RUN_ID", tool.run_id()}});
   }
   write_pictures(tool, files, work);
   if (!files.obj_folder.empty()) write_objs(tool, files, work.blocks);

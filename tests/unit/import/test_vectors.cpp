@@ -356,8 +356,8 @@ TEST(WriteFootprints, ReadBackAndTheSameBytesEveryTime) {
   add_body(set, {{box({0, 0, 0}, {2, 3, 1}, -1)}, {}, 0, Vec3::Zero(), Vec3::Zero()});
   add_body(set, {{box({5, 0, 0}, {6, 1, 1}, -1)}, {}, 0, Vec3::Zero(), Vec3::Zero()});
   const std::string a = scratch("a.gpkg", ""), b = scratch("b.gpkg", "");
-  write_footprints(a, set, {{{0, 0}, {1, 0}, {1, 1}}});
-  write_footprints(b, set, {{{0, 0}, {1, 0}, {1, 1}}});
+  for (const std::string& path : {a, b})
+    write_geopackage(path, set.crs_wkt, footprint_layers(set, {{{0, 0}, {1, 0}, {1, 1}}}));
   EXPECT_EQ(sha256_of_file(a), sha256_of_file(b));
   const VectorShapes found =
       read_vectors({a + "|layername=blocks|subset=volume_m3 > 5", VectorKind::areas}, set.crs_wkt);
