@@ -8,8 +8,8 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 
+#include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
 
 namespace talus {
@@ -42,11 +42,6 @@ std::vector<EdgeUse> edge_uses(const Polyhedron& body) {
     return std::tie(p.low, p.high, p.face, p.forward) < std::tie(q.low, q.high, q.face, q.forward);
   });
   return uses;
-}
-
-int root(std::vector<int>& parent, int i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
 }
 
 // Index faults of single faces; the checks of edges need sound indices.
@@ -86,22 +81,19 @@ SurfaceCheck check_edges(const std::vector<EdgeUse>& uses) {
 
 // Shells: faces that hang together through edges. A vertex counts once for each shell it is in.
 void count_shells(const Polyhedron& body, const std::vector<EdgeUse>& uses, SurfaceCheck& check) {
-  std::vector<int> parent(n_faces(body));
-  std::iota(parent.begin(), parent.end(), 0);
-  for (size_t k = 0; k + 1 < uses.size(); k += 2)
-    parent[root(parent, uses[k].face)] = root(parent, uses[k + 1].face);
+  DisjointSets shells(n_faces(body));
+  for (size_t k = 0; k + 1 < uses.size(); k += 2) shells.join(uses[k].face, uses[k + 1].face);
   std::map<int, int> shell_of_root;
   std::vector<std::pair<int, int>> corners;  // (shell, vertex)
   for (int f = 0; f < n_faces(body); ++f) {
-    const int shell =
-        shell_of_root.try_emplace(root(parent, f), shell_of_root.size()).first->second;
+    const int shell = shell_of_root.try_emplace(shells.root(f), shell_of_root.size()).first->second;
     check.euler.resize(shell_of_root.size(), 0);
     ++check.euler[shell];
     for (const int v : face(body, f)) corners.emplace_back(shell, v);
     check.euler[shell] -= static_cast<int>(face(body, f).size());  // two uses make one edge, below
   }
   for (size_t k = 0; k < uses.size(); k += 2)
-    ++check.euler[shell_of_root[root(parent, uses[k].face)]];
+    ++check.euler[shell_of_root[shells.root(uses[k].face)]];
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   for (const auto& corner : corners) ++check.euler[corner.first];

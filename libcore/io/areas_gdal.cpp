@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/disjoint_sets.hpp"
 #include "base/source_path.hpp"
 #include "io/errors_gdal.hpp"
 
@@ -14,50 +15,31 @@ namespace {
 
 using Polygons = std::vector<std::unique_ptr<OGRPolygon>>;
 
-// Groups of polygons that meet: each one names a member of its group, the first one itself.
-class Groups {
- public:
-  explicit Groups(std::size_t n) : leader_(n) { std::iota(leader_.begin(), leader_.end(), 0); }
-
-  std::size_t leader(std::size_t i) {
-    while (leader_[i] != i) i = leader_[i] = leader_[leader_[i]];
-    return i;
-  }
-
-  void join(std::size_t a, std::size_t b) {
-    const auto [first, second] = std::minmax({leader(a), leader(b)});
-    leader_[second] = first;
-  }
-
- private:
-  std::vector<std::size_t> leader_;
-};
-
-// Pairs are looked for from west to east, so that each polygon is held against those near it alone.
-Groups find_groups(const Polygons& polygons) {
+// Groups of polygons that meet. Pairs are looked for from west to east, so that each polygon is
+// held against those near it alone.
+DisjointSets find_groups(const Polygons& polygons) {
   const std::size_t n = polygons.size();
   std::vector<OGREnvelope> box(n);
   for (std::size_t i = 0; i < n; ++i) polygons[i]->getEnvelope(&box[i]);
-  std::vector<std::size_t> order(n);
+  std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return box[a].MinX < box[b].MinX; });
-  Groups groups(n);
+                   [&](int a, int b) { return box[a].MinX < box[b].MinX; });
+  DisjointSets groups(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n && box[order[j]].MinX <= box[order[i]].MaxX; ++j) {
-      const std::size_t a = order[i], b = order[j];
-      if (!box[a].Intersects(box[b]) || groups.leader(a) == groups.leader(b)) continue;
+      const int a = order[i], b = order[j];
+      if (!box[a].Intersects(box[b]) || groups.root(a) == groups.root(b)) continue;
       if (polygons[a]->Intersects(polygons[b].get())) groups.join(a, b);
     }
   return groups;
 }
 
 // The polygons of one group as few as they can be.
-Polygons united(const Polygons& polygons, const std::vector<std::size_t>& members,
-                const Where& where) {
+Polygons united(const Polygons& polygons, const std::vector<int>& members, const Where& where) {
   const GdalErrors errors;
   OGRMultiPolygon all;
-  for (const std::size_t member : members) all.addGeometry(polygons[member].get());
+  for (const int member : members) all.addGeometry(polygons[member].get());
   const std::unique_ptr<OGRGeometry> sum(all.UnionCascaded());
   Polygons found;
   if (sum && wkbFlatten(sum->getGeometryType()) == wkbPolygon)
@@ -96,9 +78,9 @@ void check_polygon(const std::vector<Vec2>& corners, const Where& where) {
 }
 
 Uniting unite_polygons(Polygons& polygons, const Where& where) {
-  Groups groups = find_groups(polygons);
-  std::vector<std::vector<std::size_t>> members(polygons.size());
-  for (std::size_t i = 0; i < polygons.size(); ++i) members[groups.leader(i)].push_back(i);
+  DisjointSets groups = find_groups(polygons);
+  std::vector<std::vector<int>> members(polygons.size());
+  for (int i = 0; i < static_cast<int>(polygons.size()); ++i) members[groups.root(i)].push_back(i);
   Uniting uniting;
   Polygons apart;
   for (std::size_t i = 0; i < polygons.size(); ++i) {

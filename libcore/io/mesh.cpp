@@ -4,10 +4,10 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <numeric>
 #include <sstream>
 #include <tuple>
 
+#include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
@@ -45,19 +45,14 @@ Polyhedron joined_faces(const Mesh& mesh, const std::vector<int>& numbers, Joini
 
 // Groups of faces that hang together through edges, in the order of their first faces.
 std::vector<std::vector<int>> connected_faces(const Polyhedron& surface) {
-  std::vector<int> parent(n_faces(surface));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int f) {
-    while (parent[f] != f) f = parent[f] = parent[parent[f]];
-    return f;
-  };
+  DisjointSets sets(n_faces(surface));
   for (const PolyhedronEdge& edge : edges(surface))
-    if (edge.left >= 0 && edge.right >= 0) parent[root(edge.left)] = root(edge.right);
+    if (edge.left >= 0 && edge.right >= 0) sets.join(edge.left, edge.right);
   std::map<int, int> group_of_root;
   std::vector<std::vector<int>> groups;
   for (int f = 0; f < n_faces(surface); ++f) {
     const auto [entry, is_new] =
-        group_of_root.try_emplace(root(f), static_cast<int>(groups.size()));
+        group_of_root.try_emplace(sets.root(f), static_cast<int>(groups.size()));
     if (is_new) groups.emplace_back();
     groups[entry->second].push_back(f);
   }

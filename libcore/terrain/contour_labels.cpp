@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
+#include "base/disjoint_sets.hpp"
 #include "geometry/plan2d.hpp"
 
 namespace talus {
@@ -64,21 +64,16 @@ bool is_gap_between(const LineBeside& a, const LineBeside& b) {
 
 // Lines that share an end, by the first of them.
 std::vector<int> contours_of(const Polylines& lines) {
-  std::vector<int> first(lines.n_lines());
-  std::iota(first.begin(), first.end(), 0);
-  const auto leader = [&](int line) {
-    while (first[line] != line) line = first[line];
-    return line;
-  };
+  DisjointSets contours(lines.n_lines());
   std::map<std::pair<double, double>, int> line_at;
   for (int l = 0; l < lines.n_lines(); ++l)
     for (const int i : {lines.begin[l], lines.begin[l + 1] - 1}) {
       const Vec3& end = lines.points[i];
       const auto [at, is_new] = line_at.try_emplace({end.x(), end.y()}, l);
-      const auto [low, high] = std::minmax({leader(l), leader(at->second)});
-      first[high] = low;
+      contours.join(l, at->second);
     }
-  for (int l = 0; l < lines.n_lines(); ++l) first[l] = leader(l);
+  std::vector<int> first;
+  for (int l = 0; l < lines.n_lines(); ++l) first.push_back(contours.root(l));
   return first;
 }
 

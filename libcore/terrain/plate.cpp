@@ -9,6 +9,8 @@
 #include <numeric>
 #include <span>
 
+#include "base/disjoint_sets.hpp"
+
 namespace talus {
 namespace {
 
@@ -124,31 +126,21 @@ Groups grouped(const std::vector<int>& group_of_item, int n_groups) {
 
 // Region of each unknown: unknowns that may share a square, numbered by their first ones.
 std::vector<int> find_regions(const Nodes& nodes, const Unknowns& unknowns, int& n_regions) {
-  std::vector<int> root(static_cast<std::size_t>(unknowns.count()));
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int u) {
-    while (root[u] != u) {
-      int& above = root[u];
-      above = root[above];
-      u = above;
-    }
-    return u;
-  };
+  DisjointSets sets(static_cast<std::size_t>(unknowns.count()));
   for (int u = 0; u < unknowns.count(); ++u) {
     const auto [i, j] = nodes.place(unknowns.node(u));
     for (const Offset offset : lower_neighbors) {
       if (!nodes.inside(i + offset.i, j + offset.j)) continue;
       const int v = unknowns.at(nodes.number(i + offset.i, j + offset.j));
-      if (v < 0) continue;
-      const int root_u = find(u), root_v = find(v);
-      root[std::max(root_u, root_v)] = std::min(root_u, root_v);
+      if (v >= 0) sets.join(u, v);
     }
   }
-  // A root is the lowest of its region, so its entry is a region's number before others read it.
+  // A root is the lowest of its region, so it has the region's number before others read it.
+  std::vector<int> region(static_cast<std::size_t>(unknowns.count()));
   n_regions = 0;
-  for (std::size_t u = 0; u < root.size(); ++u)
-    root[u] = root[u] == static_cast<int>(u) ? n_regions++ : root[root[u]];
-  return root;
+  for (int u = 0; u < unknowns.count(); ++u)
+    region[u] = sets.root(u) == u ? n_regions++ : region[sets.root(u)];
+  return region;
 }
 
 // The normal equations of one region, K z = f, K by its lower half, unknowns by their place in the
