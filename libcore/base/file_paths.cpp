@@ -36,13 +36,17 @@ std::string absolute_path(const std::string& path) {
   return (error ? fs::absolute(path) : canonical).string();
 }
 
+std::string extension_of(const std::string& path) {
+  return lower(fs::path(path).extension().string());
+}
+
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
 std::vector<std::string> sidecars_of(const std::string& path) {
   std::vector<std::string> files;
-  if (lower(fs::path(path).extension().string()) != ".shp") return files;
+  if (extension_of(path) != ".shp") return files;
   for (const char* extension : {".shx", ".dbf", ".prj", ".cpg"})
     files.push_back(fs::path(path).replace_extension(extension).string());
   return files;

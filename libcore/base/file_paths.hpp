@@ -30,6 +30,9 @@ namespace talus {
 /// become _.
 [[nodiscard]] std::string file_word(const std::string& name);
 
+/// In small letters, with the point: ".tif"; empty: there is none.
+[[nodiscard]] std::string extension_of(const std::string& path);
+
 /// "." for a name alone.
 [[nodiscard]] std::filesystem::path folder_of(const std::filesystem::path& path);
 

@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/words.hpp"
 
 namespace talus {
 namespace {
@@ -56,10 +58,8 @@ int find_index(OGRLayer& layer, const std::string& name) {
 }
 
 std::string list_of_fields(OGRLayer& layer) {
-  std::string names;
-  for (int i = 0; i < layer.GetLayerDefn()->GetFieldCount(); ++i)
-    names += (i == 0 ? "" : ", ") + name_of_field(layer, i);
-  return names.empty() ? "none" : names;
+  return list_of(std::views::iota(0, layer.GetLayerDefn()->GetFieldCount()),
+                 [&layer](int i) { return name_of_field(layer, i); });
 }
 
 bool differ(double a, double b) { return std::abs(a - b) > 1e-3 * std::max(1.0, std::abs(a)); }

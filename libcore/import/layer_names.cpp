@@ -9,12 +9,6 @@
 
 namespace talus {
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list.empty() ? "none" : list;
-}
-
 std::vector<std::string> parted(const std::string& list, char sign) {
   std::vector<std::string> words;
   for (std::size_t begin = 0; begin <= list.size();) {

@@ -7,9 +7,6 @@
 
 namespace talus {
 
-/// "index, intermediate"; "none" for an empty list.
-[[nodiscard]] std::string list_of(const std::vector<std::string>& names);
-
 /// The words between the signs, without blanks around them; empty ones are left out.
 [[nodiscard]] std::vector<std::string> parted(const std::string& list, char sign);
 

@@ -6,6 +6,7 @@
 
 #include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "import/layer_names.hpp"
 #include "import/layer_shapes_gdal.hpp"
 #include "import/open_layer_gdal.hpp"

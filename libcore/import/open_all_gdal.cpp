@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
+#include "base/file_paths.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "import/crs_place_gdal.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 // Laser scans take a library that not every system has; text takes none.
 void refuse_laser_scan(const std::string& path) {
-  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  const std::string extension = extension_of(path);
   if (extension != ".las" && extension != ".laz" && extension != ".e57") return;
   throw InputError({path}, "is a laser scan, which is not read as it is",
                    ground_points_command(path));

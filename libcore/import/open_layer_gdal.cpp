@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "import/layer_names.hpp"
 #include "import/layer_shapes_gdal.hpp"
 #include "import/vector_dataset_gdal.hpp"

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -20,6 +19,7 @@
 #include "base/read_file.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "import/crs_place_gdal.hpp"
 #include "import/drawing_unit_gdal.hpp"
 #include "import/raw_inputs_gdal.hpp"
@@ -32,10 +32,6 @@
 
 namespace talus {
 namespace {
-
-std::string extension_of(const std::string& path) {
-  return lower(std::filesystem::path(path).extension().string());
-}
 
 bool is_ply(const std::string& path) {
   const std::string head = first_bytes(path, 4);
@@ -229,20 +225,19 @@ double unit_of_landxml(const CPLXMLNode* root, const std::string& path, double u
 const CPLXMLNode* chosen_surface(const CPLXMLNode* root, const std::string& path,
                                  const std::string& layer) {
   std::vector<const CPLXMLNode*> surfaces;
-  std::string names, first;
+  std::vector<std::string> names;
   for_each_element(root, "Surface", [&](const CPLXMLNode* surface) {
     const std::string name = CPLGetXMLValue(surface, "name", "unnamed");
     if (layer.empty() || layer == name) surfaces.push_back(surface);
-    if (first.empty()) first = name;
-    names += (names.empty() ? "" : ", ") + name;
+    names.push_back(name);
   });
   if (surfaces.size() != 1)
     throw InputError({path},
                      std::to_string(surfaces.size()) + " surfaces" +
                          (layer.empty() ? "" : " called " + layer) + ", expected one" +
-                         (names.empty() ? "" : "; there are: " + names),
+                         (names.empty() ? "" : "; there are: " + list_of(names)),
                      names.empty() ? "export the ground as a surface"
-                                   : "choose one: '" + path + "|layername=" + first + "'");
+                                   : "choose one: '" + path + "|layername=" + names.front() + "'");
   return surfaces.front();
 }
 

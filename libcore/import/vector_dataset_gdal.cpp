@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/file_paths.hpp"
 #include "base/text.hpp"
 #include "import/point_table.hpp"
 #include "io/archives_gdal.hpp"
@@ -20,10 +21,6 @@
 namespace talus {
 namespace fs = std::filesystem;
 namespace {
-
-std::string extension_of(const std::string& path) {
-  return lower(fs::path(path).extension().string());
-}
 
 // --- tables of points ----------------------------------------------------------------------------
 

@@ -12,17 +12,15 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/file_paths.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "io/errors_gdal.hpp"
 
 namespace talus {
 namespace fs = std::filesystem;
 namespace {
-
-std::string extension_of(const std::string& path) {
-  return lower(fs::path(path).extension().string());
-}
 
 // What accompanies a file of data.
 bool is_companion(const std::string& path, Contents contents, const std::set<std::string>& all) {
@@ -134,12 +132,6 @@ std::string elevation_model_among(const std::vector<std::string>& names) {
     for (const std::string& name : names)
       if (lower(fs::path(name).filename().string()).find(word) != std::string::npos) return name;
   return names.front();
-}
-
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include "base/file_paths.hpp"
 #include "base/sha256.hpp"
-#include "base/text.hpp"
 #include "io/dataset_files_gdal.hpp"
 
 namespace talus {
@@ -13,7 +12,7 @@ namespace {
 
 // A GeoTIFF names no further file whose values count where another data set reads it.
 bool may_name_others(const std::string& file) {
-  const std::string ending = lower(std::filesystem::path(file).extension().string());
+  const std::string ending = extension_of(file);
   return ending != ".tif" && ending != ".tiff";
 }
 

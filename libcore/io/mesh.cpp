@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <sstream>
 #include <tuple>
 
 #include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
+#include "base/file_paths.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 
@@ -137,7 +137,7 @@ std::vector<MeshBody> bodies_of(const Mesh& mesh) {
 std::vector<MeshBody> read_mesh(const std::string& path) {
   const std::string content = read_file(path, "give an OBJ, PLY, OFF or STL file");
   if (content.empty()) throw InputError({path}, "is empty", "give an OBJ, PLY, OFF or STL file");
-  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  const std::string extension = extension_of(path);
   if (extension == ".obj") return bodies_of(parse_obj(content, path));
   if (extension == ".ply") return bodies_of(parse_ply(content, path));
   if (extension == ".off") return bodies_of(parse_off(content, path));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/file_paths.hpp"
 #include "base/read_file.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
@@ -104,7 +105,7 @@ void refuse_folder(const std::string& path) {
 // Deliveries that need another step first.
 void refuse_what_is_not_a_raster(const std::string& path) {
   std::error_code error;
-  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  const std::string extension = extension_of(path);
   const bool is_folder = std::filesystem::is_directory(path, error);
   if (is_folder && extension != ".adf" && GDALIdentifyDriver(path.c_str(), nullptr) == nullptr)
     refuse_folder(path);
@@ -118,7 +119,7 @@ void refuse_what_is_not_a_raster(const std::string& path) {
 void CloseDataset::operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 
 std::string way_to_read(const std::string& path, const std::string& otherwise) {
-  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  const std::string extension = extension_of(path);
   constexpr std::size_t enough = 1 << 16;
   if (extension == ".asc" && lower(first_bytes(path, enough)).find("nan") != std::string::npos)
     return "GDAL takes no row that begins with nan: sed 's/[nN][aA][nN]/-9999/g' " +

@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "setup/fence_candidates.hpp"
 
 namespace talus {
@@ -78,14 +79,12 @@ int protected_object(const Site& site, const FenceSearchSettings& search) {
                      "add [object.NAME] with its polygon, line or position_m, and protect = "
                      "\"NAME\"");
   const std::string nearest = nearest_name(search.protect, names);
-  std::string known;
-  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
   throw InputError(where_of_search(site, search),
                    search.protect.empty()
                        ? "does not say what it protects"
                        : "protects \"" + search.protect + "\", which is no object",
                    (nearest.empty() ? std::string() : "did you mean " + nearest + "? ") +
-                       "protect names an [object.*]: " + known);
+                       "protect names an [object.*]: " + list_of(names));
 }
 
 SearchCandidates search_candidates(InputLog& log, const Site& site, const Trn& trn,

@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 
 namespace talus {
 
@@ -58,10 +59,9 @@ void check_sliding_set(const Site& site, const FailurePlanes& found) {
     const bool is_there = std::any_of(found.planes.begin(), found.planes.end(),
                                       [&](const FailurePlane& plane) { return plane.set == name; });
     if (is_there) continue;
-    std::string names;
-    for (const FailurePlane& plane : found.planes) names += (names.empty() ? "" : ", ") + plane.set;
     throw InputError(where_of(site, "source.sliding_set"),
-                     "there is no joint set " + name + "; there are: " + names);
+                     "there is no joint set " + name +
+                         "; there are: " + list_of(found.planes, &FailurePlane::set));
   }
 }
 

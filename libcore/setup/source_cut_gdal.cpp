@@ -112,12 +112,11 @@ double base_level_curvature(InputLog& log, const BlocksWork& work) {
 const PlannedSet& set_named(const BlocksWork& work, const std::string& name) {
   for (const PlannedSet& planned : work.sets)
     if (planned.set.name == name) return planned;
-  std::string names;
-  for (const PlannedSet& planned : work.sets)
-    names += (names.empty() ? "" : ", ") + planned.set.name;
-  throw InputError(where_of(work.site, "source.daylight"),
-                   "there is no joint set " + name + "; there are: " + names,
-                   "name a set, two (\"one + other\"), or a plunge in degrees");
+  throw InputError(
+      where_of(work.site, "source.daylight"),
+      "there is no joint set " + name + "; there are: " +
+          list_of(work.sets, [](const PlannedSet& planned) { return planned.set.name; }),
+      "name a set, two (\"one + other\"), or a plunge in degrees");
 }
 
 // The direction that source.daylight names.

@@ -576,8 +576,7 @@ std::vector<DrawnKey> values_in_effect(const Site& site) {
 }
 
 std::string text_of(const Site& site, const QuantitySettings& q) {
-  std::string words;
-  for (const std::string& path : q.keys) words += (words.empty() ? "" : ", ") + path;
+  std::string words = list_of(q.keys);
   words += q.apply == "add"      ? ": what is added is drawn from "
            : q.apply == "factor" ? ": a factor is drawn from "
                                  : ": drawn from ";

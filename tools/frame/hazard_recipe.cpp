@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/words.hpp"
+
 namespace talus {
 
 std::optional<std::string> recipe_file(const Site& site) {
@@ -11,12 +13,10 @@ std::optional<std::string> recipe_file(const Site& site) {
     return std::nullopt;
   const std::string path = resolved(site, name);
   if (std::filesystem::exists(path)) return path;
-  std::string known;
-  for (const std::string& other : shipped_recipes) known += (known.empty() ? "" : ", ") + other;
   throw InputError(where_of(site, "hazard.recipe"),
                    "recipe is \"" + name + "\", which is neither known nor a file",
-                   "known: " + known + "; or the path of a file like share/hazard/" +
-                       shipped_recipes[0] + ".toml");
+                   "known: " + list_of(shipped_recipes) +
+                       "; or the path of a file like share/hazard/" + shipped_recipes[0] + ".toml");
 }
 
 }  // namespace talus

@@ -39,7 +39,7 @@ Owner owner_of(const std::string& path) {
                                                    ".qix", ".sbn", ".sbx", ".aux", ".wld",
                                                    ".tfw", ".jgw", ".pgw", ".hdr"};
   const fs::path whole = path;
-  if (!extensions.contains(lower(whole.extension().string()))) return {};
+  if (!extensions.contains(extension_of(path))) return {};
   return {"", (whole.parent_path() / whole.stem()).string()};
 }
 
