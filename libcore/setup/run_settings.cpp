@@ -15,29 +15,6 @@ double duration_reached(const SolverSettings& solver) {
   return std::ceil(solver.duration_s / dt - 0.5) * dt;
 }
 
-// A slide whose blocks pass through each other must not look like a result.
-void warn_of_blocks_apart(InputLog& log, const ScenePlan& plan, DdaInputs& inputs) {
-  const int n = n_blocks(inputs.parts.blocks);
-  if (n < 2 || plan.block_contacts) return;
-  inputs.warnings.push_back(std::to_string(n) +
-                            " blocks move as if each were alone: contacts "
-                            "between them are not computed");
-  log.warn(inputs.warnings.back());
-}
-
-// Whoever asks for stress must not read it off blocks that have none.
-void warn_of_rigid_blocks(InputLog& log, const Site& site, const ScenePlan& plan,
-                          DdaInputs& inputs) {
-  const bool asked_for = site.output.strain || site.solver.strain == "on";
-  if (!asked_for || site.solver.law != "talus" || !plan.block_contacts ||
-      n_blocks(inputs.parts.blocks) < 2)
-    return;
-  inputs.warnings.push_back(
-      "strains are asked for: law talus computes blocks that touch each other rigid, their strains "
-      "stay as they were");
-  log.warn(inputs.warnings.back());
-}
-
 }  // namespace
 
 void check_times(const Site& site) {
@@ -67,50 +44,37 @@ bool seed_draws(const Site& site) {
 
 std::vector<std::string> warn_of_settings(InputLog& log, const Site& site) {
   std::vector<std::string> warnings;
-  const double reached = duration_reached(site.solver);
-  if (std::abs(reached - site.solver.duration_s) > 1e-6 * time_step(site.solver)) {
-    warnings.push_back("the run lasts " + text(reached, 6) + " s, not " +
-                       text(site.solver.duration_s, 6) + " s: it is whole steps of " +
-                       text(time_step(site.solver), 6) + " s");
-    log.warn(warnings.back());
-  }
-  const bool any_stands = std::any_of(site.fences.begin(), site.fences.end(),
-                                      [](const FenceSettings& fence) { return fence.active; });
-  if (any_stands && site.solver.law == "paper") {
-    warnings.push_back("fences stop nothing with law paper: what crosses their lines is recorded");
-    log.warn(warnings.back());
-  }
-  const bool has_forest = std::any_of(site.forests.begin(), site.forests.end(),
-                                      [](const ForestSettings& forest) { return forest.active; });
-  if (has_forest && site.solver.law == "paper") {
-    warnings.push_back("forests stop nothing with law paper");
-    log.warn(warnings.back());
-  }
+  const auto warn = [&](const std::string& words) {
+    warnings.push_back(words);
+    log.warn(words);
+  };
+  const SolverSettings& solver = site.solver;
+  const bool is_paper = solver.law == "paper";
+  const double reached = duration_reached(solver);
+  if (std::abs(reached - solver.duration_s) > 1e-6 * time_step(solver))
+    warn("the run lasts " + text(reached, 6) + " s, not " + text(solver.duration_s, 6) +
+         " s: it is whole steps of " + text(time_step(solver), 6) + " s");
+  const auto is_active = [](const auto& section) { return section.active; };
+  if (is_paper && std::any_of(site.fences.begin(), site.fences.end(), is_active))
+    warn("fences stop nothing with law paper: what crosses their lines is recorded");
+  if (is_paper && std::any_of(site.forests.begin(), site.forests.end(), is_active))
+    warn("forests stop nothing with law paper");
   for (const FenceSettings& fence : site.fences)
-    if (!std::isnan(fence.max_deflection_m) && std::isnan(fence.capacity_kj)) {
-      warnings.push_back("fence." + fence.name +
-                         ".max_deflection_m does nothing without capacity_kj: the fence is rigid");
-      log.warn(warnings.back());
-    }
+    if (!std::isnan(fence.max_deflection_m) && std::isnan(fence.capacity_kj))
+      warn("fence." + fence.name +
+           ".max_deflection_m does nothing without capacity_kj: the fence is rigid");
   for (const GroundSettings& ground : site.grounds)
-    if (site.solver.law == "paper" && yields(ground_class(ground))) {
-      warnings.push_back("ground." + ground.name +
-                         " gives way with law talus alone: law paper knows its friction and COR");
-      log.warn(warnings.back());
-    }
-  if (!site.quantities.empty() && site.uncertainty.sample == 0) {
-    warnings.push_back(std::to_string(site.quantities.size()) +
-                       (site.quantities.size() == 1 ? " quantity" : " quantities") +
-                       " of [uncertainty] not drawn: no --sample is given, so the values of the "
-                       "site file hold");
-    log.warn(warnings.back());
-  }
-  if (site.solver.seed != SolverSettings{}.seed && !seed_draws(site)) {
-    warnings.push_back(
+    if (is_paper && yields(ground_class(ground)))
+      warn("ground." + ground.name +
+           " gives way with law talus alone: law paper knows its friction and COR");
+  if (!site.quantities.empty() && site.uncertainty.sample == 0)
+    warn(std::to_string(site.quantities.size()) +
+         (site.quantities.size() == 1 ? " quantity" : " quantities") +
+         " of [uncertainty] not drawn: no --sample is given, so the values of the site file hold");
+  if (solver.seed != SolverSettings{}.seed && !seed_draws(site))
+    warn(
         "the seed draws nothing: start_jitter_m_s, friction_scatter_deg, cor_scatter and "
         "rolling_scatter are 0, so other seeds give the same run");
-    log.warn(warnings.back());
-  }
   for (const UnusualValue& value : unusual_values(site)) {
     warnings.push_back(value.key + " " + value.finding);
     log.warn(where_of(site, value.key).text() + ": " + warnings.back());
@@ -142,8 +106,22 @@ void cut_fragments(InputLog& log, const Site& site, DdaInputs& inputs) {
 }
 
 void warn_of_plan(InputLog& log, const Site& site, const ScenePlan& plan, DdaInputs& inputs) {
-  warn_of_blocks_apart(log, plan, inputs);
-  warn_of_rigid_blocks(log, site, plan, inputs);
+  const int n = n_blocks(inputs.parts.blocks);
+  const bool has_strains_asked_for = site.output.strain || site.solver.strain == "on";
+  if (n < 2) return;
+  const auto warn = [&](const std::string& words) {
+    inputs.warnings.push_back(words);
+    log.warn(words);
+  };
+  // A slide whose blocks pass through each other must not look like a result.
+  if (!plan.block_contacts)
+    warn(std::to_string(n) +
+         " blocks move as if each were alone: contacts between them are not computed");
+  // Whoever asks for stress must not read it off blocks that have none.
+  else if (has_strains_asked_for && site.solver.law == "talus")
+    warn(
+        "strains are asked for: law talus computes blocks that touch each other rigid, their "
+        "strains stay as they were");
 }
 
 }  // namespace talus
