@@ -37,17 +37,6 @@ struct FenceCandidates {
 [[nodiscard]] FenceCandidates fence_candidates(const Trn& trn, const RecordObject& object,
                                                const CandidateSettings& settings);
 
-/// A grid of values for iso_lines(): node (r, c) at first + spacing (c, r).
-struct ValueGrid {
-  Vec2 first = Vec2::Zero();
-  double spacing = 1;  ///< [m]
-  int n_rows = 0, n_cols = 0;
-  std::vector<double> value;  ///< NaN: no line goes there                        (n_rows * n_cols)
-};
-/// Where the value is `level`, linear along the edges of the grid; a closed line ends beside its
-/// beginning. Marching squares; a saddle goes by the mean of its four nodes.
-[[nodiscard]] std::vector<std::vector<Vec2>> iso_lines(const ValueGrid& grid, double level);
-
 /// Points at equal distances along a line, no farther apart than `spacing`, both ends among them.
 [[nodiscard]] std::vector<Vec2> evenly_spaced(const std::vector<Vec2>& line, double spacing);
 

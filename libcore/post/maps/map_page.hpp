@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/level_lines.hpp"
 #include "io/style.hpp"
-#include "post/maps/level_lines.hpp"
 #include "post/maps/map_places.hpp"
 #include "post/maps/shading.hpp"
 

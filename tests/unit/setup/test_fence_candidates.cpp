@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "setup/fence_candidates.hpp"
 
@@ -72,20 +71,6 @@ TEST(FenceCandidates, AreNoMoreThanAskedForAndNoneWithoutRoom) {
   EXPECT_GT(none.n_in_zone, 0);
   // at the upper edge of the terrain nothing lies higher
   EXPECT_EQ(fence_candidates(trn, house(0, 0, 300, 300), settings).n_in_zone, 0);
-}
-
-TEST(IsoLines, OfAConeAreClosedCircles) {
-  ValueGrid grid{{-50, -50}, 2, 51, 51, {}};
-  for (int r = 0; r < 51; ++r)
-    for (int c = 0; c < 51; ++c) grid.value.push_back(Vec2(2 * c - 50, 2 * r - 50).norm());
-  const auto lines = iso_lines(grid, 31);
-  ASSERT_EQ(lines.size(), 1u);
-  double length = 0;
-  for (std::size_t i = 0; i < lines[0].size(); ++i) {
-    EXPECT_NEAR(lines[0][i].norm(), 31, 0.05);
-    length += (lines[0][(i + 1) % lines[0].size()] - lines[0][i]).norm();
-  }
-  EXPECT_NEAR(length, 2 * std::numbers::pi * 31, 1);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "post/maps/level_lines.hpp"
+#include "geometry/level_lines.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 namespace talus {
 namespace {
 
-// A side of a square: 2 * (number of its western or northern sample), + 1 where it goes south.
+// A side of a square: 2 * (number of its first sample), + 1 where it goes to the next row.
 using Side = std::int64_t;
 
 // The sides that a line joins at a side: one, or two where it goes on.
@@ -33,12 +33,12 @@ Vec2 place_on(const SampledField& field, Side side, double level) {
   const auto number = side / 2;
   const int row = static_cast<int>(number / field.n_cols),
             col = static_cast<int>(number % field.n_cols);
-  const bool goes_south = side % 2 != 0;
+  const bool goes_on = side % 2 != 0;
   const double a = sample(field, row, col),
-               b = sample(field, row + (goes_south ? 1 : 0), col + (goes_south ? 0 : 1));
+               b = sample(field, row + (goes_on ? 1 : 0), col + (goes_on ? 0 : 1));
   const double share = (level - a) / (b - a);
-  return field.corner +
-         field.spacing * (goes_south ? Vec2(col, -row - share) : Vec2(col + share, -row));
+  return field.corner + field.spacing * (goes_on ? Vec2(col, field.north * (row + share))
+                                                 : Vec2(col + share, field.north * row));
 }
 
 // The pieces of the line in a square.

@@ -1,4 +1,4 @@
-// libcore/post/maps/level_lines.hpp
+// libcore/geometry/level_lines.hpp: public
 // Lines of equal value of a field that is sampled on a grid.
 #pragma once
 
@@ -8,12 +8,13 @@
 
 namespace talus {
 
-/// Samples at corner + spacing * (col, -row); NaN: unknown.
+/// Samples at corner + spacing * (col, north * row); NaN: unknown.
 struct SampledField {
-  Vec2 corner = Vec2::Zero();  ///< of the north-western sample [m]
+  Vec2 corner = Vec2::Zero();  ///< of the first sample [m]
   double spacing = 1;          ///< [m]
   int n_rows = 0, n_cols = 0;
   std::vector<double> value;  ///<                                              (n_rows x n_cols)
+  double north = -1;          ///< where rows go: -1 to the south, 1 to the north
 };
 
 struct LevelLine {
