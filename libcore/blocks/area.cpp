@@ -10,13 +10,6 @@
 namespace talus {
 namespace {
 
-double ring_area(const std::vector<Vec2>& ring) {
-  double twice = 0;
-  for (size_t k = 0; k < ring.size(); ++k)
-    twice += cross(ring[k] - ring[0], ring[(k + 1) % ring.size()] - ring[0]);
-  return twice / 2;
-}
-
 struct Segment {
   Vec2 a, b;
   size_t ring, index, n;  // of its ring

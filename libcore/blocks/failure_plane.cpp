@@ -25,22 +25,13 @@ double plane_height(const Attitude& plane, const Vec3& point, const Vec2& place)
 
 // --- the foot ----------------------------------------------------------------------------------
 
-double signed_area(const std::vector<Vec2>& ring) {
-  double twice = 0;
-  for (size_t k = 0; k < ring.size(); ++k) {
-    const Vec2 a = ring[k] - ring[0], b = ring[(k + 1) % ring.size()] - ring[0];
-    twice += cross(a, b);
-  }
-  return twice / 2;
-}
-
 // Whether the area lies on the left of a ring as it runs: of outlines that run counter-clockwise,
 // of holes that run clockwise.
 bool is_left_inside(const Area& area, size_t ring) {
   int n_around = 0;
   for (size_t other = 0; other < area.rings.size(); ++other)
     n_around += other != ring && contains(Area{{area.rings[other]}}, area.rings[ring][0]);
-  return (signed_area(area.rings[ring]) > 0) == (n_around % 2 == 0);
+  return (ring_area(area.rings[ring]) > 0) == (n_around % 2 == 0);
 }
 
 // Ground that rises within three cells before the mass stops it as the foot itself does.

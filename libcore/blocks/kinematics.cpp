@@ -20,15 +20,6 @@ constexpr double pi = std::numbers::pi;
 
 double slope_of(const Vec3& face) { return std::acos(std::clamp(face.z(), -1.0, 1.0)); }
 
-double area_of_ring(const std::vector<Vec2>& ring) {
-  double twice = 0;
-  for (size_t k = 1; k + 1 < ring.size(); ++k) {
-    const Vec2 a = ring[k] - ring[0], b = ring[k + 1] - ring[0];
-    twice += cross(a, b);
-  }
-  return std::abs(twice) / 2;
-}
-
 Attitude draw_of(const KinematicSet& set, size_t draw) {
   return set.draws.empty() ? set.mean : set.draws[draw % set.draws.size()];
 }
@@ -74,7 +65,7 @@ std::vector<FacePiece> face_in(const Trn& ground, const Area& area) {
     if (!is_known(ground, one.triangle)) continue;
     FacePiece piece;
     piece.normal = triangle_plane(ground, one.triangle).normal;
-    for (const auto& ring : one.pieces) piece.area += area_of_ring(ring) / piece.normal.z();
+    for (const auto& ring : one.pieces) piece.area += std::abs(ring_area(ring)) / piece.normal.z();
     face.push_back(piece);
   }
   return face;

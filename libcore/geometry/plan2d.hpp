@@ -45,4 +45,24 @@ template <class Point>
   return inside;
 }
 
+/// Area in plan of a ring whose first point is not repeated; positive when it runs
+/// counter-clockwise. Points in plan (Vec2) or in space (Vec3) [m2].
+template <class Points>
+[[nodiscard]] double ring_area(const Points& ring) {
+  double twice = 0;
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
+    const Vec2 a = (ring[k] - ring[0]).template head<2>();
+    const Vec2 b = (ring[k + 1] - ring[0]).template head<2>();
+    twice += cross(a, b);
+  }
+  return twice / 2;
+}
+
+/// Length of an open line [m].
+[[nodiscard]] inline double length_of(std::span<const Vec2> line) {
+  double length = 0;
+  for (std::size_t k = 1; k < line.size(); ++k) length += (line[k] - line[k - 1]).norm();
+  return length;
+}
+
 }  // namespace talus

@@ -8,18 +8,6 @@
 #include "import/raw_inputs_gdal.hpp"
 
 namespace talus {
-namespace {
-
-double area_of_ring(const std::vector<Vec3>& ring) {
-  double twice = 0;
-  for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
-    const Vec2 a = (ring[k] - ring[0]).head<2>(), b = (ring[k + 1] - ring[0]).head<2>();
-    twice += cross(a, b);
-  }
-  return std::abs(twice) / 2;
-}
-
-}  // namespace
 
 InputRole role_of(VectorKind kind) {
   if (kind == VectorKind::points) return InputRole::site_points;
@@ -39,7 +27,7 @@ VectorShapes take_shapes(RawLayer& layer) {
                               lines.points.begin() + lines.begin[l + 1]);
     if (layer.polygon.empty()) continue;
     const bool is_hole = l > 0 && layer.polygon[l] == layer.polygon[l - 1];
-    found.area_m2 += (is_hole ? -1 : 1) * area_of_ring(found.shapes.back());
+    found.area_m2 += (is_hole ? -1 : 1) * std::abs(ring_area(found.shapes.back()));
   }
   found.polygon = std::move(layer.polygon);
   return found;

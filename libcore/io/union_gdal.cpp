@@ -32,13 +32,8 @@ Ring without_straight_corners(const Ring& ring, double tolerance) {
 }
 
 double width_of(const Ring& ring) {
-  double twice = 0, around = 0;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-    twice += cross(a - ring[0], b - ring[0]);
-    around += (b - a).norm();
-  }
-  return around > 0 ? std::abs(twice) / around : 0;
+  const double around = length_of(ring) + (ring.front() - ring.back()).norm();
+  return around > 0 ? 2 * std::abs(ring_area(ring)) / around : 0;
 }
 
 // Corners that differ by rounding become one, so that pieces share their edges.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "geometry/level_lines.hpp"
+#include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
 
 namespace talus {
@@ -79,12 +80,6 @@ SampledField value_grid(const Trn& trn, const RecordObject& object,
 
 double slope_at(const Trn& trn, const Vec2& p) {
   return triangle_gradient(trn, triangle_at(trn, p.x(), p.y())).norm();
-}
-
-double length_of(const std::vector<Vec2>& line) {
-  double length = 0;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) length += (line[i + 1] - line[i]).norm();
-  return length;
 }
 
 bool crosses_itself(const std::vector<Vec2>& line) {

@@ -14,6 +14,7 @@
 #include "blocks/placement.hpp"
 #include "blocks/shapes.hpp"
 #include "blocks/solid.hpp"
+#include "geometry/plan2d.hpp"
 #include "geometry/repeated_points.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/mesh.hpp"
@@ -138,12 +139,6 @@ void check_number(const PlacedContext& context, const PlacedSettings& section, d
 }
 
 // --- positions ---------------------------------------------------------------------------------
-
-double length_of(const std::vector<Vec2>& line) {
-  double sum = 0;
-  for (size_t k = 0; k + 1 < line.size(); ++k) sum += (line[k + 1] - line[k]).norm();
-  return sum;
-}
 
 std::vector<Vec3> release_from_file(const PlacedContext& context, const PlacedSettings& section) {
   const SitePlace release = release_of(section);

@@ -9,6 +9,7 @@
 #include "base/units.hpp"
 #include "base/words.hpp"
 #include "geometry/convex_outline.hpp"
+#include "geometry/plan2d.hpp"
 #include "io/block_pictures.hpp"
 #include "io/hillshade_gdal.hpp"
 #include "report/check_view.hpp"
@@ -190,12 +191,6 @@ std::string caption_of_map(const CheckView& view, const Trn& part) {
     words += " <span class=\"key\"><i class=\"object-key\"></i>object.</span>";
   if (!far.empty()) words += " Beyond the map: " + far + ".";
   return words + " Contours every " + text(contour_interval(part)) + " m.";
-}
-
-double length_of(const std::vector<Vec2>& line) {
-  double length = 0;
-  for (size_t k = 1; k < line.size(); ++k) length += (line[k] - line[k - 1]).norm();
-  return length;
 }
 
 // Where the fall lines are long, the mass is a speck in their section: it gets one of its own.
