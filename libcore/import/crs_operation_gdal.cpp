@@ -112,15 +112,6 @@ std::string way_to_grid(const std::string& grid) { return "fetch it with projsyn
 
 // --- transformations of GDAL that follow one operation -------------------------------------------
 
-std::string as_wkt(const OGRSpatialReference& srs) {
-  char* wkt = nullptr;
-  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-  srs.exportToWkt(&wkt, options);
-  std::string words(wkt != nullptr ? wkt : "");
-  CPLFree(wkt);
-  return words;
-}
-
 using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
 
 Transformation transformation_by(const std::string& from, const std::string& to,
@@ -217,7 +208,7 @@ std::string in_space(const std::string& plan, const std::string& vertical, const
   if (vertical != ellipsoidal_heights) return with_heights(plan, vertical, where);
   OGRSpatialReference srs = parsed_crs(plan);
   srs.PromoteTo3D(nullptr);
-  return as_wkt(srs);
+  return wkt_of(&srs);
 }
 
 // The best operation that PROJ knows between two systems with heights; null when it knows none.

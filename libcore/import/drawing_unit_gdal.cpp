@@ -17,43 +17,34 @@ struct CloseFile {
   void operator()(VSILFILE* file) const { VSIFCloseL(file); }
 };
 
+constexpr double us_foot = 1200.0 / 3937;
+
 // Codes of $INSUNITS; those left out are no lengths that maps are drawn in.
+struct UnitCode {
+  int code;
+  double metres;
+  const char* name;
+};
+constexpr UnitCode unit_codes[] = {{inches, 0.0254, "inches"},
+                                   {2, 0.3048, "feet"},
+                                   {3, 1609.344, "miles"},
+                                   {4, 0.001, "millimetres"},
+                                   {5, 0.01, "centimetres"},
+                                   {6, 1, "metres"},
+                                   {7, 1000, "kilometres"},
+                                   {10, 0.9144, "yards"},
+                                   {14, 0.1, "decimetres"},
+                                   {15, 10, "decametres"},
+                                   {16, 100, "hectometres"},
+                                   {21, us_foot, "US survey feet"},
+                                   {22, us_foot / 12, "US survey inches"},
+                                   {23, us_foot * 3, "US survey yards"},
+                                   {24, us_foot * 5280, "US survey miles"}};
+
 DrawingUnit unit_of_code(int code) {
-  constexpr double us_foot = 1200.0 / 3937;
-  switch (code) {
-    case inches:
-      return {code, 0.0254, "inches"};
-    case 2:
-      return {code, 0.3048, "feet"};
-    case 3:
-      return {code, 1609.344, "miles"};
-    case 4:
-      return {code, 0.001, "millimetres"};
-    case 5:
-      return {code, 0.01, "centimetres"};
-    case 6:
-      return {code, 1, "metres"};
-    case 7:
-      return {code, 1000, "kilometres"};
-    case 10:
-      return {code, 0.9144, "yards"};
-    case 14:
-      return {code, 0.1, "decimetres"};
-    case 15:
-      return {code, 10, "decametres"};
-    case 16:
-      return {code, 100, "hectometres"};
-    case 21:
-      return {code, us_foot, "US survey feet"};
-    case 22:
-      return {code, us_foot / 12, "US survey inches"};
-    case 23:
-      return {code, us_foot * 3, "US survey yards"};
-    case 24:
-      return {code, us_foot * 5280, "US survey miles"};
-    default:
-      return {code, 0, "units of no known length"};
-  }
+  for (const UnitCode& unit : unit_codes)
+    if (unit.code == code) return {code, unit.metres, unit.name};
+  return {code, 0, "units of no known length"};
 }
 
 std::string trimmed(const char* line) {

@@ -242,7 +242,7 @@ void check_named(const OpenLayer& source) {
   if (!source.filter.empty()) return;
   const auto refuse = [&](const std::string& name) {
     return InputError({source.ref.path, 0, "layer " + name},
-                      std::string("holds no ") + plural(source.role.shape),
+                      "holds no " + plural(source.role.shape),
                       "leave it out, or choose another one");
   };
   if (!source.is_drawing) {

@@ -19,18 +19,7 @@ const char* singular(LayerShape shape) {
   }
 }
 
-const char* plural(LayerShape shape) {
-  switch (shape) {
-    case LayerShape::line:
-      return "lines";
-    case LayerShape::point:
-      return "points";
-    case LayerShape::face:
-      return "faces";
-    default:
-      return "polygons";
-  }
-}
+std::string plural(LayerShape shape) { return std::string(singular(shape)) + "s"; }
 
 bool is_face(const OGRGeometry& geometry) {
   return fits(geometry.getGeometryType(), LayerShape::face);

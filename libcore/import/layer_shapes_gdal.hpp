@@ -2,6 +2,8 @@
 // Which geometries are lines, points or areas.
 #pragma once
 
+#include <string>
+
 class OGRGeometry;
 class OGRLineString;
 
@@ -12,7 +14,7 @@ enum class LayerShape { line, point, polygon, face };
 
 /// "line", "lines"
 [[nodiscard]] const char* singular(LayerShape shape);
-[[nodiscard]] const char* plural(LayerShape shape);
+[[nodiscard]] std::string plural(LayerShape shape);
 
 [[nodiscard]] bool is_face(const OGRGeometry& geometry);
 

@@ -169,7 +169,7 @@ RawLayer open_raw(const RequestedLayer& requested) {
   const SourcePath named = parse_source_path(requested.ref.path);
   layer.decide("layer", layer.taken.layer,
                named.layer.empty() && named.layer_id.empty()
-                   ? std::string("the only one with ") + plural(layer.source.role.shape)
+                   ? "the only one with " + plural(layer.source.role.shape)
                    : "named");
   return layer;
 }

@@ -9,6 +9,7 @@
 #include "base/disjoint_sets.hpp"
 #include "base/source_path.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/polygons_gdal.hpp"
 
 namespace talus {
 namespace {
@@ -69,12 +70,7 @@ void check_polygon(const OGRPolygon& polygon, const Where& where) {
 }
 
 void check_polygon(const std::vector<Vec2>& corners, const Where& where) {
-  OGRLinearRing ring;
-  for (const Vec2& corner : corners) ring.addPoint(corner.x(), corner.y());
-  ring.closeRings();
-  OGRPolygon polygon;
-  polygon.addRing(&ring);
-  check(polygon, where, "put the corners in order around the area");
+  check(polygon_of(corners), where, "put the corners in order around the area");
 }
 
 Uniting unite_polygons(Polygons& polygons, const Where& where) {

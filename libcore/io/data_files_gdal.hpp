@@ -1,5 +1,5 @@
 // libcore/io/data_files_gdal.hpp: public
-// Which files a data set is made of, with those of the data sets among them.
+// Which files a data set is made of: a change of any of them is a change of the data set.
 #pragma once
 
 #include <string>
@@ -7,9 +7,11 @@
 
 namespace talus {
 
-/// As dataset_files() of io/dataset_files_gdal.hpp, the files of the data sets among them (the
-/// sources of a virtual raster that another one names, the header beside a source) and those of
-/// sidecars_of() that are there, which GDAL does not name: the encoding of a Shapefile. By name.
+/// The file itself, and what GDAL reads with it: CRS and world files, the parts of a Shapefile, a
+/// journal of SQLite that still holds changes; all files of a folder; the sources of a virtual
+/// raster with their own. By name. Not among them: overviews, indices, and a side file that holds
+/// statistics alone, which programs write that only look. Of a file that GDAL cannot read, or that
+/// is missing: itself.
 [[nodiscard]] std::vector<std::string> data_files(const std::string& path);
 
 /// SHA-256 of all of these; empty where the source is no file (/vsi..., a database).

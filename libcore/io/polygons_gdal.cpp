@@ -2,10 +2,39 @@
 
 #include <ogr_geometry.h>
 
+#include <cmath>
+#include <memory>
 #include <utility>
+
+#include "base/error.hpp"
+#include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
+
+using Ring = std::vector<Vec2>;
+
+bool is_between(const Vec2& a, const Vec2& p, const Vec2& b, double tolerance) {
+  const Vec2 along = b - a;
+  if (along.norm() <= tolerance) return true;
+  return std::abs(cross(along, p - a)) <= tolerance * along.norm() && (p - a).dot(b - p) >= 0;
+}
+
+// Without corners that the sides beside them pass within the tolerance.
+Ring without_straight_corners(const Ring& ring, double tolerance) {
+  Ring out;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec2& before = out.empty() ? ring.back() : out.back();
+    if (!is_between(before, ring[k], ring[(k + 1) % ring.size()], tolerance))
+      out.push_back(ring[k]);
+  }
+  return out;
+}
+
+double width_of(const Ring& ring) {
+  const double around = length_of(ring) + (ring.front() - ring.back()).norm();
+  return around > 0 ? 2 * std::abs(ring_area(ring)) / around : 0;
+}
 
 std::vector<std::vector<Vec2>> rings_of(const OGRPolygon& polygon) {
   std::vector<std::vector<Vec2>> rings;
@@ -28,6 +57,52 @@ std::vector<std::vector<std::vector<Vec2>>> polygons_of(const OGRGeometry& geome
     for (const OGRGeometry* part : *geometry.toGeometryCollection())
       for (auto& polygon : polygons_of(*part)) out.push_back(std::move(polygon));
   return out;
+}
+
+OGRPolygon polygon_of(const std::vector<Vec2>& ring) {
+  OGRLinearRing outline;
+  for (const Vec2& p : ring) outline.addPoint(p.x(), p.y());
+  outline.closeRings();
+  OGRPolygon polygon;
+  polygon.addRing(&outline);
+  return polygon;
+}
+
+std::vector<std::vector<Ring>> union_of(const std::vector<Ring>& pieces, double tolerance) {
+  OGRMultiPolygon all;
+  for (const Ring& piece : pieces) {
+    // corners that differ by rounding become one, so that pieces share their edges
+    const double step = tolerance / 4;
+    Ring rounded;
+    for (const Vec2& p : piece)
+      rounded.emplace_back(std::round(p.x() / step) * step, std::round(p.y() / step) * step);
+    const OGRPolygon polygon = polygon_of(rounded);
+    if (polygon.get_Area() > 0) all.addGeometry(&polygon);
+  }
+  if (all.getNumGeometries() == 0) return {};
+  const std::unique_ptr<OGRGeometry> joined(all.UnionCascaded());
+  if (!joined) throw InputError({}, "an area cannot be put together from its pieces");
+  std::vector<std::vector<Ring>> out;
+  for (const std::vector<Ring>& rings : polygons_of(*joined)) {
+    std::vector<Ring> kept;
+    for (const Ring& ring : rings)
+      if (width_of(ring) > tolerance) kept.push_back(without_straight_corners(ring, tolerance));
+    // A polygon whose outer ring is a sliver holds nothing.
+    if (!kept.empty() && width_of(rings[0]) > tolerance) out.push_back(std::move(kept));
+  }
+  return out;
+}
+
+std::vector<std::vector<std::vector<Vec2>>> buffer_of(const std::vector<Vec2>& line,
+                                                      double radius) {
+  TALUS_ASSERT(!line.empty() && radius > 0);
+  OGRLineString string;
+  for (const Vec2& p : line) string.addPoint(p.x(), p.y());
+  const OGRPoint point(line[0].x(), line[0].y());
+  const OGRGeometry& shape = line.size() == 1 ? static_cast<const OGRGeometry&>(point) : string;
+  const std::unique_ptr<OGRGeometry> area(shape.Buffer(radius, 8));
+  if (!area) throw InputError({}, "an area around a line cannot be made");
+  return polygons_of(*area);
 }
 
 }  // namespace talus

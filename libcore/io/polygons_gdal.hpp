@@ -1,5 +1,6 @@
-// libcore/io/polygons_gdal.hpp
-// Polygons of GDAL as rings of points.
+// libcore/io/polygons_gdal.hpp: public
+// Areas that are put together, or lie about a line: polygons of rings of points, the outer ring
+// first, none closed by a repeated point.
 #pragma once
 
 #include <vector>
@@ -7,10 +8,22 @@
 #include "base/types.hpp"
 
 class OGRGeometry;
+class OGRPolygon;
 
 namespace talus {
 
-/// Polygon, ring, points, no ring closed by a repeated point; other geometries are left out.
+/// Polygon, ring, points; other geometries are left out.
 [[nodiscard]] std::vector<std::vector<std::vector<Vec2>>> polygons_of(const OGRGeometry& geometry);
+
+[[nodiscard]] OGRPolygon polygon_of(const std::vector<Vec2>& ring);
+
+/// The union of simple rings that meet edge to edge up to `tolerance` [m]. Corners within
+/// `tolerance` of a straight side are left out, and so are rings that are no wider than it.
+[[nodiscard]] std::vector<std::vector<std::vector<Vec2>>> union_of(
+    const std::vector<std::vector<Vec2>>& pieces, double tolerance);
+
+/// The area within `radius` > 0 of a line, or of a single point; circles by 8 sides a quarter.
+[[nodiscard]] std::vector<std::vector<std::vector<Vec2>>> buffer_of(const std::vector<Vec2>& line,
+                                                                    double radius);
 
 }  // namespace talus

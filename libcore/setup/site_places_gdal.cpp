@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "io/areas_gdal.hpp"
-#include "io/buffer_gdal.hpp"
+#include "io/polygons_gdal.hpp"
 #include "scene/site_fence.hpp"
 #include "setup/site_shapes_gdal.hpp"
 #include "terrain/extent_text.hpp"

@@ -8,8 +8,8 @@
 #include "base/units.hpp"
 #include "base/words.hpp"
 #include "blocks/mass_outline.hpp"
+#include "io/polygons_gdal.hpp"
 #include "io/style.hpp"
-#include "io/union_gdal.hpp"
 
 namespace talus {
 namespace {

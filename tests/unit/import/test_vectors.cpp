@@ -10,7 +10,7 @@
 #include "io/block_pictures.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/footprints_gdal.hpp"
-#include "io/union_gdal.hpp"
+#include "io/polygons_gdal.hpp"
 
 namespace {
 
