@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 
 #include "base/error.hpp"
@@ -13,6 +14,13 @@ std::string read_file(const std::string& path, const std::string& hint) {
   std::ifstream file(path, std::ios::binary);
   std::string content;
   std::array<char, 1 << 16> buffer;
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  if (!unknown) {
+    require_memory(static_cast<double>(size), {path}, "its bytes",
+                   "check that it is the file that you mean");
+    content.reserve(size + buffer.size());
+  }
   do {
     file.read(buffer.data(), buffer.size());
     if (content.size() + buffer.size() > content.capacity())  // it will take twice as much
