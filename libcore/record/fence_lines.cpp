@@ -30,7 +30,7 @@ Where where_of_fence(const std::string& site_file, const FenceSettings& fence) {
 std::vector<RecordLine> lines_of_fence(const FenceSettings& fence, const Trn& trn,
                                        const std::vector<std::vector<Vec3>>& corners,
                                        const Where& where) {
-  if (corners.empty()) throw InputError(where, "has no line", "give line or line_file");
+  if (corners.empty()) throw InputError(where, "has no line", "give line or file");
   std::vector<RecordLine> lines;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (fence.active) check_feet(fence, trn, corners[i], where);

@@ -67,8 +67,8 @@ void check_share_no_ground(InputLog& log, const Site& site, const Trn& trn, cons
 std::vector<RecordLine> fence_lines(InputLog& log, const Site& site, const Trn& trn,
                                     const FenceSettings& fence) {
   const Where where = where_of_fence(site.file, fence);
-  if (!fence.line.empty() && !fence.line_file.empty())
-    throw InputError(where, "has both line and line_file", "say where the fence is, once");
+  if (!fence.line.empty() && !fence.file.empty())
+    throw InputError(where, "has both line and file", "say where the fence is, once");
   return lines_of_fence(fence, trn, local_shapes(log, site, trn, place_of(fence)).shapes, where);
 }
 

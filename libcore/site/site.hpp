@@ -154,8 +154,8 @@ struct SolverSettings {
 struct FenceSettings {
   std::string name;
   int line_number = 0;
-  std::vector<Vec3> line;  ///< map x, y of at least two points; or line_file
-  std::string line_file;
+  std::vector<Vec3> line;  ///< map x, y of at least two points; or file
+  std::string file;
   double height_m = 5;
   double capacity_kj = not_given;       ///< of a panel; not given: rigid
   double max_deflection_m = not_given;  ///< where it is used up; not given: half the height

@@ -174,7 +174,7 @@ template <> const std::vector<SiteKey<FenceSettings>>& keys_of() {
   using S = FenceSettings;
   static const std::vector<SiteKey<S>> table = {
       {"line", &S::line, "points of the fence, map x, y", any, "", "a fence needs two points", 2},
-      {"line_file", &S::line_file, "vector file with the fence line, instead of line"},
+      {"file", &S::file, "vector file with the fence line, instead of line"},
       {"height_m", &S::height_m, "height above the ground", {0, 1000, true, false}},
       {"capacity_kj", &S::capacity_kj, "energy that a panel takes before it breaks; rigid when not given", positive},
       {"max_deflection_m", &S::max_deflection_m, "deflection at which one block has used up the capacity; half the height when not given", positive},

@@ -16,7 +16,7 @@ const std::vector<SiteLayer>& site_layers() {
       {"fences",
        "fence",
        lines,
-       "line_",
+       "",
        "Fences",
        {"active", "height_m", "capacity_kj", "max_deflection_m", "post_spacing_m", "cor",
         "friction_deg"}},

@@ -16,7 +16,7 @@ struct SiteLayer {
   std::string name;     ///< "fences"
   std::string section;  ///< of all of its features ("source"), or the group of theirs ("fence")
   Shape shape = areas;
-  std::string prefix;               ///< of the keys that name file, layer and filter: "line_"
+  std::string prefix;               ///< of the key that names the file: "polygon_"
   std::string title;                ///< for people
   std::vector<std::string> fields;  ///< keys that the layer is made with; more may be added
 };

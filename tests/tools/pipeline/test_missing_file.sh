@@ -19,8 +19,8 @@ made slope terrain
 rm slope/map.gpkg
 refused contours terrain
 
-sed 's/^line = .*/line_file = "fence.gpkg"/' site.toml >slope/site.toml
-refused line_file fence.valley
+sed 's/^line = .*/file = "fence.gpkg"/' site.toml >slope/site.toml
+refused file fence.valley
 
 cp site.toml slope/site.toml
 rm -r slope/out

@@ -53,12 +53,12 @@ would "$@"
 would_be "batch blocks check fence maps report runout " "no encoding any more"
 
 # a file that a setting names with the quotes of TOML, and one with its layer
-sed -i 's/^line = .*/line_file = "first.geojson"/' slope/site.toml
+sed -i 's/^line = .*/file = "first.geojson"/' slope/site.toml
 cat >slope/line.geojson <<'END'
 {"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32633"}},"features":[{"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[500060,5200150],[500164,5200150]]}}]}
 END
 cp slope/line.geojson slope/first.geojson
-set -- DDA_FLAGS="--set 'fence.valley.line_file=\"line.geojson\"'" TRN_FLAGS="--reference-points 'points.gpkg|layername=points'"
+set -- DDA_FLAGS="--set 'fence.valley.file=\"line.geojson\"'" TRN_FLAGS="--reference-points 'points.gpkg|layername=points'"
 printf 'x,y,z\n500100,5200200,50\n500120,5200220,55\n500140,5200100,9\n' >points.csv
 ogr2ogr -q -f GPKG -a_srs EPSG:32633 -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z slope/points.gpkg points.csv
 made slope runs "$@"

@@ -5,7 +5,7 @@ site slope
 cat >slope/fence.geojson <<'END'
 {"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32633"}},"features":[{"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[500060,5200150],[500164,5200150]]}}]}
 END
-sed -i 's/^line = .*/line_file = "fence.geojson"/' slope/site.toml
+sed -i 's/^line = .*/file = "fence.geojson"/' slope/site.toml
 made slope
 report() { expect 0 talus-report slope/site.toml --dir slope/out -o slope/out/report.html --qgis slope/out/site.qgz --overwrite; }
 report

@@ -68,10 +68,10 @@ ground_raster = "classes.tif"
 [base_motion]
 file = "shaking.csv"
 [fence.upper]
-line_file = "upper.json"
+file = "upper.json"
 active = false
 [fence.lower]
-line_file = "lower.shp"
+file = "lower.shp"
 active = false
 END2
 

@@ -13,7 +13,7 @@ says "run.h5: recorded another line for fence low than moved.toml"
 cat >line.geojson <<'END'
 {"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32632"}},"features":[{"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[500060,5000010],[500060,5000090]]}}]}
 END
-sed 's/^line = .*/line_file = "line.geojson"/' site.toml >file.toml
+sed 's/^line = .*/file = "line.geojson"/' site.toml >file.toml
 expect 0 places file.toml
 prints "road: 100 % of the blocks"
 sed -i 's/500060/500061/g' line.geojson

@@ -36,7 +36,7 @@ struct SitePlaces : testing::Test {
 
 TEST_F(SitePlaces, AFenceHasOneSourceOfItsLine) {
   EXPECT_HOLDS(fences("[fence.low]\nline = " + line + "\nline_file = 'a.geojson'\n"),
-               "has both line and line_file");
+               "has both line and file");
 }
 
 TEST_F(SitePlaces, ALineFromAFileIsThatOfTheSiteFile) {

@@ -154,9 +154,9 @@ TEST(Site, ANameMayHoldWhatAKeyAndItsValueArePartedBy) {
   };
   set("fence.a=b.active=false");
   set("fence.v1.5 = 'x' #2.height_m=7");
-  set("fence.a.line_file=f.gpkg|subset=name = 'a=b'");
+  set("fence.a.file=f.gpkg|subset=name = 'a=b'");
   EXPECT_FALSE(site.fences[0].active);
-  EXPECT_EQ(site.fences[1].line_file, "f.gpkg|subset=name = 'a=b'");
+  EXPECT_EQ(site.fences[1].file, "f.gpkg|subset=name = 'a=b'");
   EXPECT_TRUE(site.fences[1].active);
   EXPECT_EQ(site.fences[2].height_m, 7);
   EXPECT_EQ(talus::end_of_key(site, "solver.lawn=paper"), 11U);
@@ -216,8 +216,10 @@ TEST(Site, AKeyThatIsGoneSaysWhatToWriteInstead) {
   EXPECT_EQ(refusal("[source]\npolygon_layer = 'release'\n"),
             "s/site.toml:2: the key polygon_layer of [source] is gone | write polygon_file = "
             "\"FILE|layername=LAYER\"");
+  EXPECT_EQ(refusal("[fence.a]\nline_file = 'f.gpkg'\n"),
+            "s/site.toml:2: the key line_file of [fence.a] is gone | write file = \"FILE\"");
   EXPECT_EQ(refusal("[fence.a]\nline_where = 'k = 1'\n"),
-            "s/site.toml:2: the key line_where of [fence.a] is gone | write line_file = "
+            "s/site.toml:2: the key line_where of [fence.a] is gone | write file = "
             "\"FILE|subset=FILTER\"");
   EXPECT_EQ(refusal("[fence.a]\nbreaklines_layer = 'a'\n").find("gone"), std::string::npos);
 }
@@ -371,11 +373,10 @@ std::string refusal_of_layer(const std::string& text, const talus::LayerSection&
 
 TEST(SiteLayers, ASectionOfALayerIsAsOneOfTheFile) {
   Site site = parse_site(whole, "s/site.toml");
-  take_sections(site,
-                {section_of("fence", "road",
-                            {{"line_file", "site.gpkg"}, {"height_m", "4"}, {"active", "false"}}),
-                 section_of("blocks", "two", {{"shape", "box"}, {"size_m", "[1, 2, 3]"}}),
-                 section_of("ground", "scree", {{"cor", "0.2"}})});
+  take_sections(site, {section_of("fence", "road",
+                                  {{"file", "site.gpkg"}, {"height_m", "4"}, {"active", "false"}}),
+                       section_of("blocks", "two", {{"shape", "box"}, {"size_m", "[1, 2, 3]"}}),
+                       section_of("ground", "scree", {{"cor", "0.2"}})});
   ASSERT_EQ(site.fences.size(), 1u);
   EXPECT_EQ(site.fences[0].name, "road");
   EXPECT_EQ(site.fences[0].height_m, 4);
@@ -396,10 +397,10 @@ TEST(SiteLayers, ASectionOfALayerIsAsOneOfTheFile) {
 TEST(SiteLayers, WhatIsPrintedReadsBackWithoutTheLayers) {
   Site site = parse_site(whole, "s/site.toml");
   const std::string file = "site.gpkg|layername=fences|subset=name = 'road'";
-  take_sections(site, {section_of("fence", "road", {{"line_file", file}})});
+  take_sections(site, {section_of("fence", "road", {{"file", file}})});
   const Site again = parse_site(print_config(site), "s/site.toml");
   ASSERT_EQ(again.fences.size(), 1u);
-  EXPECT_EQ(again.fences[0].line_file, file);
+  EXPECT_EQ(again.fences[0].file, file);
 }
 
 TEST(SiteLayers, AKeyIsSaidOnceAndHeldToItsRange) {
