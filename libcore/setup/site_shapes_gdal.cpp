@@ -121,7 +121,7 @@ SitePlace place_of(const GroundSettings& ground) {
 }
 
 SitePlace place_of(const FenceSettings& fence) {
-  return {"fence." + fence.name, "fences", VectorKind::lines, fence.line_file, fence.line, "line"};
+  return {"fence." + fence.name, "fences", VectorKind::lines, fence.file, fence.line, "line"};
 }
 
 SitePlace place_of(const ForestSettings& forest) {

@@ -59,7 +59,7 @@ refused 'line = [[500060, 5000010], [500070, 5000010], [500070, 5000030], [50006
   'fence.low: crosses itself at 500066, 5000010'
 refused 'line = [[500060, 5000010, 990], [500060, 5000090, 970]]' 'fence.low: does not reach the ground'
 refused 'line = [[500060, 5000010], [500160, 5000010]]' 'fence.low'
-refused 'line = [[500060, 5000010], [500060, 5000090]]\nline_file = "low.gpkg"' 'has both line and file'
+refused 'line = [[500060, 5000010], [500060, 5000090]]\nfile = "low.gpkg"' 'has both line and file'
 refused 'line = [[500021, 5000030], [500021, 5000040]]' 'block 0 and panel 0 of fence low by'
 # with law paper it stops nothing
 expect 0 talus-dda rigid.toml --trn slope.tif --blocks blocks.h5 -o paper.h5 --no-db --set solver.law=paper --independent \

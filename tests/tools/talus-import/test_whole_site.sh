@@ -24,7 +24,7 @@ collection "$(feature '' LineString '[[500010,5200040],[500200,5200060]]')" >roa
 collection "$(feature '' Point '[500050,5200050]')" >pole.geojson
 gdal_translate -q -ot Byte -a_srs EPSG:32633 -a_ullr 499996 5200324 500228 5199996 -scale 0 1000 2 2 \
   "$source_dir/sample_sites/designed/slope.asc" classes.tif
-sed -e 's/^polygon = .*/polygon_file = "release.gpkg"/' -e 's/^line = .*/line_file = "valley.gpkg"/' \
+sed -e 's/^polygon = .*/polygon_file = "release.gpkg"/' -e 's/^line = .*/file = "valley.gpkg"/' \
   -e 's/^\[terrain\]/&\nground_raster = "classes.tif"/' site.toml >new.toml
 cat >>new.toml <<'END'
 [ground.meadow]

@@ -35,14 +35,14 @@ struct SitePlaces : testing::Test {
 };
 
 TEST_F(SitePlaces, AFenceHasOneSourceOfItsLine) {
-  EXPECT_HOLDS(fences("[fence.low]\nline = " + line + "\nline_file = 'a.geojson'\n"),
+  EXPECT_HOLDS(fences("[fence.low]\nline = " + line + "\nfile = 'a.geojson'\n"),
                "has both line and file");
 }
 
 TEST_F(SitePlaces, ALineFromAFileIsThatOfTheSiteFile) {
   folder.write("lines.geojson", geojson_of({"LineString|[[500060,5000010],[500060,5000090]]|"}));
   const Site written = site_of(folder, "[fence.low]\nline = " + line + "\n");
-  const Site named = site_of(folder, "[fence.low]\nline_file = 'lines.geojson'\n");
+  const Site named = site_of(folder, "[fence.low]\nfile = 'lines.geojson'\n");
   const auto here = lines_of(written), there = lines_of(named);
   ASSERT_EQ(there.size(), 1u);
   EXPECT_EQ(there[0].line.points, here[0].line.points);

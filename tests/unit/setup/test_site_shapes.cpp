@@ -46,8 +46,8 @@ struct ImportedSite : SiteShapes {
     folder.write("stems.geojson", geojson_of({"Point|[500040,5000030]|\"dbh_cm\":41.5",
                                               "Point|[500050,5000030]|\"dbh_cm\":30"}));
     site = site_of(folder,
-                   "[fence.low]\nline_file = 'low.geojson'\n"
-                   "[fence.high]\nline_file = 'high.geojson'\n"
+                   "[fence.low]\nfile = 'low.geojson'\n"
+                   "[fence.high]\nfile = 'high.geojson'\n"
                    "[forest.wood]\nstems_file = 'stems.geojson'\n");
     InputsRequest request;
     request.layers = layers_of(site);
@@ -84,7 +84,7 @@ TEST_F(ImportedSite, AFileThatChangedSinceIsRefusedAndAnotherOneIsReadItself) {
   site.inputs = inputs;
   folder.write("low.geojson", geojson_of({"LineString|[[500070,5000010],[500070,5000090]]|"}));
   EXPECT_HOLDS(refusal_of([&] { static_cast<void>(fence(0)); }), "is older than low.geojson");
-  site.fences[1].line_file = "low.geojson";
+  site.fences[1].file = "low.geojson";
   EXPECT_EQ(fence(1)[0][0].x(), 70);
 }
 
