@@ -16,35 +16,36 @@ constexpr std::int64_t format_version = 2;
 
 struct About {
   const char* name;
+  const char* dimension;
   const char* units;
-  const char* description;
+  const char* long_name;
 };
 
 // The table of datasets, once for writing and reading: visit(about, field).
 template <class Set, class Visit>
 void for_each_array(Set& set, Visit&& visit) {  // clang-format off
-  visit(About{"vertices", "m", "vertices block by block, relative to origin_m"}, set.vertices);
-  visit(About{"block_vertex_begin", "1", "vertices of block b: [b] to [b + 1]"}, set.block_vertex_begin);
-  visit(About{"face_vertices", "1", "vertex indices of the faces of shells, counter-clockwise from outside"}, set.face_vertices);
-  visit(About{"face_begin", "1", "entries of face f in face_vertices: [f] to [f + 1]"}, set.face_begin);
-  visit(About{"joint_set", "1", "what made a face: joint set, -1 terrain, -2 failure surface, -3 within the rock, -4 side of the source"}, set.joint_set);
-  visit(About{"block_face_begin", "1", "faces of the shell of block b: [b] to [b + 1]"}, set.block_face_begin);
-  visit(About{"part_face_vertices", "1", "vertex indices of the faces of convex parts"}, set.part_face_vertices);
-  visit(About{"part_face_begin", "1", "entries of face f in part_face_vertices: [f] to [f + 1]"}, set.part_face_begin);
-  visit(About{"part_joint_set", "1", "what made a face of a part, as joint_set"}, set.part_joint_set);
-  visit(About{"part_begin", "1", "faces of convex part p: [p] to [p + 1]"}, set.part_begin);
-  visit(About{"convex_part_begin", "1", "convex parts of block b: [b] to [b + 1]"}, set.convex_part_begin);
-  visit(About{"material", "1", "index into material_names"}, set.material);
-  visit(About{"volume", "m3", "volume of the body"}, set.volume);
-  visit(About{"centroid", "m", "centre of mass, relative to origin_m"}, set.centroid);
-  visit(About{"second_moment", "m5", "integral of (x - c)(x - c)^T over the body"}, set.second_moment);
-  visit(About{"velocity", "m/s", "at the start"}, set.velocity);
-  visit(About{"spin", "rad/s", "at the start, about the axes of the map"}, set.spin);
-  visit(About{"pair_blocks", "1", "blocks that share a joint face before they move, a < b"}, set.pair_blocks);
-  visit(About{"pair_joint_set", "1", "joint set of the shared face"}, set.pair_joint_set);
-  visit(About{"pair_area", "m2", "shared area"}, set.pair_area);
-  visit(About{"pair_normal", "1", "unit normal from a to b"}, set.pair_normal);
-  visit(About{"pair_point", "m", "centre of the shared face, relative to origin_m"}, set.pair_point);
+  visit(About{"vertices", "vertex", "m", "vertices block by block, relative to origin_m"}, set.vertices);
+  visit(About{"block_vertex_begin", "block_bound", "1", "vertices of block b: [b] to [b + 1]"}, set.block_vertex_begin);
+  visit(About{"face_vertices", "corner", "1", "vertex indices of the faces of shells, counter-clockwise from outside"}, set.face_vertices);
+  visit(About{"face_begin", "face_bound", "1", "entries of face f in face_vertices: [f] to [f + 1]"}, set.face_begin);
+  visit(About{"joint_set", "face", "1", "what made a face: joint set, -1 terrain, -2 failure surface, -3 within the rock, -4 side of the source"}, set.joint_set);
+  visit(About{"block_face_begin", "block_bound", "1", "faces of the shell of block b: [b] to [b + 1]"}, set.block_face_begin);
+  visit(About{"part_face_vertices", "part_corner", "1", "vertex indices of the faces of convex parts"}, set.part_face_vertices);
+  visit(About{"part_face_begin", "part_face_bound", "1", "entries of face f in part_face_vertices: [f] to [f + 1]"}, set.part_face_begin);
+  visit(About{"part_joint_set", "part_face", "1", "what made a face of a part, as joint_set"}, set.part_joint_set);
+  visit(About{"part_begin", "part_bound", "1", "faces of convex part p: [p] to [p + 1]"}, set.part_begin);
+  visit(About{"convex_part_begin", "block_bound", "1", "convex parts of block b: [b] to [b + 1]"}, set.convex_part_begin);
+  visit(About{"material", "block", "1", "index into material_names"}, set.material);
+  visit(About{"volume", "block", "m3", "volume of the body"}, set.volume);
+  visit(About{"centroid", "block", "m", "centre of mass, relative to origin_m"}, set.centroid);
+  visit(About{"second_moment", "block", "m5", "integral of (x - c)(x - c)^T over the body"}, set.second_moment);
+  visit(About{"velocity", "block", "m/s", "at the start"}, set.velocity);
+  visit(About{"spin", "block", "rad/s", "at the start, about the axes of the map"}, set.spin);
+  visit(About{"pair_blocks", "pair", "1", "blocks that share a joint face before they move, a < b"}, set.pair_blocks);
+  visit(About{"pair_joint_set", "pair", "1", "joint set of the shared face"}, set.pair_joint_set);
+  visit(About{"pair_area", "pair", "m2", "shared area"}, set.pair_area);
+  visit(About{"pair_normal", "pair", "1", "unit normal from a to b"}, set.pair_normal);
+  visit(About{"pair_point", "pair", "m", "centre of the shared face, relative to origin_m"}, set.pair_point);
 }  // clang-format on
 
 // Entries of an array as the plain numbers that they consist of.
@@ -52,22 +53,22 @@ template <class Entry>
 struct Plain {  // a number
   using Number = Entry;
   static constexpr std::size_t columns = 1;
-  static Shape shape(std::size_t n) { return {n}; }
+  static Dimensions more() { return {}; }
 };
 template <class Number_, int Rows, int Cols>
 struct Plain<Eigen::Matrix<Number_, Rows, Cols>> {  // symmetric ones: no matter how they are stored
   using Number = Number_;
   static constexpr std::size_t columns = Rows * Cols;
-  static Shape shape(std::size_t n) {
-    if (Cols == 1) return {n, Rows};
-    return {n, Rows, Cols};
+  static Dimensions more() {
+    if (Cols == 1) return {{"axis", Rows}};
+    return {{"axis", Rows}, {"axis_beside", Cols}};
   }
 };
 template <class Number_, std::size_t N>
 struct Plain<std::array<Number_, N>> {
   using Number = Number_;
   static constexpr std::size_t columns = N;
-  static Shape shape(std::size_t n) { return {n, N}; }
+  static Dimensions more() { return {{"block_of_pair", N}}; }
 };
 
 template <class Entry>
@@ -76,8 +77,9 @@ void write_array(H5Writer& file, const About& about, const std::vector<Entry>& v
   static_assert(sizeof(Entry) == Plain<Entry>::columns * sizeof(Number));
   const std::span<const Number> numbers(reinterpret_cast<const Number*>(values.data()),
                                         values.size() * Plain<Entry>::columns);
-  file.array(about.name, numbers, Plain<Entry>::shape(values.size()), about.units,
-             about.description);
+  Dimensions dimensions = Plain<Entry>::more();
+  dimensions.insert(dimensions.begin(), {about.dimension, values.size()});
+  file.array(about.name, numbers, dimensions, about.units, about.long_name);
 }
 
 template <class Entry>
@@ -115,14 +117,17 @@ void write_blocks(const std::string& path, const BlockSet& set,
   file.attribute("", "content_hash", set.content_hash);
   file.attribute("", "origin_m", std::span<const double>(set.origin.data(), 3));
   for (const auto& [name, value] : tags) file.attribute("", name, value);
-  file.texts("ground_digests", set.ground_digests,
+  file.names("ground_digests", set.ground_digests, "ground",
              "of the terrains before and after the mass was taken out");
-  file.texts("material_names", set.material_names, "names of [material.NAME] of the site file");
-  file.texts("joint_set_names", set.joint_set_names, "names of the joint sets");
+  file.names("material_names", set.material_names, "kind_of_material",
+             "names of [material.NAME] of the site file");
+  file.names("joint_set_names", set.joint_set_names, "kind_of_joint_set",
+             "names of the joint sets");
   for_each_array(set,
                  [&](const About& about, const auto& values) { write_array(file, about, values); });
   if (!set.weight.empty())
-    write_array(file, {"weight", "1", "weight in statistics, e.g. events a year"}, set.weight);
+    write_array(file, {"weight", "block", "1", "weight in statistics, e.g. events a year"},
+                set.weight);
   write_bytes(path, file.image());
 }
 
@@ -139,7 +144,7 @@ BlockSet read_blocks(const std::string& path) {
   set.material_names = file.texts("material_names");
   set.joint_set_names = file.texts("joint_set_names");
   for_each_array(set, [&](const About& about, auto& values) { read_array(file, about, values); });
-  if (file.has("weight")) read_array(file, {"weight", "1", ""}, set.weight);
+  if (file.has("weight")) read_array(file, {"weight", "block", "1", ""}, set.weight);
   const std::string broken = broken_promise(set);
   if (!broken.empty()) throw InputError({path}, broken, "the file is damaged; make it again");
   return set;

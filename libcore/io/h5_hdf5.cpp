@@ -1,6 +1,7 @@
 #include "io/h5_hdf5.hpp"
 
 #include <hdf5.h>
+#include <hdf5_hl.h>
 
 #include <algorithm>
 #include <cstring>
@@ -78,6 +79,12 @@ Id text_type(std::size_t length) {
   return type;
 }
 
+Shape shape_of(const Dimensions& dimensions) {
+  Shape shape;
+  for (const Dimension& dimension : dimensions) shape.push_back(dimension.extent);
+  return shape;
+}
+
 std::size_t product(const Shape& shape) {
   std::size_t n = 1;
   for (const std::size_t extent : shape) n *= extent;
@@ -124,9 +131,42 @@ struct H5Writer::Impl {
     const Id space(H5Screate(H5S_SCALAR), H5Sclose);
     put(object, name, type, space, value.empty() ? "" : value.data());
   }
-  static void describe(hid_t object, const std::string& units, const std::string& description) {
-    if (!units.empty()) put_text(object, "units", units);
-    put_text(object, "description", description);
+
+  // The scale of a dimension, which it begins where no array has done so: a set without values,
+  // with the words that netCDF marks such ones with.
+  [[nodiscard]] Id scale_of(const std::string& path, std::size_t extent) const {
+    if (H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0)
+      return {H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose};
+    const hsize_t n = extent;
+    const Id space(H5Screate_simple(1, &n, nullptr), H5Sclose);
+    const Id list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    require(H5Pset_obj_track_times(list, false) >= 0, "a dimension without times");
+    Id scale(H5Dcreate2(file, path.c_str(), H5T_IEEE_F32BE, space, H5P_DEFAULT, list, H5P_DEFAULT),
+             H5Dclose);
+    std::string number = std::to_string(extent);
+    number.insert(0, 10 - std::min<std::size_t>(10, number.size()), ' ');
+    require(
+        H5DSset_scale(
+            scale, ("This is a netCDF dimension but not a netCDF variable." + number).c_str()) >= 0,
+        "making the dimension " + path);
+    return scale;
+  }
+
+  void name_dimensions(const std::string& path, hid_t set, const Dimensions& dimensions) const {
+    const std::size_t slash = path.rfind('/');
+    const std::string group = slash == std::string::npos ? "/" : "/" + path.substr(0, slash + 1);
+    for (unsigned d = 0; d < dimensions.size(); ++d) {
+      const auto& [name, extent] = dimensions[d];
+      const std::string at = name[0] == '/' ? name : group + name;
+      if (at == "/" + path) {
+        require(H5DSset_scale(set, name.c_str()) >= 0, "making the dimension " + at);
+        continue;
+      }
+      const Id scale = scale_of(at, extent);
+      const Id space(H5Dget_space(scale), H5Sclose);
+      TALUS_ASSERT(H5Sget_simple_extent_npoints(space) == static_cast<hssize_t>(extent));
+      require(H5DSattach_scale(set, scale, d) >= 0, "naming a dimension of " + path);
+    }
   }
 
   static constexpr std::size_t smallest_chunk = 1024;
@@ -147,8 +187,9 @@ struct H5Writer::Impl {
   }
 
   void write(const std::string& path, hid_t stored, hid_t native, const void* values,
-             const Shape& shape, std::size_t size, const std::string& units,
-             const std::string& description) const {
+             const Dimensions& dimensions, std::size_t size, const std::string& units,
+             const std::string& long_name) const {
+    const Shape shape = shape_of(dimensions);
     const std::vector<hsize_t> extent(shape.begin(), shape.end());
     const Id space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
                    H5Sclose);
@@ -158,11 +199,15 @@ struct H5Writer::Impl {
     require(set.valid(), "making " + path);
     if (product(shape) > 0)
       require(H5Dwrite(set, native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, "writing " + path);
-    describe(set, units, description);
+    if (!units.empty()) put_text(set, "units", units);
+    put_text(set, "long_name", long_name);
+    name_dimensions(path, set, dimensions);
   }
 };
 
-H5Writer::H5Writer() : impl_(std::make_unique<Impl>()) {}
+H5Writer::H5Writer() : impl_(std::make_unique<Impl>()) {
+  attribute("", "Conventions", std::string("CF-1.10"));
+}
 H5Writer::~H5Writer() = default;
 
 void H5Writer::group(const std::string& path, const std::string& description) {
@@ -170,45 +215,56 @@ void H5Writer::group(const std::string& path, const std::string& description) {
   require(H5Pset_obj_track_times(creation, false) >= 0, "a group without times");
   Id group(H5Gcreate2(impl_->file, path.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose);
   require(group.valid(), "making " + path);
-  Impl::describe(group, "", description);
+  Impl::put_text(group, "description", description);
 }
 
 template <class T>
-void H5Writer::array(const std::string& path, std::span<const T> values, const Shape& shape,
-                     const std::string& units, const std::string& description) {
-  TALUS_ASSERT(product(shape) == values.size());
+void H5Writer::array(const std::string& path, std::span<const T> values,
+                     const Dimensions& dimensions, const std::string& units,
+                     const std::string& long_name) {
+  TALUS_ASSERT(product(shape_of(dimensions)) == values.size());
   const hid_t native = native_type<T>();
-  impl_->write(path, file_type(native), native, values.data(), shape, sizeof(T), units,
-               description);
+  impl_->write(path, file_type(native), native, values.data(), dimensions, sizeof(T), units,
+               long_name);
 }
 
-template void H5Writer::array(const std::string&, std::span<const std::uint8_t>, const Shape&,
+template void H5Writer::array(const std::string&, std::span<const std::uint8_t>, const Dimensions&,
                               const std::string&, const std::string&);
-template void H5Writer::array(const std::string&, std::span<const std::int32_t>, const Shape&,
+template void H5Writer::array(const std::string&, std::span<const std::int32_t>, const Dimensions&,
                               const std::string&, const std::string&);
-template void H5Writer::array(const std::string&, std::span<const std::int64_t>, const Shape&,
+template void H5Writer::array(const std::string&, std::span<const std::int64_t>, const Dimensions&,
                               const std::string&, const std::string&);
-template void H5Writer::array(const std::string&, std::span<const float>, const Shape&,
+template void H5Writer::array(const std::string&, std::span<const float>, const Dimensions&,
                               const std::string&, const std::string&);
-template void H5Writer::array(const std::string&, std::span<const double>, const Shape&,
+template void H5Writer::array(const std::string&, std::span<const double>, const Dimensions&,
                               const std::string&, const std::string&);
 
 void H5Writer::text(const std::string& path, const std::string& value,
-                    const std::string& description) {
-  texts(path, {value}, description);
+                    const std::string& long_name) {
+  texts(path, {value}, "/one", long_name);
 }
 
 void H5Writer::texts(const std::string& path, const std::vector<std::string>& values,
-                     const std::string& description) {
-  std::size_t length = 1;
-  for (const std::string& value : values) length = std::max(length, value.size());
+                     const std::string& dimension, const std::string& long_name) {
+  // netCDF reads on to a zero, and takes texts of one byte for letters
+  std::size_t length = 2;
+  for (const std::string& value : values) length = std::max(length, value.size() + 1);
   std::string bytes;
   for (const std::string& value : values) {
     bytes += value;
     bytes.resize(bytes.size() + length - value.size(), '\0');
   }
   const Id type = text_type(length);
-  impl_->write(path, type, type, bytes.data(), {values.size()}, length, "", description);
+  impl_->write(path, type, type, bytes.data(), {{dimension, values.size()}}, length, "", long_name);
+}
+
+void H5Writer::names(const std::string& path, const std::vector<std::string>& values,
+                     const std::string& dimension, const std::string& long_name) {
+  std::vector<const char*> pointers;
+  for (const std::string& value : values) pointers.push_back(value.c_str());
+  const Id type = text_type(H5T_VARIABLE);
+  impl_->write(path, type, type, pointers.data(), {{dimension, values.size()}}, sizeof(char*), "",
+               long_name);
 }
 
 void H5Writer::attribute(const std::string& object, const std::string& name,
@@ -369,6 +425,20 @@ struct H5Reader::Impl {
     return values;
   }
 
+  [[nodiscard]] std::vector<std::string> names(const std::string& path_in_file, hid_t set,
+                                               hid_t type, const Shape& shape) const {
+    check(path_in_file, shape, 1, sizeof(char*));
+    std::vector<char*> pointers(shape[0], nullptr);
+    std::vector<std::string> values;
+    if (pointers.empty()) return values;
+    if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0)
+      fail(path_in_file, "cannot be read: its content is damaged");
+    for (const char* text : pointers) values.emplace_back(text == nullptr ? "" : text);
+    const Id space(H5Dget_space(set), H5Sclose);
+    H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
+    return values;
+  }
+
   // Length of one entry of a text type of fixed length.
   [[nodiscard]] std::size_t text_length(const std::string& name, hid_t type) const {
     const std::size_t length = H5Tget_size(type);
@@ -461,8 +531,9 @@ std::string H5Reader::text(const std::string& path) const {
 std::vector<std::string> H5Reader::texts(const std::string& path) const {
   const Id set = impl_->set(path);
   const Id type(H5Dget_type(set), H5Tclose);
-  const std::size_t length = impl_->text_length(path, type);
   const Shape shape = impl_->shape_of(path, set);
+  if (H5Tis_variable_str(type) > 0) return impl_->names(path, set, type, shape);
+  const std::size_t length = impl_->text_length(path, type);
   impl_->check(path, shape, 1, length);
   impl_->check_storage(path, set, shape);
   impl_->ask_for_memory(path, shape[0] * length, 1);

@@ -1,5 +1,6 @@
 // libcore/io/h5_hdf5.hpp: public
-// HDF5 as Talus uses it: arrays with a unit and a description, attributes, nothing else.
+// HDF5 as Talus uses it: arrays with named dimensions, a unit and a name in words; attributes. The
+// files open in netCDF-4 and xarray as well: dimensions are dimension scales, as these expect them.
 //
 // Writing builds the whole file in memory, without time stamps, so that equal content gives equal
 // bytes and no half-written HDF5 file ever reaches the disk. Reading checks type, rank and extent
@@ -17,6 +18,14 @@ namespace talus {
 
 using Shape = std::vector<std::size_t>;
 
+/// The arrays of a group that name a dimension have the same extent along it. With a slash in
+/// front the name is the root's, and of all groups. Its coordinates are the array of that name.
+struct Dimension {
+  std::string name;
+  std::size_t extent;
+};
+using Dimensions = std::vector<Dimension>;
+
 /// Element types: std::uint8_t, std::int32_t, std::int64_t, float, double.
 class H5Writer {
  public:
@@ -27,14 +36,18 @@ class H5Writer {
 
   /// `path` from the root without a leading slash; its parent must exist.
   void group(const std::string& path, const std::string& description);
-  /// An array of `shape`, row by row. `units` "1" for numbers without. Stored in chunks, shuffled
-  /// and deflated when it is longer than a kilobyte.
+  /// Row by row. `units` "1" for numbers without. Stored in chunks, shuffled and deflated when it
+  /// is longer than a kilobyte.
   template <class T>
-  void array(const std::string& path, std::span<const T> values, const Shape& shape,
-             const std::string& units, const std::string& description);
-  void text(const std::string& path, const std::string& value, const std::string& description);
+  void array(const std::string& path, std::span<const T> values, const Dimensions& dimensions,
+             const std::string& units, const std::string& long_name);
+  void text(const std::string& path, const std::string& value, const std::string& long_name);
+  /// Of fixed length, packed. netCDF 4.9 reads only a single one: for long texts of many runs.
   void texts(const std::string& path, const std::vector<std::string>& values,
-             const std::string& description);
+             const std::string& dimension, const std::string& long_name);
+  /// Each of its own length, not packed: for short ones.
+  void names(const std::string& path, const std::vector<std::string>& values,
+             const std::string& dimension, const std::string& long_name);
 
   /// `object` "" is the root.
   void attribute(const std::string& object, const std::string& name, const std::string& value);

@@ -185,7 +185,7 @@ std::vector<int> begin_of(const Part& part, const Size& size) {
 template <class Field>
 void put_begin(H5Writer& file, const std::string& group, const Part& part, const Field& field) {
   put_indices(file, group + "/run_begin",
-              begin_of(part, [&](const RunFile& run) { return field(run).size(); }),
+              begin_of(part, [&](const RunFile& run) { return field(run).size(); }), "run_bound",
               "rows of run r: [r], [r + 1)");
 }
 
@@ -257,30 +257,30 @@ void write_runs(H5Writer& file, const Part& part) {
   file.attribute("", "origin_m", std::span<const double>(first.origin.data(), 3));
   file.attribute("", "path_tolerance_m", part.path_tolerance);
   file.group("runs", "the runs, by their id");
-  file.texts("runs/name", part.name, "file that the run stood in, with its folder");
+  file.names("runs/name", part.name, "run", "file that the run stood in, with its folder");
   for (const InfoText& text : info_texts) {
     std::vector<std::string> values;
     for (const RunFile& run : part.runs) values.push_back(run.info.*text.field);
-    file.texts(std::string("runs/") + text.name, values, text.description);
+    file.texts(std::string("runs/") + text.name, values, "run", text.description);
   }
   for (const InfoNumber& number : info_numbers) {
     std::vector<double> values;
     for (const RunFile& run : part.runs) values.push_back(run.info.*number.field);
-    file.array<double>(std::string("runs/") + number.name, values, {values.size()}, number.units,
-                       number.description);
+    file.array<double>(std::string("runs/") + number.name, values, {{"run", values.size()}},
+                       number.units, number.description);
   }
   for (const InfoFlag& flag : info_flags) {
     std::vector<int> values;
     for (const RunFile& run : part.runs) values.push_back(run.info.*flag.field ? 1 : 0);
-    put_indices(file, std::string("runs/") + flag.name, values, flag.description);
+    put_indices(file, std::string("runs/") + flag.name, values, "run", flag.description);
   }
   std::vector<std::int64_t> seeds;
   for (const RunFile& run : part.runs) seeds.push_back(run.info.seed);
-  file.array<std::int64_t>("runs/seed", seeds, {seeds.size()}, "1", "seed");
-  put_indices(file, "runs/blocks", part.blocks_of_run, "index of its set of blocks");
-  put_indices(file, "runs/lines", part.lines_of_run, "index of its set of lines");
+  file.array<std::int64_t>("runs/seed", seeds, {{"run", seeds.size()}}, "1", "seed");
+  put_indices(file, "runs/blocks", part.blocks_of_run, "run", "index of its set of blocks");
+  put_indices(file, "runs/lines", part.lines_of_run, "run", "index of its set of lines");
   if (has_objects(part))
-    put_indices(file, "runs/objects", part.objects_of_run, "index of its set of objects");
+    put_indices(file, "runs/objects", part.objects_of_run, "run", "index of its set of objects");
 }
 
 void read_runs(const H5Reader& file, const std::string& path, Part& part) {
@@ -351,7 +351,7 @@ void write_sets(H5Writer& file, const Part& part) {
     all.generation.clear();
   }
   write_blocks(file, all);
-  put_indices(file, "blocks/set_begin", begin, "blocks of set s: [s], [s + 1)");
+  put_indices(file, "blocks/set_begin", begin, "set_bound", "blocks of set s: [s], [s + 1)");
   std::vector<RecordLine> lines;
   begin = {0};
   for (const std::vector<RecordLine>& of_set : part.lines) {
@@ -359,7 +359,7 @@ void write_sets(H5Writer& file, const Part& part) {
     begin.push_back(static_cast<int>(lines.size()));
   }
   write_lines(file, lines);
-  put_indices(file, "lines/set_begin", begin, "lines of set s: [s], [s + 1)");
+  put_indices(file, "lines/set_begin", begin, "set_bound", "lines of set s: [s], [s + 1)");
   if (!has_objects(part)) return;
   std::vector<RecordObject> objects;
   begin = {0};
@@ -368,7 +368,7 @@ void write_sets(H5Writer& file, const Part& part) {
     begin.push_back(static_cast<int>(objects.size()));
   }
   write_objects(file, objects);
-  put_indices(file, "objects/set_begin", begin, "objects of set s: [s], [s + 1)");
+  put_indices(file, "objects/set_begin", begin, "set_bound", "objects of set s: [s], [s + 1)");
 }
 
 void read_sets(const H5Reader& file, const std::string& path, Part& part) {
@@ -404,23 +404,25 @@ void write_ends(H5Writer& file, const Part& part) {
   file.group("ends", "first and last frame of each run, all blocks of a frame together");
   const auto times = [](const RunFile& run) { return run.frames.time; };
   const std::vector<double> time = joined(part, times);
-  file.array<double>("ends/time_s", time, {time.size()}, "s", "time of the frame");
+  file.array<double>("ends/time_s", time, {{"frame", time.size()}}, "s", "time of the frame");
   put_begin(file, "ends", part, times);
-  const auto put = [&](const std::string& name, std::size_t columns, const std::string& units,
-                       const std::string& description, auto member) {
+  const auto put = [&](const std::string& name, const Dimension& columns, const std::string& units,
+                       const std::string& long_name, auto member) {
     const auto all = joined(part, [member](const RunFile& run) { return run.frames.*member; });
     using Value = typename std::remove_cvref_t<decltype(all)>::value_type;
-    file.array<Value>("ends/" + name, all, {all.size() / columns, columns}, units, description);
+    file.array<Value>("ends/" + name, all, {{"row", all.size() / columns.extent}, columns}, units,
+                      long_name);
   };
-  put("position_m", 3, "m", "centroids, local", &RunFrames::position);
-  put("attitude", 4, "1", "quaternions w x y z, body to local axes", &RunFrames::attitude);
-  put("velocity_m_s", 3, "m/s", "velocities of the centroids", &RunFrames::velocity);
-  put("spin_rad_s", 3, "rad/s", "angular velocities, local axes", &RunFrames::spin);
+  put("position_m", {"/axis", 3}, "m", "centroids, local", &RunFrames::position);
+  put("attitude", {"/quaternion", 4}, "1", "quaternions w x y z, body to local axes",
+      &RunFrames::attitude);
+  put("velocity_m_s", {"/axis", 3}, "m/s", "velocities of the centroids", &RunFrames::velocity);
+  put("spin_rad_s", {"/axis", 3}, "rad/s", "angular velocities, local axes", &RunFrames::spin);
   const auto phases = [](const RunFile& run) { return run.phase; };
   std::vector<std::uint8_t> phase;
   for (const Phase p : joined(part, phases)) phase.push_back(static_cast<std::uint8_t>(p));
   file.group("phase", "state of each block at the end of its run");
-  file.array<std::uint8_t>("phase/phase", phase, {phase.size()}, "1", phase_numbers);
+  file.array<std::uint8_t>("phase/phase", phase, {{"row", phase.size()}}, "1", phase_numbers);
   put_begin(file, "phase", part, phases);
 }
 
@@ -469,11 +471,12 @@ void write_reaches(H5Writer& file, const Part& part) {
   }
   file.group("reach", "how far each block came, run by run");
   write_block_reach(file, "reach", all);
-  file.array<double>("runs/centre_of_mass_m", centre, {part.runs.size(), 3}, "m",
+  file.array<double>("runs/centre_of_mass_m", centre,
+                     {{"run", part.runs.size()}, {"drop_path_chord", 3}}, "m",
                      "of the centre of mass: drop, length of its path and of its chord in plan");
   const auto streamlines = [](const RunFile& run) { return run.reach->streamline; };
   file.group("streamline", "top, the toe block's path on the ground, toe; none: nothing moved");
-  put_points(file, "streamline/point_m", joined(part, streamlines), "m", "local");
+  put_points(file, "streamline/point_m", joined(part, streamlines), "point", "m", "local");
   put_begin(file, "streamline", part, streamlines);
 }
 
@@ -524,8 +527,8 @@ void write_forests(H5Writer& file, const Part& part) {
   }
   if (names.empty()) return;
   file.group("forests", "the forests that stood");
-  file.texts("forests/name", names, "name of the forest");
-  put_indices(file, "forests/n_stems", n_stems, "stems that stood at the start");
+  file.names("forests/name", names, "forest", "name of the forest");
+  put_indices(file, "forests/n_stems", n_stems, "forest", "stems that stood at the start");
   put_begin(file, "forests", part, forests);
 }
 
@@ -620,9 +623,9 @@ void write_cells(H5Writer& file, const Part& part, const std::vector<PartRow>& r
   begin.push_back(static_cast<std::int64_t>(rows.size()));
   file.group("cells", "the cells that any block passed");
   write_grid(file, "cells", part.grid, part.runs.front().info.origin, part.passages_by_centroid);
-  file.array<std::int32_t>("cells/cell", cell, {cell.size()}, "1",
+  file.array<std::int32_t>("cells/cell", cell, {{"cell", cell.size()}}, "1",
                            "row * n_cols + column, row 0 in the north, ascending");
-  file.array<std::int64_t>("cells/begin", begin, {begin.size()}, "1",
+  file.array<std::int64_t>("cells/begin", begin, {{"cell_bound", begin.size()}}, "1",
                            "rows of cell i: [i], [i + 1)");
   write_part_rows(file, rows);
 }

@@ -21,6 +21,12 @@ constexpr std::int64_t format_version = 2;
 
 // --- groups ------------------------------------------------------------------------------------
 
+// Where local coordinates are on the map.
+void write_place(H5Writer& file, const std::string& group, const RunInfo& info) {
+  file.attribute(group, "crs", info.crs_wkt);
+  file.attribute(group, "origin_m", std::span<const double>(info.origin.data(), 3));
+}
+
 void write_info(H5Writer& file, const RunFile& run) {
   const RunInfo& info = run.info;
   file.attribute("", "format", std::string(format_name));
@@ -29,8 +35,7 @@ void write_info(H5Writer& file, const RunFile& run) {
   file.attribute("", "run_id", info.run_id);
   file.attribute("", "version", info.version);
   file.attribute("", "site", info.site);
-  file.attribute("", "crs", info.crs_wkt);
-  file.attribute("", "origin_m", std::span<const double>(info.origin.data(), 3));
+  write_place(file, "", info);
   file.attribute("", "trn_sha256", info.trn_sha256);
   file.attribute("", "blocks_hash", info.blocks_hash);
   file.attribute("", "law", info.law);
@@ -42,7 +47,7 @@ void write_info(H5Writer& file, const RunFile& run) {
   file.attribute("", "duration_s", info.duration);
   file.attribute("", "time_s", info.time);
   if (!info.seed_draws)
-    file.array<std::int32_t>("seed_draws", std::array<std::int32_t, 1>{0}, {1}, "1",
+    file.array<std::int32_t>("seed_draws", std::array<std::int32_t, 1>{0}, {{"/one", 1}}, "1",
                              "0: another seed gives the same run");
   if (!info.case_name.empty()) file.text("case", info.case_name, "variant of the settings");
   if (!info.terrain_digest.empty())
@@ -98,19 +103,20 @@ RunInfo read_info(const H5Reader& file, const std::string& path) {
 
 void write_frames(H5Writer& file, const RunFile& run) {
   const RunFrames& frames = run.frames;
-  const std::size_t n = frames.time.size(), n_blocks = run.blocks.mass.size();
+  const Dimension time{"time_s", frames.time.size()}, block{"/block", run.blocks.mass.size()};
   file.group("frames", "states of all blocks at equal intervals, and at the end");
-  file.array<double>("frames/time_s", frames.time, {n}, "s", "time of the frame");
-  file.array<double>("frames/position_m", frames.position, {n, n_blocks, 3}, "m",
+  write_place(file, "frames", run.info);
+  file.array<double>("frames/time_s", frames.time, {time}, "s", "time of the frame");
+  file.array<double>("frames/position_m", frames.position, {time, block, {"/axis", 3}}, "m",
                      "centroids, local");
-  file.array<float>("frames/attitude", frames.attitude, {n, n_blocks, 4}, "1",
+  file.array<float>("frames/attitude", frames.attitude, {time, block, {"/quaternion", 4}}, "1",
                     "quaternions w x y z, body to local axes");
-  file.array<float>("frames/velocity_m_s", frames.velocity, {n, n_blocks, 3}, "m/s",
+  file.array<float>("frames/velocity_m_s", frames.velocity, {time, block, {"/axis", 3}}, "m/s",
                     "velocities of the centroids");
-  file.array<float>("frames/spin_rad_s", frames.spin, {n, n_blocks, 3}, "rad/s",
+  file.array<float>("frames/spin_rad_s", frames.spin, {time, block, {"/axis", 3}}, "rad/s",
                     "angular velocities, local axes");
   if (!frames.strain.empty())
-    file.array<float>("frames/strain", frames.strain, {n, n_blocks, 6}, "1",
+    file.array<float>("frames/strain", frames.strain, {time, block, {"strain_component", 6}}, "1",
                       "strains exx eyy ezz gyz gzx gxy, body axes");
 }
 
@@ -146,7 +152,7 @@ void write_reach(H5Writer& file, const RunFile& run) {
   file.attribute("reach", "centre_of_mass_m",
                  std::array<double, 3>{centre.height, centre.path, centre.chord});
   write_block_reach(file, "reach", *run.reach);
-  put_points(file, "reach/streamline_m", run.reach->streamline, "m",
+  put_points(file, "reach/streamline_m", run.reach->streamline, "point", "m",
              "top, the toe block's path on the ground, toe, local; none: nothing moved");
 }
 
@@ -229,8 +235,8 @@ void write_trees(H5Writer& file, const RunFile& run) {
     n_stems.push_back(forest.n_stems);
   }
   file.group("forests", "the forests that stood");
-  file.texts("forests/name", names, "name of the forest");
-  put_indices(file, "forests/n_stems", n_stems, "stems that stood at the start");
+  file.names("forests/name", names, "forest", "name of the forest");
+  put_indices(file, "forests/n_stems", n_stems, "forest", "stems that stood at the start");
   write_tree_hit_table(file, run.tree_hits);
 }
 
@@ -267,7 +273,8 @@ void write_phases(H5Writer& file, const RunFile& run) {
   std::vector<std::uint8_t> phases;
   for (const Phase phase : run.phase) phases.push_back(static_cast<std::uint8_t>(phase));
   if (!phases.empty())
-    file.array<std::uint8_t>("blocks/phase", phases, {phases.size()}, "1", phase_numbers);
+    file.array<std::uint8_t>("blocks/phase", phases, {{"/block", phases.size()}}, "1",
+                             phase_numbers);
 }
 
 std::vector<Phase> read_phases(const H5Reader& file, std::size_t n_blocks,
@@ -342,7 +349,7 @@ void write_run_file(const std::string& path, const RunFile& run) {
   if (!run.crushed.empty()) write_crushed_table(file, run.crushed);
   if (!run.deep.empty()) write_deep_table(file, run.deep);
   if (!run.checkpoint.empty())
-    file.array<std::uint8_t>("checkpoint", run.checkpoint, {run.checkpoint.size()}, "1",
+    file.array<std::uint8_t>("checkpoint", run.checkpoint, {{"/byte", run.checkpoint.size()}}, "1",
                              "state of the solver and the recorder, for talus-dda --resume");
   write_bytes(path, file.image());
 }

@@ -35,13 +35,15 @@ std::vector<Vec3> as_points(const std::vector<double>& list) {
 }
 
 void put_points(H5Writer& file, const std::string& path, const std::vector<Vec3>& points,
-                const std::string& units, const std::string& description) {
-  file.array<double>(path, flat(points), {points.size(), 3}, units, description);
+                const std::string& dimension, const std::string& units,
+                const std::string& long_name) {
+  file.array<double>(path, flat(points), {{dimension, points.size()}, {"/axis", 3}}, units,
+                     long_name);
 }
 
 void put_indices(H5Writer& file, const std::string& path, const std::vector<int>& values,
-                 const std::string& description) {
-  file.array<std::int32_t>(path, values, {values.size()}, "1", description);
+                 const std::string& dimension, const std::string& long_name) {
+  file.array<std::int32_t>(path, values, {{dimension, values.size()}}, "1", long_name);
 }
 
 void check_begin(const std::vector<int>& begin, std::size_t n, std::size_t end,
@@ -54,9 +56,10 @@ void check_begin(const std::vector<int>& begin, std::size_t n, std::size_t end,
 void write_blocks(H5Writer& file, const RunBlocks& blocks) {
   const std::size_t n = blocks.mass.size();
   file.group("blocks", "the blocks; body axes: origin at the centroid, principal axes of inertia");
-  file.array<double>("blocks/mass_kg", blocks.mass, {n}, "kg", "mass");
-  file.array<double>("blocks/volume_m3", blocks.volume, {n}, "m3", "volume");
-  put_points(file, "blocks/inertia_kg_m2", blocks.inertia, "kg m2", "principal moments of inertia");
+  file.array<double>("blocks/mass_kg", blocks.mass, {{"/block", n}}, "kg", "mass");
+  file.array<double>("blocks/volume_m3", blocks.volume, {{"/block", n}}, "m3", "volume");
+  put_points(file, "blocks/inertia_kg_m2", blocks.inertia, "/block", "kg m2",
+             "principal moments of inertia");
   std::vector<Vec3> position;
   std::vector<double> attitude;
   for (const Pose& pose : blocks.rest) {
@@ -65,27 +68,29 @@ void write_blocks(H5Writer& file, const RunBlocks& blocks) {
          {pose.attitude.w(), pose.attitude.x(), pose.attitude.y(), pose.attitude.z()})
       attitude.push_back(q);
   }
-  put_points(file, "blocks/rest_position_m", position, "m", "centroid as cut, local");
-  file.array<double>("blocks/rest_attitude", attitude, {n, 4}, "1",
+  put_points(file, "blocks/rest_position_m", position, "/block", "m", "centroid as cut, local");
+  file.array<double>("blocks/rest_attitude", attitude, {{"/block", n}, {"/quaternion", 4}}, "1",
                      "quaternion w x y z as cut, body to local axes");
   if (!blocks.weight.empty())
-    file.array<double>("blocks/weight", blocks.weight, {n}, "1", "weight in statistics");
+    file.array<double>("blocks/weight", blocks.weight, {{"/block", n}}, "1",
+                       "weight in statistics");
   if (!blocks.parent.empty())
-    put_indices(file, "blocks/parent", blocks.parent,
+    put_indices(file, "blocks/parent", blocks.parent, "/block",
                 "block that a piece comes from; -1: released");
   if (!blocks.generation.empty())
-    put_indices(file, "blocks/generation", blocks.generation, "breaks before it was there");
+    put_indices(file, "blocks/generation", blocks.generation, "/block",
+                "breaks before it was there");
   if (!blocks.body.empty())
-    put_indices(file, "blocks/body", blocks.body,
+    put_indices(file, "blocks/body", blocks.body, "/block",
                 "its number in the run, of which only what is there at the end is kept");
-  put_points(file, "blocks/vertices_m", blocks.vertices, "m", "vertices, body axes");
-  put_indices(file, "blocks/vertex_begin", blocks.vertex_begin,
+  put_points(file, "blocks/vertices_m", blocks.vertices, "vertex", "m", "vertices, body axes");
+  put_indices(file, "blocks/vertex_begin", blocks.vertex_begin, "block_bound",
               "vertices of block b: [b], [b + 1)");
-  put_indices(file, "blocks/face_vertices", blocks.face_vertices,
+  put_indices(file, "blocks/face_vertices", blocks.face_vertices, "corner",
               "indices into vertices_m, face by face, counter-clockwise from outside");
-  put_indices(file, "blocks/face_begin", blocks.face_begin,
+  put_indices(file, "blocks/face_begin", blocks.face_begin, "face_bound",
               "first entry of face f in face_vertices");
-  put_indices(file, "blocks/block_face_begin", blocks.block_face_begin,
+  put_indices(file, "blocks/block_face_begin", blocks.block_face_begin, "block_bound",
               "faces of block b: [b], [b + 1)");
 }
 
@@ -187,14 +192,17 @@ void write_objects(H5Writer& file, const std::vector<RecordObject>& objects) {
     part_begin.push_back(static_cast<int>(is_area.size()));
   }
   file.group("objects", "the objects that hits belong to");
-  file.texts("objects/name", names, "name of the object");
-  file.texts("objects/kind", kinds, "what it is");
-  file.array<double>("objects/radius_m", radius, {radius.size()}, "m",
+  file.names("objects/name", names, "object", "name of the object");
+  file.names("objects/kind", kinds, "object", "what it is");
+  file.array<double>("objects/radius_m", radius, {{"object", radius.size()}}, "m",
                      "about its lines and points");
-  put_indices(file, "objects/part_begin", part_begin, "parts of object o: [o], [o + 1)");
-  put_indices(file, "objects/is_area", is_area, "1: the part is an area, 0: a line or a point");
-  put_indices(file, "objects/begin", begin, "points of part p: [p], [p + 1)");
-  file.array<double>("objects/points_m", points, {points.size() / 2, 2}, "m", "local x, y");
+  put_indices(file, "objects/part_begin", part_begin, "object_bound",
+              "parts of object o: [o], [o + 1)");
+  put_indices(file, "objects/is_area", is_area, "part",
+              "1: the part is an area, 0: a line or a point");
+  put_indices(file, "objects/begin", begin, "part_bound", "points of part p: [p], [p + 1)");
+  file.array<double>("objects/points_m", points, {{"point", points.size() / 2}, {"plan_axis", 2}},
+                     "m", "local x, y");
 }
 
 std::vector<RecordObject> read_objects(const H5Reader& file, const std::string& path) {
@@ -244,10 +252,11 @@ void write_lines(H5Writer& file, const std::vector<RecordLine>& lines) {
     begin.push_back(static_cast<int>(points.size()));
   }
   file.group("lines", "the lines that crossings belong to");
-  file.texts("lines/name", names, "name of the line");
-  put_points(file, "lines/points_m", points, "m", "points of all lines, local, z = base");
-  put_indices(file, "lines/begin", begin, "points of line l: [l], [l + 1)");
-  put_indices(file, "lines/standing", standing, "1: a fence that stops blocks, 0: a line only");
+  file.names("lines/name", names, "line", "name of the line");
+  put_points(file, "lines/points_m", points, "point", "m", "points of all lines, local, z = base");
+  put_indices(file, "lines/begin", begin, "line_bound", "points of line l: [l], [l + 1)");
+  put_indices(file, "lines/standing", standing, "line",
+              "1: a fence that stops blocks, 0: a line only");
 }
 
 std::vector<RecordLine> read_lines(const H5Reader& file, const std::string& path) {
@@ -346,11 +355,12 @@ void write_block_reach(H5Writer& file, const std::string& group, const RunReach&
   std::vector<double> lines;
   for (const ReachLine& line : reach.block)
     lines.insert(lines.end(), {line.height, line.path, line.chord});
-  file.array<double>(group + "/drop_path_chord_m", lines, {n, 3}, "m",
+  file.array<double>(group + "/drop_path_chord_m", lines, {{"block", n}, {"drop_path_chord", 3}},
+                     "m",
                      "of each block's centroid: drop, length of its path and of its chord in plan");
-  file.array<double>(group + "/max_speed_m_s", reach.max_speed, {n}, "m/s",
+  file.array<double>(group + "/max_speed_m_s", reach.max_speed, {{"block", n}}, "m/s",
                      "largest speed of the block");
-  file.array<double>(group + "/max_energy_j", reach.max_energy, {n}, "J",
+  file.array<double>(group + "/max_energy_j", reach.max_energy, {{"block", n}}, "J",
                      "largest kinetic energy of the block, with spin");
 }
 

@@ -15,9 +15,10 @@ namespace talus {
 
 [[nodiscard]] std::vector<Vec3> as_points(const std::vector<double>& list);
 void put_points(H5Writer& file, const std::string& path, const std::vector<Vec3>& points,
-                const std::string& units, const std::string& description);
+                const std::string& dimension, const std::string& units,
+                const std::string& long_name);
 void put_indices(H5Writer& file, const std::string& path, const std::vector<int>& values,
-                 const std::string& description);
+                 const std::string& dimension, const std::string& long_name);
 /// Throws InputError unless `begin` starts at 0, does not decrease, ends at `end` and has n + 1
 /// entries.
 void check_begin(const std::vector<int>& begin, std::size_t n, std::size_t end, const Where& where);

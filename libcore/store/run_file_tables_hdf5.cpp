@@ -524,8 +524,8 @@ void write_table(H5Writer& file, const std::string& group, const std::string& de
     std::vector<FieldType<Row, decltype(field)>> values;
     values.reserve(rows.size());
     for (Row row : rows) values.push_back(field(row));  // no copy of all of them
-    file.array<FieldType<Row, decltype(field)>>(group + "/" + name, values, {values.size()}, units,
-                                                meaning);
+    file.array<FieldType<Row, decltype(field)>>(group + "/" + name, values,
+                                                {{"row", values.size()}}, units, meaning);
   });
 }
 
@@ -563,7 +563,8 @@ void write_part_rows(H5Writer& file, const std::vector<PartRow>& rows) {
     std::vector<Value> values;
     values.reserve(rows.size());
     for (const PartRow& row : rows) values.push_back(value(row));
-    file.array<Value>(std::string("rows/") + name, values, {values.size()}, units, meaning);
+    file.array<Value>(std::string("rows/") + name, values, {{"row", values.size()}}, units,
+                      meaning);
   };
   put("run", "1", "index of the run", [](const PartRow& row) { return row.run; });
   passage_columns([&](const char* name, const char* units, const char* meaning, auto field) {

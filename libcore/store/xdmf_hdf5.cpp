@@ -44,8 +44,10 @@ void write_frame(H5Writer& data, const RunFile& run, const Faces& faces, int k) 
   for (const std::int32_t b : faces.block) speeds.push_back(speed_of_block[b]);
   const std::string group = "frame_" + std::to_string(k);
   data.group(group, "one frame");
-  data.array<float>(group + "/points", points, {points.size() / 3, 3}, "m", "vertices, local");
-  data.array<float>(group + "/speed", speeds, {speeds.size()}, "m/s", "speed of the face's block");
+  data.array<float>(group + "/points", points, {{"/vertex", points.size() / 3}, {"/axis", 3}}, "m",
+                    "vertices, local");
+  data.array<float>(group + "/speed", speeds, {{"/face", speeds.size()}}, "m/s",
+                    "speed of the face's block");
 }
 
 std::string item(const std::string& dimensions, const char* type, const std::string& where) {
@@ -82,9 +84,10 @@ void write_xdmf(const std::string& path, const std::string& data_path, const std
   H5Writer data;
   data.attribute("", "description", std::string("Geometry of a run of talus-dda for XDMF"));
   data.attribute("", "origin_m", std::span<const double>(run.info.origin.data(), 3));
-  data.array<std::int32_t>("topology", faces.topology, {faces.topology.size()}, "1",
+  data.array<std::int32_t>("topology", faces.topology, {{"entry", faces.topology.size()}}, "1",
                            "3, number of corners, corners ... of each face");
-  data.array<std::int32_t>("block", faces.block, {faces.block.size()}, "1", "block of each face");
+  data.array<std::int32_t>("block", faces.block, {{"face", faces.block.size()}}, "1",
+                           "block of each face");
   for (int k = 0; k < n_frames(run.frames); ++k) write_frame(data, run, faces, k);
   write_bytes(data_path, data.image());
   const std::string xml = described(run, faces, data_name);

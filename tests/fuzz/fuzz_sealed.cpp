@@ -14,6 +14,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -126,6 +127,8 @@ struct Edited {
   Edited& operator=(const Edited&) = delete;
 
   void find_objects() {
+    static const std::set<std::string> not_read = {
+        "units", "long_name", "description", "CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST"};
     const auto visit = [](hid_t top, const char* name, const H5O_info_t* info, void* to) -> herr_t {
       auto& found = *static_cast<std::vector<Object>*>(to);
       if (info->type == H5O_TYPE_DATASET) found.push_back({name, ""});
@@ -137,7 +140,7 @@ struct Edited {
         H5Aget_name(attribute, text.size(), text.data());
         H5Aclose(attribute);
         const std::string word = text.data();
-        if (word != "units" && word != "description") found.push_back({name, word});
+        if (!not_read.contains(word)) found.push_back({name, word});
       }
       H5Oclose(object);
       return 0;
