@@ -517,6 +517,8 @@ template std::vector<float> H5Reader::array(const std::string&, std::size_t) con
 template std::vector<double> H5Reader::array(const std::string&, std::size_t) const;
 template std::vector<std::int32_t> H5Reader::rows(const std::string&, std::size_t, std::size_t,
                                                   std::size_t) const;
+template std::vector<std::int64_t> H5Reader::rows(const std::string&, std::size_t, std::size_t,
+                                                  std::size_t) const;
 template std::vector<float> H5Reader::rows(const std::string&, std::size_t, std::size_t,
                                            std::size_t) const;
 template std::vector<double> H5Reader::rows(const std::string&, std::size_t, std::size_t,

@@ -508,13 +508,24 @@ void read_reaches(const H5Reader& file, const std::string& path, Part& part) {
 }
 
 // A table of a run file with the rows of all runs.
-template <class Field, class Write>
-void write_rows(H5Writer& file, const std::string& group, const Part& part, bool also_if_empty,
-                const Field& field, const Write& write) {
-  const auto all = joined(part, field);
+template <class Row>
+void write_rows(H5Writer& file, const Part& part, std::vector<Row> RunFile::*rows,
+                bool also_if_empty = false) {
+  const auto field = [rows](const RunFile& run) { return run.*rows; };
+  const std::vector<Row> all = joined(part, field);
   if (all.empty() && !also_if_empty) return;
-  write(file, all);
-  put_begin(file, group, part, field);
+  write_table(file, all);
+  put_begin(file, table_of<Row>().name, part, field);
+}
+
+template <class Row>
+void read_rows(const H5Reader& file, const std::string& path, Part& part,
+               std::vector<Row> RunFile::*rows) {
+  const char* group = table_of<Row>().name;
+  if (!file.has(group)) return;
+  share_out(
+      file, path, group, part,
+      read_table<Row>(file), [rows](RunFile & run) -> auto& { return run.*rows; });
 }
 
 void write_forests(H5Writer& file, const Part& part) {
@@ -545,60 +556,29 @@ void read_forests(const H5Reader& file, const std::string& path, Part& part) {
 }
 
 void write_tables(H5Writer& file, const Part& part) {
-  write_rows(
-      file, "crossings", part, true, [](const RunFile& run) { return run.crossings; },
-      write_crossing_table);
-  write_rows(
-      file, "object_hits", part, has_objects(part),
-      [](const RunFile& run) { return run.object_hits; }, write_object_hit_table);
-  write_rows(
-      file, "fence_panels", part, false, [](const RunFile& run) { return run.panels; },
-      write_panel_table);
-  write_rows(
-      file, "fence_hits", part, false, [](const RunFile& run) { return run.fence_hits; },
-      write_hit_table);
+  write_rows(file, part, &RunFile::crossings, true);
+  write_rows(file, part, &RunFile::object_hits, has_objects(part));
+  write_rows(file, part, &RunFile::panels);
+  write_rows(file, part, &RunFile::fence_hits);
   write_forests(file, part);
-  write_rows(
-      file, "tree_hits", part, false, [](const RunFile& run) { return run.tree_hits; },
-      write_tree_hit_table);
-  write_rows(
-      file, "health", part, true, [](const RunFile& run) { return run.health; },
-      write_health_table);
-  write_rows(
-      file, "breaks", part, false, [](const RunFile& run) { return run.breaks; },
-      write_break_table);
-  write_rows(
-      file, "crushed_blocks", part, false, [](const RunFile& run) { return run.crushed; },
-      write_crushed_table);
-  write_rows(
-      file, "deep_blocks", part, false, [](const RunFile& run) { return run.deep; },
-      write_deep_table);
+  write_rows(file, part, &RunFile::tree_hits);
+  write_rows(file, part, &RunFile::health, true);
+  write_rows(file, part, &RunFile::breaks);
+  write_rows(file, part, &RunFile::crushed);
+  write_rows(file, part, &RunFile::deep);
 }
 
 void read_tables(const H5Reader& file, const std::string& path, Part& part) {
-  const auto take = [&](const std::string& group, auto&& read, auto field) {
-    if (file.has(group)) share_out(file, path, group, part, read(file), field);
-  };
-  take(
-      "crossings", read_crossing_table, [](RunFile & run) -> auto& { return run.crossings; });
-  take(
-      "object_hits", read_object_hit_table, [](RunFile & run) -> auto& { return run.object_hits; });
-  take(
-      "fence_panels", read_panel_table, [](RunFile & run) -> auto& { return run.panels; });
-  take(
-      "fence_hits", read_hit_table, [](RunFile & run) -> auto& { return run.fence_hits; });
+  read_rows(file, path, part, &RunFile::crossings);
+  read_rows(file, path, part, &RunFile::object_hits);
+  read_rows(file, path, part, &RunFile::panels);
+  read_rows(file, path, part, &RunFile::fence_hits);
   read_forests(file, path, part);
-  take(
-      "tree_hits", read_tree_hit_table, [](RunFile & run) -> auto& { return run.tree_hits; });
-  take(
-      "health", [](const H5Reader& from) { return read_health_table(from, false); },
-      [](RunFile & run) -> auto& { return run.health; });
-  take(
-      "breaks", read_break_table, [](RunFile & run) -> auto& { return run.breaks; });
-  take(
-      "crushed_blocks", read_crushed_table, [](RunFile & run) -> auto& { return run.crushed; });
-  take(
-      "deep_blocks", read_deep_table, [](RunFile & run) -> auto& { return run.deep; });
+  read_rows(file, path, part, &RunFile::tree_hits);
+  read_rows(file, path, part, &RunFile::health);
+  read_rows(file, path, part, &RunFile::breaks);
+  read_rows(file, path, part, &RunFile::crushed);
+  read_rows(file, path, part, &RunFile::deep);
   for (int r = 0; r < n_runs(part); ++r) {
     RunFile run = run_of(part, r);
     check_crossings(run, path);

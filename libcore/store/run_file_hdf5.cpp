@@ -170,14 +170,14 @@ void read_reach(const H5Reader& file, const std::string& path, RunFile& run) {
 }
 
 void write_passages(H5Writer& file, const RunFile& run) {
-  write_passage_table(file, run.passages);
+  write_table(file, run.passages);
   write_grid(file, "passages", run.grid, run.info.origin, run.passages_by_centroid);
 }
 
 void read_passages(const H5Reader& file, const std::string& path, RunFile& run) {
   run.grid = read_grid(file, "passages", path);
   run.passages_by_centroid = file.attribute_text("passages", "passes_by") == "centroid";
-  run.passages = read_passage_table(file);
+  run.passages = read_table<Passage>(file);
   for (const Passage& row : run.passages)
     if (row.block < 0 || row.block >= n_blocks(run) || row.cell < 0 ||
         row.cell >= run.grid.n_rows * run.grid.n_cols)
@@ -187,13 +187,13 @@ void read_passages(const H5Reader& file, const std::string& path, RunFile& run) 
 }
 
 void write_crossings(H5Writer& file, const RunFile& run) {
-  write_crossing_table(file, run.crossings);
+  write_table(file, run.crossings);
   write_lines(file, run.lines);
 }
 
 void read_crossings(const H5Reader& file, const std::string& path, RunFile& run) {
   run.lines = read_lines(file, path);
-  run.crossings = read_crossing_table(file);
+  run.crossings = read_table<Crossing>(file);
   check_crossings(run, path);
 }
 
@@ -201,27 +201,27 @@ void read_crossings(const H5Reader& file, const std::string& path, RunFile& run)
 void write_object_hits(H5Writer& file, const RunFile& run) {
   if (run.objects.empty()) return;
   write_objects(file, run.objects);
-  write_object_hit_table(file, run.object_hits);
+  write_table(file, run.object_hits);
 }
 
 void read_object_hits(const H5Reader& file, const std::string& path, RunFile& run) {
   if (!file.has("objects")) return;
   run.objects = read_objects(file, path);
-  run.object_hits = read_object_hit_table(file);
+  run.object_hits = read_table<ObjectHit>(file);
   check_object_hits(run, path);
 }
 
 // Only in runs with fences that stood.
 void write_fences(H5Writer& file, const RunFile& run) {
   if (run.panels.empty()) return;
-  write_panel_table(file, run.panels);
-  write_hit_table(file, run.fence_hits);
+  write_table(file, run.panels);
+  write_table(file, run.fence_hits);
 }
 
 void read_fences(const H5Reader& file, const std::string& path, RunFile& run) {
   if (!file.has("fence_panels")) return;
-  run.panels = read_panel_table(file);
-  run.fence_hits = read_hit_table(file);
+  run.panels = read_table<PanelRow>(file);
+  run.fence_hits = read_table<FenceHit>(file);
   check_fences(run, path);
 }
 
@@ -237,7 +237,7 @@ void write_trees(H5Writer& file, const RunFile& run) {
   file.group("forests", "the forests that stood");
   file.names("forests/name", names, "forest", "name of the forest");
   put_indices(file, "forests/n_stems", n_stems, "forest", "stems that stood at the start");
-  write_tree_hit_table(file, run.tree_hits);
+  write_table(file, run.tree_hits);
 }
 
 void read_trees(const H5Reader& file, const std::string& path, RunFile& run) {
@@ -247,25 +247,25 @@ void read_trees(const H5Reader& file, const std::string& path, RunFile& run) {
   if (n_stems.size() != names.size())
     throw InputError({path, 0, "forests/n_stems"}, "does not have a row for each forest");
   for (std::size_t k = 0; k < names.size(); ++k) run.forests.push_back({names[k], n_stems[k]});
-  run.tree_hits = read_tree_hit_table(file);
+  run.tree_hits = read_table<TreeHitRow>(file);
   check_tree_hits(run, path);
 }
 
 void read_deep(const H5Reader& file, const std::string& path, RunFile& run) {
   if (!file.has("deep_blocks")) return;
-  run.deep = read_deep_table(file);
+  run.deep = read_table<DeepRow>(file);
   check_deep(run, path);
 }
 
 void read_breaks(const H5Reader& file, const std::string& path, RunFile& run) {
   if (!file.has("breaks")) return;
-  run.breaks = read_break_table(file);
+  run.breaks = read_table<Break>(file);
   check_breaks(run, path);
 }
 
 void read_crushed(const H5Reader& file, const std::string& path, RunFile& run) {
   if (!file.has("crushed_blocks")) return;
-  run.crushed = read_crushed_table(file);
+  run.crushed = read_table<CrushedBlock>(file);
   check_crushed(run, path);
 }
 
@@ -310,7 +310,7 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
   if (parts.objects) read_object_hits(file, path, run);
   if (parts.trees) read_trees(file, path, run);
   if (parts.health) {
-    run.health = read_health_table(file, parts.only_faults);
+    run.health = read_table<HealthRow>(file, parts.only_faults);
     read_crushed(file, path, run);
     read_deep(file, path, run);
   }
@@ -344,10 +344,10 @@ void write_run_file(const std::string& path, const RunFile& run) {
   write_object_hits(file, run);
   write_fences(file, run);
   write_trees(file, run);
-  write_health_table(file, run.health);
-  if (!run.breaks.empty()) write_break_table(file, run.breaks);
-  if (!run.crushed.empty()) write_crushed_table(file, run.crushed);
-  if (!run.deep.empty()) write_deep_table(file, run.deep);
+  write_table(file, run.health);
+  if (!run.breaks.empty()) write_table(file, run.breaks);
+  if (!run.crushed.empty()) write_table(file, run.crushed);
+  if (!run.deep.empty()) write_table(file, run.deep);
   if (!run.checkpoint.empty())
     file.array<std::uint8_t>("checkpoint", run.checkpoint, {{"/byte", run.checkpoint.size()}}, "1",
                              "state of the solver and the recorder, for talus-dda --resume");
