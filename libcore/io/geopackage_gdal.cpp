@@ -116,6 +116,38 @@ void write_layer(GDALDataset& dataset, OGRSpatialReference* crs, const VectorLay
   write_features(*out, layer);
 }
 
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? "''" : std::string(1, c);
+  return out + "'";
+}
+
+// Titles of fields as the standard's extension "Schema" keeps them.
+void write_titles(GDALDataset& dataset, const std::vector<VectorLayer>& layers) {
+  const auto run = [&dataset](const std::string& sql) {
+    dataset.ReleaseResultSet(dataset.ExecuteSQL(sql.c_str(), nullptr, nullptr));
+  };
+  bool any = false;
+  for (const VectorLayer& layer : layers)
+    for (const VectorField& field : layer.fields) {
+      if (field.title.empty()) continue;
+      if (!any) {
+        run("CREATE TABLE gpkg_data_columns (table_name TEXT NOT NULL, column_name TEXT NOT NULL, "
+            "name TEXT, title TEXT, description TEXT, mime_type TEXT, constraint_name TEXT, "
+            "CONSTRAINT pk_gdc PRIMARY KEY (table_name, column_name), CONSTRAINT gdc_tn UNIQUE "
+            "(table_name, name))");
+        run("CREATE TABLE IF NOT EXISTS gpkg_extensions (table_name TEXT, column_name TEXT, "
+            "extension_name TEXT NOT NULL, definition TEXT NOT NULL, scope TEXT NOT NULL, "
+            "CONSTRAINT ge_tce UNIQUE (table_name, column_name, extension_name))");
+        run("INSERT INTO gpkg_extensions VALUES ('gpkg_data_columns', NULL, 'gpkg_schema', "
+            "'http://www.geopackage.org/spec121/#extension_schema', 'read-write')");
+        any = true;
+      }
+      run("INSERT INTO gpkg_data_columns (table_name, column_name, title) VALUES (" +
+          quoted(layer.name) + ", " + quoted(field.name) + ", " + quoted(field.title) + ")");
+    }
+}
+
 // The table that QGIS reads default styles from.
 void write_styles(GDALDataset& dataset, const std::vector<VectorLayer>& layers) {
   OGRLayer* const styles = dataset.CreateLayer("layer_styles", nullptr, wkbNone, nullptr);
@@ -167,6 +199,7 @@ void write_geopackage(const std::string& path, const std::string& crs_wkt,
     static_cast<void>(dataset->StartTransaction());
     for (const VectorLayer& layer : layers) write_layer(*dataset, has_crs ? &crs : nullptr, layer);
     write_styles(*dataset, layers);
+    write_titles(*dataset, layers);
     static_cast<void>(dataset->CommitTransaction());
   }
   dataset.reset();  // the last bytes are written here

@@ -4,21 +4,25 @@
 
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
+#include "base/fields.hpp"
 #include "base/types.hpp"
 
 namespace talus {
 
-/// A value of an attribute; monostate is NULL.
-using FieldValue = std::variant<std::monostate, std::int64_t, double, std::string>;
-
-enum class FieldType { integer, real, text, boolean };
 struct VectorField {
   std::string name;  ///< unit in the name
   FieldType type = FieldType::real;
+  std::string title = {};  ///< in words, with the unit
 };
+template <class Row>
+[[nodiscard]] std::vector<VectorField> vector_fields(const std::vector<Field<Row>>& fields) {
+  std::vector<VectorField> out;
+  for (const Field<Row>& field : fields)
+    out.push_back({field.name, field.type, title_of(field.title, field.unit)});
+  return out;
+}
 
 enum class GeometryType {
   point,

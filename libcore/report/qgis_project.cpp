@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "report/field_words.hpp"
 
 namespace talus {
 namespace {
@@ -155,8 +154,9 @@ std::string aliases_xml(const QgisLayer& layer) {
   if (layer.fields.empty() || layer.style.find("<aliases>") != std::string::npos) return "";
   std::string out = "<aliases>";
   for (std::size_t i = 0; i < layer.fields.size(); ++i)
-    out += "<alias index=\"" + std::to_string(i) + "\" field=\"" + xml_escaped(layer.fields[i]) +
-           "\" name=\"" + xml_escaped(field_words(layer.fields[i])) + "\"/>";
+    out += "<alias index=\"" + std::to_string(i) + "\" field=\"" +
+           xml_escaped(layer.fields[i].first) + "\" name=\"" + xml_escaped(layer.fields[i].second) +
+           "\"/>";
   return out + "</aliases>\n";
 }
 

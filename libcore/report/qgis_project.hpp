@@ -23,7 +23,7 @@ struct QgisLayer {
   std::string about{};  ///< definition and unit, for the abstract
   std::string shown{};  ///< name of `style` where there are others
   std::vector<std::pair<std::string, std::string>> other_styles{};  ///< by name, QML
-  std::vector<std::string> fields{};                                ///< that get aliases in words
+  std::vector<std::pair<std::string, std::string>> fields{};        ///< name and title
 };
 
 struct QgisProject {

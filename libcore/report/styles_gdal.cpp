@@ -40,6 +40,22 @@ std::map<std::string, std::string> styles_of(GDALDataset& dataset) {
   return styles;
 }
 
+// Of the fields of a layer.
+std::map<std::string, std::string> titles_of(GDALDataset& dataset, const std::string& layer) {
+  std::map<std::string, std::string> titles;
+  OGRLayer* const table = dataset.GetLayerByName("gpkg_data_columns");
+  if (table == nullptr) return titles;
+  table->ResetReading();
+  for (const auto& row : table) {
+    const auto text = [&row](const char* name) -> std::string {
+      const int i = row->GetFieldIndex(name);
+      return i < 0 ? "" : row->GetFieldAsString(i);
+    };
+    if (text("table_name") == layer) titles[text("column_name")] = text("title");
+  }
+  return titles;
+}
+
 }  // namespace
 
 std::vector<StyledLayer> styled_layers(const std::string& path) {
@@ -54,8 +70,12 @@ std::vector<StyledLayer> styled_layers(const std::string& path) {
                       layer->GetFeatureCount() == 0};
     if (found.shape == StyledLayer::none) continue;
     if (const char* words = layer->GetMetadataItem("DESCRIPTION")) found.description = words;
-    for (int i = 0; i < layer->GetLayerDefn()->GetFieldCount(); ++i)
-      found.fields.emplace_back(layer->GetLayerDefn()->GetFieldDefn(i)->GetNameRef());
+    std::map<std::string, std::string> titles = titles_of(*dataset, found.name);
+    for (int i = 0; i < layer->GetLayerDefn()->GetFieldCount(); ++i) {
+      const std::string name = layer->GetLayerDefn()->GetFieldDefn(i)->GetNameRef();
+      const std::string& title = titles[name];
+      found.fields.emplace_back(name, title.empty() ? name : title);
+    }
     if (const auto style = styles.find(found.name); style != styles.end())
       found.qml = style->second;
     layers.push_back(std::move(found));

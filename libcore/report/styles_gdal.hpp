@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -12,8 +13,9 @@ struct StyledLayer {
   enum Shape { none, point, line, polygon } shape = none;
   std::string qml;  ///< its default style; empty: none
   bool is_empty = false;
-  std::string description{};          ///< of the layer, in the file
-  std::vector<std::string> fields{};  ///< names, without that of the feature's number
+  std::string description{};  ///< of the layer, in the file
+  /// Name and title of each, without that of the feature's number; no title: its name.
+  std::vector<std::pair<std::string, std::string>> fields{};
 };
 
 /// Layers with a geometry, in the order of the file. Throws InputError when it cannot be read.

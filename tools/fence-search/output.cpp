@@ -161,7 +161,8 @@ Json proposal_json(const SearchCase& search, const Proposal& proposal, const Vec
   return json;
 }
 
-FieldValue whole(std::int64_t value) { return value; }
+using Value = FieldValue;
+constexpr FieldType words = FieldType::text, whole = FieldType::integer;
 
 VectorFeature line_of(const Fence& fence, const Vec3& origin) {
   VectorFeature f;
@@ -170,45 +171,86 @@ VectorFeature line_of(const Fence& fence, const Vec3& origin) {
   return f;
 }
 
-std::vector<VectorField> option_fields() {
-  return {{"search", FieldType::text},        {"name", FieldType::text},
-          {"length_m", FieldType::real},      {"height_m", FieldType::real},
-          {"capacity_kj", FieldType::real},   {"cost", FieldType::real},
-          {"stopped_share", FieldType::real}, {"residual", FieldType::real},
-          {"residual_lo", FieldType::real},   {"residual_hi", FieldType::real},
-          {"verified", FieldType::real},      {"verified_lo", FieldType::real},
-          {"verified_hi", FieldType::real},   {"comparison", FieldType::text},
-          {"lacks", FieldType::text},         {"governs", FieldType::text}};
+struct OptionRow {
+  const SearchCase& search;
+  const std::string& name;
+  const FenceOption& option;
+  const Proposal* proposal;  // null: of the front
+
+  [[nodiscard]] Value verified(double (*get)(const VerifiedFence&)) const {
+    return proposal == nullptr || !proposal->verified ? Value() : Value(get(*proposal->verified));
+  }
+};
+const std::vector<Field<OptionRow>>& option_fields() {
+  using Row = const OptionRow&;
+  using Verified = const VerifiedFence&;
+  static const std::vector<Field<OptionRow>> fields = {
+      {"search", "", "Search", [](Row r) -> Value { return r.search.settings->name; }, words},
+      {"name", "", "Name", [](Row r) -> Value { return r.name; }, words},
+      {"length_m", "m", "Length", [](Row r) -> Value { return r.option.length; }},
+      {"height_m", "m", "Height", [](Row r) -> Value { return r.option.height; }},
+      {"capacity_kj", "kJ", "Capacity", [](Row r) -> Value { return r.option.capacity / 1e3; }},
+      {"cost", "", "Cost", [](Row r) -> Value { return r.option.cost; }},
+      {"stopped_share", "", "Share of the hits that it stops",
+       [](Row r) -> Value { return r.option.stopped; }},
+      {"residual", "", "Share of runs that still hit",
+       [](Row r) -> Value { return r.option.residual; }},
+      {"residual_lo", "", "Share of runs that still hit, lower bound",
+       [](Row r) -> Value { return r.option.residual_interval.low; }},
+      {"residual_hi", "", "Share of runs that still hit, upper bound",
+       [](Row r) -> Value { return r.option.residual_interval.high; }},
+      {"verified", "", "Share of other runs that still hit",
+       [](Row r) { return r.verified([](Verified v) { return v.residual; }); }},
+      {"verified_lo", "", "Share of other runs that still hit, lower bound",
+       [](Row r) { return r.verified([](Verified v) { return v.interval.low; }); }},
+      {"verified_hi", "", "Share of other runs that still hit, upper bound",
+       [](Row r) { return r.verified([](Verified v) { return v.interval.high; }); }},
+      {"comparison", "", "Compared with what was predicted",
+       [](Row r) -> Value { return r.proposal == nullptr ? "" : comparison_of(*r.proposal); },
+       words},
+      {"lacks", "", "What it lacks", [](Row r) -> Value { return faults_text(r.option); }, words},
+      {"governs", "", "What governs", [](Row r) -> Value { return governs(r.option); }, words}};
+  return fields;
 }
 
-std::vector<FieldValue> option_values(const SearchCase& search, const std::string& name,
-                                      const FenceOption& option, const Proposal* proposal) {
-  const bool is_verified = proposal != nullptr && proposal->verified;
-  return {search.settings->name,
-          name,
-          option.length,
-          option.height,
-          option.capacity / 1e3,
-          option.cost,
-          option.stopped,
-          option.residual,
-          option.residual_interval.low,
-          option.residual_interval.high,
-          is_verified ? proposal->verified->residual : none,
-          is_verified ? proposal->verified->interval.low : none,
-          is_verified ? proposal->verified->interval.high : none,
-          is_verified ? comparison_of(*proposal) : std::string(),
-          faults_text(option),
-          governs(option)};
+struct CandidateRow {
+  const SearchCase& search;
+  const SearchLine& line;
+};
+const std::vector<Field<CandidateRow>>& candidate_fields() {
+  using Row = const CandidateRow&;
+  static const std::vector<Field<CandidateRow>> fields = {
+      {"search", "", "Search", [](Row r) -> Value { return r.search.settings->name; }, words},
+      {"line", "", "Line", [](Row r) -> Value { return r.line.name; }, words},
+      {"length_m", "m", "Length", [](Row r) -> Value { return length(r.line.fence); }},
+      {"n_crossings", "", "Number of crossings",
+       [](Row r) -> Value { return static_cast<std::int64_t>(r.line.hits.size()); }, whole},
+      {"n_on_the_object", "", "Number on the object",
+       [](Row r) -> Value {
+         return std::count_if(r.line.hits.begin(), r.line.hits.end(),
+                              [](const SearchHit& hit) { return hit.matters; });
+       },
+       whole}};
+  return fields;
+}
+
+struct PostRow {
+  const Fence& fence;
+  std::size_t post;
+};
+const std::vector<Field<PostRow>>& post_fields() {
+  using Row = const PostRow&;
+  static const std::vector<Field<PostRow>> fields = {
+      {"fence", "", "Fence", [](Row r) -> Value { return r.fence.name; }, words},
+      {"post", "", "Post", [](Row r) -> Value { return static_cast<std::int64_t>(r.post); },
+       whole}};
+  return fields;
 }
 
 void add_candidates(VectorLayer& layer, const SearchCase& search, const Vec3& origin) {
   for (const SearchLine& line : search.lines) {
     VectorFeature f = line_of(line.fence, origin);
-    const auto n = std::count_if(line.hits.begin(), line.hits.end(),
-                                 [](const SearchHit& hit) { return hit.matters; });
-    f.values = {search.settings->name, line.name, length(line.fence),
-                whole(static_cast<std::int64_t>(line.hits.size())), whole(n)};
+    f.values = values_of(candidate_fields(), {search, line});
     layer.features.push_back(std::move(f));
   }
 }
@@ -339,29 +381,25 @@ std::vector<VectorLayer> search_layers(const std::vector<SearchCase>& searches,
   VectorLayer candidates{"candidates",
                          "lines that were screened",
                          GeometryType::line_zm,
-                         {{"search", FieldType::text},
-                          {"line", FieldType::text},
-                          {"length_m", FieldType::real},
-                          {"n_crossings", FieldType::integer},
-                          {"n_on_the_object", FieldType::integer}},
+                         vector_fields(candidate_fields()),
                          {},
                          line_style({150, 150, 150, 255}, 0.2)};
   VectorLayer front{"front",
                     "options that no other beats in all respects",
                     GeometryType::line_zm,
-                    option_fields(),
+                    vector_fields(option_fields()),
                     {},
                     line_style({49, 130, 189, 160}, 0.5)};
   VectorLayer proposals{"proposals",
                         "fences that do what is asked for",
                         GeometryType::line_zm,
-                        option_fields(),
+                        vector_fields(option_fields()),
                         {},
                         line_style({203, 24, 29, 255}, 1.0, "\"name\"")};
   VectorLayer posts{"posts",
                     "posts of the proposals",
                     GeometryType::point_z,
-                    {{"fence", FieldType::text}, {"post", FieldType::integer}},
+                    vector_fields(post_fields()),
                     {},
                     vector_qml({SymbolKind::point, "", {{"", "", {203, 24, 29, 255}}}, 1.6})};
   for (std::size_t s = 0; s < searches.size(); ++s) {
@@ -372,19 +410,19 @@ std::vector<VectorLayer> search_layers(const std::vector<SearchCase>& searches,
       const std::string name = search.settings->name + " front " + std::to_string(++number);
       for (const OptionPart& part : option.parts) {
         VectorFeature f = line_of(fence_on(search.lines[part.placed.line], part.placed), origin);
-        f.values = option_values(search, name, option, nullptr);
+        f.values = values_of(option_fields(), {search, name, option, nullptr});
         front.features.push_back(std::move(f));
       }
     }
     for (const Proposal& proposal : answers[s].proposals)
       for (const Fence& fence : proposal.fences) {
         VectorFeature f = line_of(fence, origin);
-        f.values = option_values(search, proposal.name, proposal.option, &proposal);
+        f.values = values_of(option_fields(), {search, proposal.name, proposal.option, &proposal});
         proposals.features.push_back(std::move(f));
         for (std::size_t p = 0; p < fence.post.size(); ++p) {
           VectorFeature post;
           post.points = {fence.post[p] + origin};
-          post.values = {fence.name, whole(static_cast<std::int64_t>(p))};
+          post.values = values_of(post_fields(), {fence, p});
           posts.features.push_back(std::move(post));
         }
       }

@@ -4,6 +4,7 @@
 
 #include "base/units.hpp"
 #include "io/style.hpp"
+#include "post/fence/fence_fields.hpp"
 #include "post/fence/fence_text.hpp"
 
 namespace talus {
@@ -22,22 +23,54 @@ VectorStyle verdict_style(SymbolKind kind, double size) {
           size};
 }
 
-void add_part(std::vector<FieldValue>& values, const FencePartSummary& p) {
-  values.insert(
-      values.end(),
-      {static_cast<std::int64_t>(p.n), p.per_run, p.energy.percentile[place_of_p95].value / 1e3,
-       p.energy.percentile[place_of_p95].upper / 1e3, p.energy.largest / 1e3,
-       p.top.percentile[place_of_p95].value, p.top.percentile[place_of_p95].upper, p.top.largest,
-       p.speed.percentile[place_of_p95].value, p.speed.largest, p.mean_angle / degree,
-       p.window_energy / 1e3});
+using Value = FieldValue;
+constexpr FieldType words = FieldType::text, whole = FieldType::integer;
+constexpr double kilo = 1e3;
+
+// A fence, one of its fields or one of its posts, with the arrivals at it.
+struct PartRow {
+  const FenceCase& fence;
+  const FenceResult& result;
+  std::size_t number;  // of the field or post
+  const FencePartSummary& part;
+  const DesignResult& design;
+};
+using Row = const PartRow&;
+using PartFields = std::vector<Field<PartRow>>;
+
+const BoundedPercentile& p95(const QuantitySummary& quantity) {
+  return quantity.percentile[place_of_p95];
 }
 
-std::vector<VectorField> part_fields(std::vector<VectorField> fields) {
-  fields.push_back({"n", FieldType::integer});
-  for (const char* name : {"per_run", "energy_p95_kj", "energy_p95_hi_kj", "energy_max_kj",
-                           "top_p95_m", "top_p95_hi_m", "top_max_m", "speed_p95_m_s",
-                           "speed_max_m_s", "angle_to_normal_deg", "energy_in_one_second_kj"})
-    fields.push_back({name, FieldType::real});
+const PartFields& arrival_fields() {
+  static const PartFields fields = {
+      {"n", "", "Number of arrivals", [](Row r) -> Value { return r.part.n; }, whole},
+      {"per_run", "", "Arrivals a run", [](Row r) -> Value { return r.part.per_run; }},
+      {"energy_p95_kj", "kJ", "Kinetic energy, 95th percentile",
+       [](Row r) -> Value { return p95(r.part.energy).value / kilo; }},
+      {"energy_p95_hi_kj", "kJ", "Kinetic energy, 95th percentile, upper bound",
+       [](Row r) -> Value { return p95(r.part.energy).upper / kilo; }},
+      {"energy_max_kj", "kJ", "Kinetic energy, largest",
+       [](Row r) -> Value { return r.part.energy.largest / kilo; }},
+      {"top_p95_m", "m", "Height of the top, 95th percentile",
+       [](Row r) -> Value { return p95(r.part.top).value; }},
+      {"top_p95_hi_m", "m", "Height of the top, 95th percentile, upper bound",
+       [](Row r) -> Value { return p95(r.part.top).upper; }},
+      {"top_max_m", "m", "Height of the top, largest",
+       [](Row r) -> Value { return r.part.top.largest; }},
+      {"speed_p95_m_s", "m/s", "Speed, 95th percentile",
+       [](Row r) -> Value { return p95(r.part.speed).value; }},
+      {"speed_max_m_s", "m/s", "Speed, largest",
+       [](Row r) -> Value { return r.part.speed.largest; }},
+      {"angle_to_normal_deg", "deg", "Angle to the normal, mean",
+       [](Row r) -> Value { return r.part.mean_angle / degree; }},
+      {"energy_in_one_second_kj", "kJ", "Largest sum of energies within a second",
+       [](Row r) -> Value { return r.part.window_energy / kilo; }}};
+  return fields;
+}
+
+PartFields joined(PartFields fields, const PartFields& more) {
+  fields.insert(fields.end(), more.begin(), more.end());
   return fields;
 }
 
@@ -58,37 +91,69 @@ std::vector<VectorStyle::Class> verdict_classes() {
 }
 
 // The verdict of each fence as a whole: the one that terminal and report give.
+const PartFields& whole_fields() {
+  static const PartFields fields = {
+      {"fence", "", "Fence", [](Row r) -> Value { return r.fence.fence.name; }, words},
+      {"arrivals", "", "Number of arrivals", [](Row r) -> Value { return r.design.n_arrivals; },
+       whole},
+      {"design_energy_kj", "kJ", "Design energy",
+       [](Row r) -> Value { return r.design.design_energy / kilo; }},
+      {"required_capacity_kj", "kJ", "Required capacity",
+       [](Row r) -> Value { return r.design.required_capacity / kilo; }},
+      {"required_height_m", "m", "Required height",
+       [](Row r) -> Value { return r.design.required_height; }},
+      {"smallest_class", "", "Smallest class",
+       [](Row r) -> Value { return r.design.smallest_class; }, words},
+      {"basis", "", "Basis", [](Row r) -> Value { return basis_text(r.result); }, words},
+      {"verdict", "", "Verdict", [](Row r) -> Value { return text(r.design.verdict); }, words},
+      {"verdict_text", "", "Verdict in words", [](Row r) -> Value { return text(r.design); },
+       words},
+      {"pass", "", "Whether it meets the code", [](Row r) -> Value { return pass_field(r.design); },
+       whole}};
+  return fields;
+}
+
+// The verdict of each fence as a whole: the one that terminal and report give.
 VectorLayer whole_layer(const std::vector<FenceCase>& fences,
                         const std::vector<FenceResult>& results, const Vec3& origin) {
   VectorLayer layer{"fences",
                     "the fences with the verdict of their design check",
                     GeometryType::line_zm,
-                    {{"fence", FieldType::text}, {"arrivals", FieldType::integer}},
+                    vector_fields(whole_fields()),
                     {},
                     vector_qml({SymbolKind::line, "verdict", verdict_classes(), 1.4, "\"fence\""})};
-  for (const char* name : {"design_energy_kj", "required_capacity_kj", "required_height_m"})
-    layer.fields.push_back({name, FieldType::real});
-  for (const char* name : {"smallest_class", "basis", "verdict", "verdict_text"})
-    layer.fields.push_back({name, FieldType::text});
-  layer.fields.push_back({"pass", FieldType::integer});
   for (std::size_t i = 0; i < fences.size(); ++i) {
-    const DesignResult& r = results[i].design;
+    const FenceResult& r = results[i];
     VectorFeature feature;
     for (const Vec3& post : fences[i].fence.post) feature.points.emplace_back(post + origin);
     feature.measure = fences[i].fence.chainage;
-    feature.values = {fences[i].fence.name,
-                      static_cast<std::int64_t>(r.n_arrivals),
-                      r.design_energy / 1e3,
-                      r.required_capacity / 1e3,
-                      r.required_height,
-                      r.smallest_class,
-                      basis_text(results[i]),
-                      std::string(text(r.verdict)),
-                      text(r),
-                      pass_field(r)};
+    feature.values = values_of(whole_fields(), {fences[i], r, 0, r.whole, r.design});
     layer.features.push_back(std::move(feature));
   }
   return layer;
+}
+
+const PartFields& field_fields() {
+  static const PartFields fields = joined(
+      joined({{"fence", "", "Fence", [](Row r) -> Value { return r.fence.fence.name; }, words},
+              {"field", "", "Field",
+               [](Row r) -> Value { return static_cast<std::int64_t>(r.number); }, whole}},
+             arrival_fields()),
+      {{"storage_m3", "m3", "Storage",
+        [](Row r) -> Value { return r.result.fields[r.number].storage; }},
+       {"required_capacity_kj", "kJ", "Required capacity",
+        [](Row r) -> Value { return r.design.required_capacity / kilo; }},
+       {"required_height_m", "m", "Required height",
+        [](Row r) -> Value { return r.design.required_height; }},
+       {"smallest_class", "", "Smallest class",
+        [](Row r) -> Value { return r.design.smallest_class; }, words},
+       {"governs", "", "What governs", [](Row r) -> Value { return r.design.governs; }, words},
+       {"pass", "", "Whether it meets the code",
+        [](Row r) -> Value { return pass_field(r.design); }, whole},
+       {"verdict", "", "Verdict", [](Row r) -> Value { return text(r.design.verdict); }, words},
+       {"verdict_text", "", "Verdict in words", [](Row r) -> Value { return text(r.design); },
+        words}});
+  return fields;
 }
 
 VectorLayer field_layer(const std::vector<FenceCase>& fences,
@@ -96,16 +161,9 @@ VectorLayer field_layer(const std::vector<FenceCase>& fences,
   VectorLayer layer{"fence_fields",
                     "fields of the fences, each judged by the arrivals at it alone",
                     GeometryType::line_zm,
-                    part_fields({{"fence", FieldType::text}, {"field", FieldType::integer}}),
+                    vector_fields(field_fields()),
                     {},
                     vector_qml({SymbolKind::line, "verdict", verdict_classes(), 1.2})};
-  for (const char* name : {"storage_m3", "required_capacity_kj", "required_height_m"})
-    layer.fields.push_back({name, FieldType::real});
-  for (const char* name : {"smallest_class", "governs"})
-    layer.fields.push_back({name, FieldType::text});
-  layer.fields.push_back({"pass", FieldType::integer});
-  for (const char* name : {"verdict", "verdict_text"})
-    layer.fields.push_back({name, FieldType::text});
   for (std::size_t i = 0; i < fences.size(); ++i)
     for (std::size_t f = 0; f < results[i].fields.size(); ++f) {
       const FieldResult& r = results[i].fields[f];
@@ -113,15 +171,19 @@ VectorLayer field_layer(const std::vector<FenceCase>& fences,
       VectorFeature feature;
       feature.points = {fence.post[f] + origin, fence.post[f + 1] + origin};
       feature.measure = {fence.chainage[f], fence.chainage[f + 1]};
-      feature.values = {fence.name, static_cast<std::int64_t>(f)};
-      add_part(feature.values, r.part);
-      feature.values.insert(feature.values.end(),
-                            {r.storage, r.design.required_capacity / 1e3, r.design.required_height,
-                             r.design.smallest_class, r.design.governs, pass_field(r.design),
-                             std::string(text(r.design.verdict)), text(r.design)});
+      feature.values = values_of(field_fields(), {fences[i], results[i], f, r.part, r.design});
       layer.features.push_back(std::move(feature));
     }
   return layer;
+}
+
+const PartFields& post_fields() {
+  static const PartFields fields =
+      joined({{"fence", "", "Fence", [](Row r) -> Value { return r.fence.fence.name; }, words},
+              {"post", "", "Post",
+               [](Row r) -> Value { return static_cast<std::int64_t>(r.number); }, whole}},
+             arrival_fields());
+  return fields;
 }
 
 VectorLayer post_layer(const std::vector<FenceCase>& fences,
@@ -130,15 +192,15 @@ VectorLayer post_layer(const std::vector<FenceCase>& fences,
       "fence_posts",
       "posts, with the arrivals nearest to each",
       GeometryType::point_z,
-      part_fields({{"fence", FieldType::text}, {"post", FieldType::integer}}),
+      vector_fields(post_fields()),
       {},
       vector_qml({SymbolKind::point, "", {{"", "", {60, 60, 60, 255}}}, 1.6, "\"post\""})};
   for (std::size_t i = 0; i < fences.size(); ++i)
     for (std::size_t p = 0; p < results[i].posts.size(); ++p) {
       VectorFeature feature;
       feature.points = {fences[i].fence.post[p] + origin};
-      feature.values = {fences[i].fence.name, static_cast<std::int64_t>(p)};
-      add_part(feature.values, results[i].posts[p]);
+      feature.values = values_of(
+          post_fields(), {fences[i], results[i], p, results[i].posts[p], results[i].design});
       layer.features.push_back(std::move(feature));
     }
   return layer;
@@ -149,17 +211,9 @@ VectorLayer arrivals_layer(const std::vector<FenceCase>& fences, const FenceRunG
   VectorLayer layer{"fence_arrivals",
                     "where and how blocks come at the fences or pass beside them",
                     GeometryType::point_z,
-                    {{"fence", FieldType::text},
-                     {"run_id", FieldType::text},
-                     {"block", FieldType::integer},
-                     {"verdict", FieldType::text},
-                     {"recorded_at", FieldType::text}},
+                    vector_fields(verdict_fields()),
                     {},
                     vector_qml(verdict_style(SymbolKind::point, 2))};
-  for (const char* name : {"time_s", "chainage_m", "speed_m_s", "angle_to_normal_deg", "spin_rad_s",
-                           "translational_energy_kj", "rotational_energy_kj", "centroid_height_m",
-                           "top_height_m", "bottom_height_m", "volume_m3"})
-    layer.fields.push_back({name, FieldType::real});
   for (std::size_t i = 0; i < fences.size(); ++i)
     for (int r = 0; r < n_runs(group); ++r)
       for (const BlockVerdict& v : group.runs[r].at_fence[i].verdicts) {
@@ -167,22 +221,7 @@ VectorLayer arrivals_layer(const std::vector<FenceCase>& fences, const FenceRunG
         const FenceArrival& a = group.runs[r].at_fence[i].arrivals[v.arrival];
         VectorFeature f;
         f.points = {place_of(a, fences[i].fence) + origin};
-        f.values = {fences[i].fence.name,
-                    group.members[r].info.run_id,
-                    static_cast<std::int64_t>(a.block),
-                    std::string(text(v.verdict)),
-                    std::string(recorded_at(a)),
-                    a.time,
-                    a.chainage,
-                    a.speed,
-                    a.beside ? std::nan("") : a.angle / degree,
-                    a.spin,
-                    a.translation / 1e3,
-                    a.rotation / 1e3,
-                    a.centroid,
-                    a.top,
-                    a.bottom,
-                    a.volume};
+        f.values = values_of(verdict_fields(), {fences[i].fence, group, r, v, &a});
         layer.features.push_back(std::move(f));
       }
   return layer;

@@ -4,6 +4,27 @@
 #include "io/geopackage_gdal.hpp"
 
 namespace talus {
+namespace {
+
+const std::vector<Field<DoubtRow>>& doubt_fields() {
+  using Value = FieldValue;
+  using Row = const DoubtRow&;
+  static const std::vector<Field<DoubtRow>> fields = {
+      {"what", "", "What", [](Row r) -> Value { return r.what; }, FieldType::text},
+      {"feature", "", "Feature", [](Row r) { return r.feature < 0 ? Value() : Value(r.feature); },
+       FieldType::integer},
+      {"height_m", "m", "Height", [](Row r) -> Value { return r.place.z(); }},
+      {"expected_low_m", "m", "Expected, lower bound",
+       [](Row r) -> Value { return r.expected_low; }},
+      {"expected_high_m", "m", "Expected, upper bound",
+       [](Row r) -> Value { return r.expected_high; }},
+      {"difference_m", "m", "Difference", [](Row r) -> Value { return difference_of(r); }},
+      {"moved_m", "m", "Moved by", [](Row r) -> Value { return r.moved; }},
+      {"outcome", "", "Outcome", [](Row r) -> Value { return r.outcome; }, FieldType::text}};
+  return fields;
+}
+
+}  // namespace
 
 double difference_of(const DoubtRow& row) {
   const double z = row.place.z();
@@ -31,21 +52,11 @@ void write_doubts(Tool& tool, const std::string& path, const std::string& crs_wk
   VectorLayer layer;
   layer.name = "doubts";
   layer.description = "places to look at before the result is used";
-  layer.fields = {{"what", FieldType::text},
-                  {"feature", FieldType::integer},
-                  {"height_m", FieldType::real},
-                  {"expected_low_m", FieldType::real},
-                  {"expected_high_m", FieldType::real},
-                  {"difference_m", FieldType::real},
-                  {"moved_m", FieldType::real},
-                  {"outcome", FieldType::text}};
+  layer.fields = vector_fields(doubt_fields());
   for (const DoubtRow& row : rows) {
     VectorFeature feature;
     feature.points = {row.place};
-    feature.values = {row.what,          row.feature < 0 ? FieldValue() : FieldValue(row.feature),
-                      row.place.z(),     row.expected_low,
-                      row.expected_high, difference_of(row),
-                      row.moved,         row.outcome};
+    feature.values = values_of(doubt_fields(), row);
     layer.features.push_back(std::move(feature));
   }
   write_geopackage(tool.stage_also_if_refused(path), crs_wkt, {layer});

@@ -117,18 +117,35 @@ Json outline_json(const OutlinedSurface& surface, const Vec3& origin) {
           {"polygons", polygons}};
 }
 
+namespace {
+
+const std::vector<Field<OutlinedSurface>>& surface_fields() {
+  using Value = FieldValue;
+  using Row = const OutlinedSurface&;
+  static const std::vector<Field<OutlinedSurface>> fields = {
+      {"sets", "", "Joint sets", [](Row r) -> Value { return r.sets; }, FieldType::text},
+      {"kind", "", "Kind", [](Row r) -> Value { return r.is_wedge ? "wedge" : "plane"; },
+       FieldType::text},
+      {"dip_deg", "deg", "Dip", [](Row r) -> Value { return r.fall.dip / degree; }},
+      {"dip_direction_deg", "deg", "Dip direction",
+       [](Row r) -> Value { return std::fmod(r.fall.dip_direction / degree + 360, 360); }},
+      {"free_share_of_foot", "", "Share of the foot that is free",
+       [](Row r) -> Value { return r.free_share; }},
+      {"volume_m3", "m3", "Volume", [](Row r) -> Value { return r.volume; }},
+      {"left_out_m3", "m3", "Volume of parts left out",
+       [](Row r) -> Value { return r.volume_left_out; }},
+      {"taken", "", "Whether it is taken", [](Row r) -> Value { return r.is_taken ? 1 : 0; },
+       FieldType::integer}};
+  return fields;
+}
+
+}  // namespace
+
 VectorLayer outline_layer(const std::vector<OutlinedSurface>& surfaces, const Vec3& origin) {
   VectorLayer layer{"failure_surfaces",
                     "areas of the masses that could leave on planes and wedges of the joint sets",
                     GeometryType::multi_polygon,
-                    {{"sets", FieldType::text},
-                     {"kind", FieldType::text},
-                     {"dip_deg", FieldType::real},
-                     {"dip_direction_deg", FieldType::real},
-                     {"free_share_of_foot", FieldType::real},
-                     {"volume_m3", FieldType::real},
-                     {"left_out_m3", FieldType::real},
-                     {"taken", FieldType::integer}},
+                    vector_fields(surface_fields()),
                     {},
                     vector_qml({SymbolKind::polygon, "", {{"", "", {122, 40, 160, 60}}}, 0.6})};
   for (const OutlinedSurface& surface : surfaces) {
@@ -137,15 +154,7 @@ VectorLayer outline_layer(const std::vector<OutlinedSurface>& surfaces, const Ve
     for (auto& polygon : feature.polygons)
       for (auto& ring : polygon)
         for (Vec2& p : ring) p += origin.head<2>();
-    const double direction = std::fmod(surface.fall.dip_direction / degree + 360, 360);
-    feature.values = {surface.sets,
-                      std::string(surface.is_wedge ? "wedge" : "plane"),
-                      surface.fall.dip / degree,
-                      direction,
-                      surface.free_share,
-                      surface.volume,
-                      surface.volume_left_out,
-                      static_cast<std::int64_t>(surface.is_taken)};
+    feature.values = values_of(surface_fields(), surface);
     layer.features.push_back(std::move(feature));
   }
   return layer;

@@ -32,19 +32,35 @@ VectorStyle class_style(const Recipe& recipe) {
   return style;
 }
 
+using Value = FieldValue;
+constexpr FieldType words = FieldType::text;
+
+struct ClassRow {
+  const Recipe& recipe;
+  const RecipeClass& of;
+  double area;
+  const std::string& basis;
+};
+const std::vector<Field<ClassRow>>& class_fields() {
+  using Row = const ClassRow&;
+  static const std::vector<Field<ClassRow>> fields = {
+      {"class", "", "Class", [](Row r) -> Value { return r.of.name; }, words},
+      {"code", "", "Code", [](Row r) -> Value { return r.of.code; }, FieldType::integer},
+      {"label", "", "Label", [](Row r) -> Value { return r.of.label; }, words},
+      {"area_m2", "m2", "Area", [](Row r) -> Value { return r.area; }},
+      {"recipe", "", "Recipe", [](Row r) -> Value { return r.recipe.name; }, words},
+      {"edition", "", "Edition", [](Row r) -> Value { return r.recipe.edition; }, words},
+      {"basis", "", "Basis", [](Row r) -> Value { return r.basis; }, words}};
+  return fields;
+}
+
 VectorLayer class_layer(const std::string& name, const std::string& description,
                         const std::vector<int>& codes, const PassageGrid& grid, const Vec3& origin,
                         const Recipe& recipe, const std::string& basis) {
   VectorLayer layer{name,
                     description,
                     GeometryType::multi_polygon,
-                    {{"class", FieldType::text},
-                     {"code", FieldType::integer},
-                     {"label", FieldType::text},
-                     {"area_m2", FieldType::real},
-                     {"recipe", FieldType::text},
-                     {"edition", FieldType::text},
-                     {"basis", FieldType::text}},
+                    vector_fields(class_fields()),
                     {},
                     vector_qml(class_style(recipe))};
   for (auto c = recipe.classes.rbegin(); c != recipe.classes.rend(); ++c) {
@@ -54,14 +70,18 @@ VectorLayer class_layer(const std::string& name, const std::string& description,
     if (cells.empty()) continue;
     VectorFeature feature;
     feature.polygons = on_map(outline(grid, cells), origin);
-    feature.values = {
-        c->name,     static_cast<std::int64_t>(c->code),
-        c->label,    static_cast<double>(cells.size()) * grid.cell_size * grid.cell_size,
-        recipe.name, recipe.edition,
-        basis};
+    feature.values = values_of(
+        class_fields(),
+        {recipe, *c, static_cast<double>(cells.size()) * grid.cell_size * grid.cell_size, basis});
     layer.features.push_back(std::move(feature));
   }
   return layer;
+}
+
+const std::vector<Field<double>>& area_fields() {
+  static const std::vector<Field<double>> fields = {
+      {"area_m2", "m2", "Area", [](const double& area) -> Value { return area; }}};
+  return fields;
 }
 
 VectorLayer uncertain_layer(const MapLayer& certainty, const PassageGrid& grid,
@@ -69,7 +89,7 @@ VectorLayer uncertain_layer(const MapLayer& certainty, const PassageGrid& grid,
   VectorLayer layer{"uncertain",
                     "cells whose class is another one at a bound of the frequencies",
                     GeometryType::multi_polygon,
-                    {{"area_m2", FieldType::real}},
+                    vector_fields(area_fields()),
                     {},
                     vector_qml({SymbolKind::polygon,
                                 "",
@@ -81,7 +101,8 @@ VectorLayer uncertain_layer(const MapLayer& certainty, const PassageGrid& grid,
   if (cells.empty()) return layer;
   VectorFeature feature;
   feature.polygons = on_map(outline(grid, cells), origin);
-  feature.values = {static_cast<double>(cells.size()) * grid.cell_size * grid.cell_size};
+  feature.values =
+      values_of(area_fields(), static_cast<double>(cells.size()) * grid.cell_size * grid.cell_size);
   layer.features.push_back(std::move(feature));
   return layer;
 }

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "base/csv.hpp"
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "io/style.hpp"
 #include "report/chart.hpp"
+#include "tools/frame/row_json.hpp"
 
 namespace talus {
 namespace {
@@ -17,135 +17,131 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double kilo = 1e3;
 
-// One value of a row: the same ones make tables, layers and JSON.
-struct Column {
-  std::string name;
-  FieldValue value;
+using Value = FieldValue;
+constexpr FieldType words = FieldType::text, whole = FieldType::integer;
+
+struct CrossingRow {
+  const LineProfile& profile;
+  const LineCrossing& c;
+  [[nodiscard]] Vec3 place() const { return c.place + profile.origin; }
 };
-using Row = std::vector<Column>;
-
-FieldValue whole(std::int64_t n) { return n; }
-
-Row crossing_row(const LineProfile& profile, const LineCrossing& c) {
-  const FenceArrival& at = c.at;
-  const Vec3 place = c.place + profile.origin;
-  return {{"run_id", profile.run_ids[at.run]},
-          {"block", whole(at.block)},
-          {"method", std::string(c.by_cells ? "cells" : "frames")},
-          {"time_s", at.time},
-          {"chainage_m", at.chainage},
-          {"x_m", place.x()},
-          {"y_m", place.y()},
-          {"z_m", place.z()},
-          {"direction", whole(at.direction)},
-          {"n_crossings", whole(c.n_crossings)},
-          {"speed_m_s", at.speed},
-          {"energy_kj", at.energy() / kilo},
-          {"translational_energy_kj", at.translation / kilo},
-          {"rotational_energy_kj", at.rotation / kilo},
-          {"energy_change_kj", c.energy_change / kilo},
-          {"centroid_height_m", at.centroid},
-          {"top_height_m", at.top},
-          {"bottom_height_m", at.bottom},
-          {"mass_kg", c.mass},
-          {"volume_m3", at.volume}};
+const std::vector<Field<CrossingRow>>& crossing_fields() {
+  using Row = const CrossingRow&;
+  static const std::vector<Field<CrossingRow>> fields = {
+      {"run_id", "", "Run", [](Row r) -> Value { return r.profile.run_ids[r.c.at.run]; }, words},
+      {"block", "", "Block", [](Row r) -> Value { return r.c.at.block; }, whole},
+      {"method", "", "How it is known",
+       [](Row r) -> Value { return r.c.by_cells ? "cells" : "frames"; }, words},
+      {"time_s", "s", "Time", [](Row r) -> Value { return r.c.at.time; }},
+      {"chainage_m", "m", "Place along the line", [](Row r) -> Value { return r.c.at.chainage; }},
+      {"x_m", "m", "Centroid, x", [](Row r) -> Value { return r.place().x(); }},
+      {"y_m", "m", "Centroid, y", [](Row r) -> Value { return r.place().y(); }},
+      {"z_m", "m", "Centroid, elevation", [](Row r) -> Value { return r.place().z(); }},
+      {"direction", "", "Direction: 1 to the left, -1 to the right",
+       [](Row r) -> Value { return r.c.at.direction; }, whole},
+      {"n_crossings", "", "Number of crossings", [](Row r) -> Value { return r.c.n_crossings; },
+       whole},
+      {"speed_m_s", "m/s", "Speed", [](Row r) -> Value { return r.c.at.speed; }},
+      {"energy_kj", "kJ", "Kinetic energy, with spin",
+       [](Row r) -> Value { return r.c.at.energy() / kilo; }},
+      {"translational_energy_kj", "kJ", "Kinetic energy of translation",
+       [](Row r) -> Value { return r.c.at.translation / kilo; }},
+      {"rotational_energy_kj", "kJ", "Kinetic energy of rotation",
+       [](Row r) -> Value { return r.c.at.rotation / kilo; }},
+      {"energy_change_kj", "kJ", "Change of kinetic energy between the frames",
+       [](Row r) -> Value { return r.c.energy_change / kilo; }},
+      {"centroid_height_m", "m", "Height of the centroid above the ground",
+       [](Row r) -> Value { return r.c.at.centroid; }},
+      {"top_height_m", "m", "Height of the top above the ground",
+       [](Row r) -> Value { return r.c.at.top; }},
+      {"bottom_height_m", "m", "Height of the lowest point above the ground",
+       [](Row r) -> Value { return r.c.at.bottom; }},
+      {"mass_kg", "kg", "Mass", [](Row r) -> Value { return r.c.mass; }},
+      {"volume_m3", "m3", "Volume", [](Row r) -> Value { return r.c.at.volume; }}};
+  return fields;
 }
 
-void add_quantity(Row& row, const std::string& name, const std::string& unit,
-                  const QuantitySummary& quantity, double scale) {
-  const auto& [p50, p90, p95, p99] = quantity.percentile;
-  row.push_back({name + "_p50" + unit, p50.value / scale});
-  row.push_back({name + "_p95" + unit, p95.value / scale});
-  row.push_back({name + "_p95_hi" + unit, p95.upper / scale});
-  row.push_back({name + "_max" + unit, quantity.largest / scale});
+const std::vector<Field<AcrossSummary>>& across_fields() {
+  using Row = const AcrossSummary&;
+  static const std::vector<Field<AcrossSummary>> fields = {
+      {"from_m", "m", "From", [](Row r) -> Value { return r.from; }},
+      {"to_m", "m", "To", [](Row r) -> Value { return r.to; }},
+      {"n_crossings", "", "Number of crossings", [](Row r) -> Value { return r.blocks.n; }, whole},
+      {"n_runs_hit", "", "Number of runs with a crossing",
+       [](Row r) -> Value { return r.n_runs_hit; }, whole},
+      {"share_of_runs", "", "Share of runs with a crossing",
+       [](Row r) -> Value { return r.share_of_runs; }},
+      {"share_of_runs_low", "", "Share of runs with a crossing, lower bound",
+       [](Row r) -> Value { return r.interval_of_runs.low; }},
+      {"share_of_runs_high", "", "Share of runs with a crossing, upper bound",
+       [](Row r) -> Value { return r.interval_of_runs.high; }},
+      {"blocks_a_run", "", "Blocks a run", [](Row r) -> Value { return r.a_run; }},
+      {"share_of_blocks", "", "Share of blocks", [](Row r) -> Value { return r.share_of_blocks; }},
+      {"share_of_blocks_low", "", "Share of blocks, lower bound",
+       [](Row r) -> Value { return r.interval_of_blocks.low; }},
+      {"share_of_blocks_high", "", "Share of blocks, upper bound",
+       [](Row r) -> Value { return r.interval_of_blocks.high; }},
+      {"mass_kg_a_run", "kg", "Mass a run", [](Row r) -> Value { return r.mass_a_run; }},
+      {"share_of_mass", "", "Share of the mass", [](Row r) -> Value { return r.share_of_mass; }},
+      {"first_arrival_s", "s", "First arrival", [](Row r) -> Value { return r.first_arrival; }},
+      {"energy_p50_kj", "kJ", "Kinetic energy, median",
+       [](Row r) -> Value { return r.blocks.energy.percentile[0].value / kilo; }},
+      {"energy_p95_kj", "kJ", "Kinetic energy, 95th percentile",
+       [](Row r) -> Value { return r.blocks.energy.percentile[place_of_p95].value / kilo; }},
+      {"energy_p95_hi_kj", "kJ", "Kinetic energy, 95th percentile, upper bound",
+       [](Row r) -> Value { return r.blocks.energy.percentile[place_of_p95].upper / kilo; }},
+      {"energy_max_kj", "kJ", "Kinetic energy, largest",
+       [](Row r) -> Value { return r.blocks.energy.largest / kilo; }},
+      {"speed_p50_m_s", "m/s", "Speed, median",
+       [](Row r) -> Value { return r.blocks.speed.percentile[0].value; }},
+      {"speed_p95_m_s", "m/s", "Speed, 95th percentile",
+       [](Row r) -> Value { return r.blocks.speed.percentile[place_of_p95].value; }},
+      {"speed_p95_hi_m_s", "m/s", "Speed, 95th percentile, upper bound",
+       [](Row r) -> Value { return r.blocks.speed.percentile[place_of_p95].upper; }},
+      {"speed_max_m_s", "m/s", "Speed, largest",
+       [](Row r) -> Value { return r.blocks.speed.largest; }},
+      {"top_height_p50_m", "m", "Height of the top, median",
+       [](Row r) -> Value { return r.blocks.top.percentile[0].value; }},
+      {"top_height_p95_m", "m", "Height of the top, 95th percentile",
+       [](Row r) -> Value { return r.blocks.top.percentile[place_of_p95].value; }},
+      {"top_height_p95_hi_m", "m", "Height of the top, 95th percentile, upper bound",
+       [](Row r) -> Value { return r.blocks.top.percentile[place_of_p95].upper; }},
+      {"top_height_max_m", "m", "Height of the top, largest",
+       [](Row r) -> Value { return r.blocks.top.largest; }}};
+  return fields;
 }
 
-Row across_row(const AcrossSummary& s) {
-  Row row = {{"from_m", s.from},
-             {"to_m", s.to},
-             {"n_crossings", whole(s.blocks.n)},
-             {"n_runs_hit", whole(s.n_runs_hit)},
-             {"share_of_runs", s.share_of_runs},
-             {"share_of_runs_low", s.interval_of_runs.low},
-             {"share_of_runs_high", s.interval_of_runs.high},
-             {"blocks_a_run", s.a_run},
-             {"share_of_blocks", s.share_of_blocks},
-             {"share_of_blocks_low", s.interval_of_blocks.low},
-             {"share_of_blocks_high", s.interval_of_blocks.high},
-             {"mass_kg_a_run", s.mass_a_run},
-             {"share_of_mass", s.share_of_mass},
-             {"first_arrival_s", s.first_arrival}};
-  add_quantity(row, "energy", "_kj", s.blocks.energy, kilo);
-  add_quantity(row, "speed", "_m_s", s.blocks.speed, 1);
-  add_quantity(row, "top_height", "_m", s.blocks.top, 1);
-  return row;
-}
-
-void add_envelope(Row& row, const std::string& name, const std::string& unit, const Envelope& e,
-                  double scale) {
-  row.push_back({name + "_p50" + unit, e.p50 / scale});
-  row.push_back({name + "_p95" + unit, e.p95 / scale});
-  row.push_back({name + "_max" + unit, e.largest / scale});
-}
-
-Row station_row(const LineProfile& profile, const StationSummary& s) {
-  const Vec3 place = s.place + profile.origin;
-  Row row = {{"chainage_m", s.chainage},
-             {"x_m", place.x()},
-             {"y_m", place.y()},
-             {"ground_m", place.z()},
-             {"n_blocks", whole(s.n_blocks)},
-             {"share_of_runs", s.share_of_runs}};
-  add_envelope(row, "energy", "_kj", s.energy, kilo);
-  add_envelope(row, "speed", "_m_s", s.speed, 1);
-  add_envelope(row, "top_height", "_m", s.top, 1);
-  return row;
-}
-
-std::string cell_text(const FieldValue& value) {
-  if (const auto* n = std::get_if<std::int64_t>(&value)) return std::to_string(*n);
-  if (const auto* words = std::get_if<std::string>(&value)) return *words;
-  const double number = std::get<double>(value);
-  return std::isfinite(number) ? text(number, 10) : "";
-}
-
-template <class Items, class RowOf>
-std::string csv_of(const Items& items, const Row& names, RowOf&& row_of) {
-  std::vector<std::string> line;
-  for (const Column& column : names) line.push_back(column.name);
-  std::string out = csv_line(line);
-  for (const auto& item : items) {
-    line.clear();
-    for (const Column& column : row_of(item)) line.push_back(cell_text(column.value));
-    out += csv_line(line);
-  }
-  return out;
-}
-
-Json json_of(const Row& row) {
-  Json out = Json::object();
-  for (const auto& [name, value] : row) {
-    if (const auto* n = std::get_if<std::int64_t>(&value))
-      out[name] = *n;
-    else if (const auto* words = std::get_if<std::string>(&value))
-      out[name] = *words;
-    else
-      out[name] = number_or_null(std::get<double>(value));
-  }
-  return out;
-}
-
-FieldType type_of(const FieldValue& value) {
-  if (std::holds_alternative<std::int64_t>(value)) return FieldType::integer;
-  return std::holds_alternative<std::string>(value) ? FieldType::text : FieldType::real;
-}
-
-void add_fields(VectorLayer& layer, const Row& names) {
-  for (const Column& column : names) layer.fields.push_back({column.name, type_of(column.value)});
-}
-
-void add_values(VectorFeature& feature, const Row& row) {
-  for (const Column& column : row) feature.values.push_back(column.value);
+struct StationRow {
+  const LineProfile& profile;
+  const StationSummary& s;
+  [[nodiscard]] Vec3 place() const { return s.place + profile.origin; }
+};
+const std::vector<Field<StationRow>>& station_fields() {
+  using Row = const StationRow&;
+  static const std::vector<Field<StationRow>> fields = {
+      {"chainage_m", "m", "Place along the line", [](Row r) -> Value { return r.s.chainage; }},
+      {"x_m", "m", "Place, x", [](Row r) -> Value { return r.place().x(); }},
+      {"y_m", "m", "Place, y", [](Row r) -> Value { return r.place().y(); }},
+      {"ground_m", "m", "Elevation of the ground", [](Row r) -> Value { return r.place().z(); }},
+      {"n_blocks", "", "Number of blocks", [](Row r) -> Value { return r.s.n_blocks; }, whole},
+      {"share_of_runs", "", "Share of runs", [](Row r) -> Value { return r.s.share_of_runs; }},
+      {"energy_p50_kj", "kJ", "Kinetic energy, median",
+       [](Row r) -> Value { return r.s.energy.p50 / kilo; }},
+      {"energy_p95_kj", "kJ", "Kinetic energy, 95th percentile",
+       [](Row r) -> Value { return r.s.energy.p95 / kilo; }},
+      {"energy_max_kj", "kJ", "Kinetic energy, largest",
+       [](Row r) -> Value { return r.s.energy.largest / kilo; }},
+      {"speed_p50_m_s", "m/s", "Speed, median", [](Row r) -> Value { return r.s.speed.p50; }},
+      {"speed_p95_m_s", "m/s", "Speed, 95th percentile",
+       [](Row r) -> Value { return r.s.speed.p95; }},
+      {"speed_max_m_s", "m/s", "Speed, largest", [](Row r) -> Value { return r.s.speed.largest; }},
+      {"top_height_p50_m", "m", "Height of the top, median",
+       [](Row r) -> Value { return r.s.top.p50; }},
+      {"top_height_p95_m", "m", "Height of the top, 95th percentile",
+       [](Row r) -> Value { return r.s.top.p95; }},
+      {"top_height_max_m", "m", "Height of the top, largest",
+       [](Row r) -> Value { return r.s.top.largest; }}};
+  return fields;
 }
 
 // The line between two chainages, with its stations.
@@ -174,11 +170,11 @@ VectorLayer crossing_layer(const LineProfile& profile) {
                                 {{"frames", "crosses, by frames", {227, 26, 28, 255}},
                                  {"cells", "comes over a cell of the line", {253, 191, 111, 255}}},
                                 2})};
-  add_fields(layer, crossing_row({{}, {}, {}, {}, {""}, {}}, {}));
+  layer.fields = vector_fields(crossing_fields());
   for (const LineCrossing& crossing : profile.sums.crossings) {
     VectorFeature feature;
     feature.points = {crossing.place + profile.origin};
-    add_values(feature, crossing_row(profile, crossing));
+    feature.values = values_of(crossing_fields(), {profile, crossing});
     layer.features.push_back(std::move(feature));
   }
   return layer;
@@ -191,10 +187,10 @@ VectorLayer bin_layer(const LineProfile& profile) {
                     {},
                     {},
                     vector_qml({SymbolKind::line, "", {{"", "line", {31, 120, 180, 255}}}, 1})};
-  add_fields(layer, across_row({}));
+  layer.fields = vector_fields(across_fields());
   for (const AcrossSummary& bin : profile.bins) {
     VectorFeature feature = piece_of(profile, bin.from, bin.to);
-    add_values(feature, across_row(bin));
+    feature.values = values_of(across_fields(), bin);
     layer.features.push_back(std::move(feature));
   }
   return layer;
@@ -207,11 +203,11 @@ VectorLayer station_layer(const LineProfile& profile) {
                     {},
                     {},
                     vector_qml({SymbolKind::point, "", {{"", "station", {31, 120, 180, 255}}}, 1})};
-  add_fields(layer, station_row(profile, {}));
+  layer.fields = vector_fields(station_fields());
   for (const StationSummary& station : profile.stations) {
     VectorFeature feature;
     feature.points = {station.place + profile.origin};
-    add_values(feature, station_row(profile, station));
+    feature.values = values_of(station_fields(), {profile, station});
     layer.features.push_back(std::move(feature));
   }
   return layer;
@@ -318,18 +314,23 @@ std::string error_text(const LineSums& sums) {
 }
 
 std::string crossing_csv(const LineProfile& profile) {
-  const LineProfile nothing{{}, {}, {}, {}, {""}, {}};
-  return csv_of(profile.sums.crossings, crossing_row(nothing, {}),
-                [&](const LineCrossing& c) { return crossing_row(profile, c); });
+  std::string out = csv_row(names_of(crossing_fields()));
+  for (const LineCrossing& c : profile.sums.crossings)
+    out += csv_row(values_of(crossing_fields(), {profile, c}));
+  return out;
 }
 
 std::string bin_csv(const LineProfile& profile) {
-  return csv_of(profile.bins, across_row({}), across_row);
+  std::string out = csv_row(names_of(across_fields()));
+  for (const AcrossSummary& bin : profile.bins) out += csv_row(values_of(across_fields(), bin));
+  return out;
 }
 
 std::string station_csv(const LineProfile& profile) {
-  return csv_of(profile.stations, station_row(profile, {}),
-                [&](const StationSummary& s) { return station_row(profile, s); });
+  std::string out = csv_row(names_of(station_fields()));
+  for (const StationSummary& station : profile.stations)
+    out += csv_row(values_of(station_fields(), {profile, station}));
+  return out;
 }
 
 std::vector<VectorLayer> profile_layers(const LineProfile& profile) {
@@ -359,9 +360,9 @@ std::vector<std::pair<std::string, std::string>> profile_charts(const LineProfil
 Json profile_json(const LineProfile& profile) {
   const LineSums& sums = profile.sums;
   Json bins = Json::array(), stations = Json::array();
-  for (const AcrossSummary& bin : profile.bins) bins.push_back(json_of(across_row(bin)));
+  for (const AcrossSummary& bin : profile.bins) bins.push_back(row_json(across_fields(), bin));
   for (const StationSummary& s : profile.stations)
-    stations.push_back(json_of(station_row(profile, s)));
+    stations.push_back(row_json(station_fields(), {profile, s}));
   const EnergyChange change = energy_change(sums);
   const bool has_frames = sums.n_by_frames > 0;
   return {{"line", {{"length_m", sums.line.chainage.back()}, {"n_stations", stations.size()}}},
@@ -373,7 +374,7 @@ Json profile_json(const LineProfile& profile) {
             {"frame_interval_s", has_frames ? Json(sums.frame_interval) : Json()},
             {"energy_change_p50", number_or_null(change.p50)},
             {"energy_change_p95", number_or_null(change.p95)},
-            {"whole", json_of(across_row(profile.whole))},
+            {"whole", row_json(across_fields(), profile.whole)},
             {"bins", bins}}},
           {"along",
            {{"method", sums.grid.n_rows > 0 ? "passages" : "ground alone"},

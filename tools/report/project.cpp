@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "base/file_paths.hpp"
@@ -15,7 +16,6 @@
 #include "io/tags_gdal.hpp"
 #include "post/maps/map_layers.hpp"
 #include "report/check_view.hpp"
-#include "report/field_words.hpp"
 #include "report/plan_view.hpp"
 #include "report/styles_gdal.hpp"
 #include "site/site_layers.hpp"
@@ -133,11 +133,21 @@ QgisLayer raster_layer(const std::string& file, const ResultFolder& folder, cons
                       raster_tags(folder.path(base + ".tif").string()));
 }
 
-// "velocity_p95" of the map velocity -> "95th percentile"; empty for a map of one quantity.
+// "velocity_p95_hi" of the map velocity -> "95th percentile, upper bound"; empty for a map of one
+// quantity.
 std::string band_words(const std::string& map, const std::string& band) {
+  static const std::map<std::string, std::string> known = {
+      {"p50", "median"},          {"p90", "90th percentile"}, {"p95", "95th percentile"},
+      {"p99", "99th percentile"}, {"max", "largest"},         {"lo", "lower bound"},
+      {"hi", "upper bound"}};
   if (!band.starts_with(map + "_")) return "";
-  std::string words = field_words("x" + band.substr(map.size()));  // "X, 95th percentile"
-  return words.substr(words.find_first_not_of(", ", 1));
+  std::string words;
+  std::istringstream parts(band.substr(map.size() + 1));
+  for (std::string part; std::getline(parts, part, '_');) {
+    const auto at = known.find(part);
+    words += (words.empty() ? "" : ", ") + (at == known.end() ? part : at->second);
+  }
+  return words;
 }
 
 // A map with a style a band of its quantity, in the name which one is shown.
@@ -199,7 +209,9 @@ std::string hazard_words(const std::string& name) {
     const std::string energy = name.substr(14, name.size() - 16);
     return "Return period of " + (energy == "0" ? "any block" : energy + " kJ and more") + " [a]";
   }
-  return field_words(name);
+  std::string words = layer_words(name);
+  if (!words.empty()) words[0] = static_cast<char>(std::toupper(words[0]));
+  return words;
 }
 
 void add_objects(QgisProject& project, const std::string& file, const ResultFolder& folder,

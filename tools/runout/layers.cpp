@@ -4,6 +4,7 @@
 #include "base/units.hpp"
 #include "io/style.hpp"
 #include "post/outline.hpp"
+#include "post/runout/runout_fields.hpp"
 
 namespace talus {
 namespace {
@@ -14,26 +15,15 @@ struct MapPlace {
   [[nodiscard]] Vec2 operator()(const Vec2& local) const { return local + origin.head<2>(); }
 };
 
-FieldValue whole(std::int64_t value) { return value; }
+using Value = FieldValue;
+using Run = const RunoutRun&;
+constexpr FieldType words = FieldType::text, whole = FieldType::integer;
 
 VectorLayer deposit_layer_of(const std::vector<RunoutRun>& runs, const MapPlace& map) {
   VectorLayer layer{"deposit",
                     "footprint of each block at the end of its run",
                     GeometryType::multi_polygon,
-                    {{"run_id", FieldType::text},
-                     {"block", FieldType::integer},
-                     {"fate", FieldType::text},
-                     {"volume_m3", FieldType::real},
-                     {"mass_kg", FieldType::real},
-                     {"z_m", FieldType::real},
-                     {"drop_m", FieldType::real},
-                     {"path_length_m", FieldType::real},
-                     {"chord_length_m", FieldType::real},
-                     {"reach_angle_path_deg", FieldType::real},
-                     {"reach_angle_chord_deg", FieldType::real},
-                     {"max_speed_m_s", FieldType::real},
-                     {"max_energy_kj", FieldType::real},
-                     {"displacement_m", FieldType::real}},
+                    vector_fields(block_fields()),
                     {},
                     vector_qml({SymbolKind::polygon,
                                 "fate",
@@ -46,20 +36,7 @@ VectorLayer deposit_layer_of(const std::vector<RunoutRun>& runs, const MapPlace&
       VectorFeature f;
       f.polygons = {{{}}};
       for (const Vec2& p : r.footprints[b.block]) f.polygons[0][0].push_back(map(p));
-      f.values = {r.member.info.run_id,
-                  whole(b.block),
-                  std::string(text(b.fate)),
-                  r.volume[b.block],
-                  r.mass[b.block],
-                  map(r.end[b.block]).z(),
-                  b.reach.height,
-                  b.reach.path,
-                  b.reach.chord,
-                  b.reach.path_angle() / degree,
-                  b.reach.chord_angle() / degree,
-                  b.max_speed,
-                  b.max_energy / 1e3,
-                  r.displacement[b.block]};
+      f.values = values_of(block_fields(), {r, b, map.origin});
       layer.features.push_back(std::move(f));
     }
   return layer;
@@ -77,16 +54,30 @@ VectorFeature line_feature(const std::vector<Vec3>& points, const std::vector<do
   return f;
 }
 
+struct BlockPath {
+  Run run;
+  const BlockReach& block;
+  const TimedPath& path;
+};
+const std::vector<Field<BlockPath>>& path_fields() {
+  using Path = const BlockPath&;
+  static const std::vector<Field<BlockPath>> fields = {
+      {"run_id", "", "Run", [](Path p) -> Value { return p.run.member.info.run_id; }, words},
+      {"block", "", "Block", [](Path p) -> Value { return p.block.block; }, whole},
+      {"path_length_m", "m", "Length of the path in plan",
+       [](Path p) -> Value { return p.block.reach.path; }},
+      {"max_speed_m_s", "m/s", "Largest speed", [](Path p) -> Value { return p.block.max_speed; }},
+      {"duration_s", "s", "Duration",
+       [](Path p) -> Value { return p.path.time.back() - p.path.time.front(); }}};
+  return fields;
+}
+
 VectorLayer path_layer(const std::vector<RunoutRun>& runs, const MapPlace& map, double tolerance) {
   VectorLayer layer{
       "paths",
       "path of each block's centroid, M = time in s, simplified to " + text(tolerance) + " m",
       GeometryType::line_zm,
-      {{"run_id", FieldType::text},
-       {"block", FieldType::integer},
-       {"path_length_m", FieldType::real},
-       {"max_speed_m_s", FieldType::real},
-       {"duration_s", FieldType::real}},
+      vector_fields(path_fields()),
       {},
       vector_qml({SymbolKind::line, "", {{"", "", {31, 78, 121, 160}}}, 0.3})};
   for (const RunoutRun& r : runs)
@@ -95,21 +86,33 @@ VectorLayer path_layer(const std::vector<RunoutRun>& runs, const MapPlace& map, 
       const TimedPath& path = r.paths[b.block];
       if (path.point.empty()) continue;
       VectorFeature f = line_feature(path.point, path.time, map);
-      f.values = {r.member.info.run_id, whole(b.block), b.reach.path, b.max_speed,
-                  path.time.back() - path.time.front()};
+      f.values = values_of(path_fields(), {r, b, path});
       layer.features.push_back(std::move(f));
     }
   return layer;
+}
+
+struct PathPoint {
+  Run run;
+  std::size_t block, point;
+};
+const std::vector<Field<PathPoint>>& path_point_fields() {
+  using Point = const PathPoint&;
+  static const std::vector<Field<PathPoint>> fields = {
+      {"run_id", "", "Run", [](Point p) -> Value { return p.run.member.info.run_id; }, words},
+      {"block", "", "Block", [](Point p) -> Value { return static_cast<std::int64_t>(p.block); },
+       whole},
+      {"time_s", "s", "Time", [](Point p) -> Value { return p.run.paths[p.block].time[p.point]; }},
+      {"speed_m_s", "m/s", "Speed",
+       [](Point p) -> Value { return p.run.paths[p.block].speed[p.point]; }}};
+  return fields;
 }
 
 VectorLayer path_point_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
   VectorLayer layer{"path_points",
                     "points of the simplified paths",
                     GeometryType::point_z,
-                    {{"run_id", FieldType::text},
-                     {"block", FieldType::integer},
-                     {"time_s", FieldType::real},
-                     {"speed_m_s", FieldType::real}},
+                    vector_fields(path_point_fields()),
                     {},
                     vector_qml({SymbolKind::point, "", {{"", "", {31, 78, 121, 255}}}, 0.8})};
   for (const RunoutRun& r : runs)
@@ -117,11 +120,28 @@ VectorLayer path_point_layer(const std::vector<RunoutRun>& runs, const MapPlace&
       for (std::size_t i = 0; i < r.paths[b].point.size(); ++i) {
         VectorFeature f;
         f.points = {map(r.paths[b].point[i])};
-        f.values = {r.member.info.run_id, whole(static_cast<std::int64_t>(b)), r.paths[b].time[i],
-                    r.paths[b].speed[i]};
+        f.values = values_of(path_point_fields(), {r, b, i});
         layer.features.push_back(std::move(f));
       }
   return layer;
+}
+
+const std::vector<Field<RunoutRun>>& streamline_fields() {
+  static const std::vector<Field<RunoutRun>> fields = {
+      {"run_id", "", "Run", [](Run r) -> Value { return r.member.info.run_id; }, words},
+      {"H_m", "m", "H", [](Run r) -> Value { return r.event.event.height; }},
+      {"L_path_m", "m", "L along the path", [](Run r) -> Value { return r.event.event.path; }},
+      {"L_chord_m", "m", "L in a straight line",
+       [](Run r) -> Value { return r.event.event.chord; }},
+      {"reach_angle_path_deg", "deg", "Reach angle along the path",
+       [](Run r) -> Value { return r.event.event.path_angle() / degree; }},
+      {"reach_angle_chord_deg", "deg", "Reach angle in a straight line",
+       [](Run r) -> Value { return r.event.event.chord_angle() / degree; }},
+      {"angle_monotone_along_path", "", "Whether the angle falls all along the path",
+       [](Run r) -> Value { return r.event.profile.monotone ? 1 : 0; }, whole},
+      {"smallest_angle_along_path_deg", "deg", "Smallest angle along the path",
+       [](Run r) -> Value { return r.event.profile.smallest / degree; }}};
+  return fields;
 }
 
 VectorLayer streamline_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
@@ -129,14 +149,7 @@ VectorLayer streamline_layer(const std::vector<RunoutRun>& runs, const MapPlace&
                     "from the top of the source to the toe of the deposit, M = horizontal "
                     "distance in m",
                     GeometryType::line_zm,
-                    {{"run_id", FieldType::text},
-                     {"H_m", FieldType::real},
-                     {"L_path_m", FieldType::real},
-                     {"L_chord_m", FieldType::real},
-                     {"reach_angle_path_deg", FieldType::real},
-                     {"reach_angle_chord_deg", FieldType::real},
-                     {"angle_monotone_along_path", FieldType::integer},
-                     {"smallest_angle_along_path_deg", FieldType::real}},
+                    vector_fields(streamline_fields()),
                     {},
                     vector_qml({SymbolKind::line,
                                 "",
@@ -152,24 +165,29 @@ VectorLayer streamline_layer(const std::vector<RunoutRun>& runs, const MapPlace&
       distance.push_back(distance.back() +
                          (e.streamline[i] - e.streamline[i - 1]).head<2>().norm());
     VectorFeature f = line_feature(e.streamline, distance, map);
-    f.values = {r.member.info.run_id,
-                e.event.height,
-                e.event.path,
-                e.event.chord,
-                e.event.path_angle() / degree,
-                e.event.chord_angle() / degree,
-                whole(e.profile.monotone ? 1 : 0),
-                e.profile.smallest / degree};
+    f.values = values_of(streamline_fields(), r);
     layer.features.push_back(std::move(f));
   }
   return layer;
+}
+
+struct ReachPoint {
+  Run run;
+  const char* what;
+};
+const std::vector<Field<ReachPoint>>& reach_point_fields() {
+  using Point = const ReachPoint&;
+  static const std::vector<Field<ReachPoint>> fields = {
+      {"run_id", "", "Run", [](Point p) -> Value { return p.run.member.info.run_id; }, words},
+      {"what", "", "Point", [](Point p) -> Value { return p.what; }, words}};
+  return fields;
 }
 
 VectorLayer end_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
   VectorLayer layer{"reach_points",
                     "top of the source and toe of the deposit",
                     GeometryType::point_z,
-                    {{"run_id", FieldType::text}, {"what", FieldType::text}},
+                    vector_fields(reach_point_fields()),
                     {},
                     vector_qml({SymbolKind::point,
                                 "what",
@@ -181,62 +199,18 @@ VectorLayer end_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
     for (const auto& [what, at] : {std::pair{"top", r.event.top}, {"toe", r.event.toe}}) {
       VectorFeature f;
       f.points = {map(at)};
-      f.values = {r.member.info.run_id, std::string(what)};
+      f.values = values_of(reach_point_fields(), {r, what});
       layer.features.push_back(std::move(f));
     }
   }
   return layer;
 }
 
-std::vector<VectorField> run_fields() {
-  std::vector<VectorField> fields = {{"run_id", FieldType::text},
-                                     {"seed", FieldType::integer},
-                                     {"status", FieldType::text},
-                                     {"moved", FieldType::integer}};
-  for (const char* name :
-       {"share_moved_1_m", "share_moved_20_m", "displacement_p50_m", "displacement_p90_m",
-        "displacement_p95_m", "displacement_max_m", "H_m", "L_path_m", "L_chord_m",
-        "reach_angle_path_deg", "reach_angle_chord_deg"})
-    fields.push_back({name, FieldType::real});
-  fields.push_back({"toe_fate", FieldType::text});
-  for (const char* name : {"moved_volume_m3", "H95_m", "L95_m", "reach_angle_95_deg"})
-    fields.push_back({name, FieldType::real});
-  fields.push_back({"outliers", FieldType::integer});
-  return fields;
-}
-
-std::vector<FieldValue> run_values(const RunoutRun& r) {
-  const Moved& m = r.event.moved;
-  const ReachLine& e = r.event.event;
-  const MassReach& mass = r.event.mass;
-  return {r.member.info.run_id,
-          whole(r.member.info.seed),
-          r.member.info.status,
-          whole(m.any() ? 1 : 0),
-          m.share,
-          m.share_far,
-          m.p50,
-          m.p90,
-          m.p95,
-          m.largest,
-          e.height,
-          e.path,
-          e.chord,
-          e.path_angle() / degree,
-          e.chord_angle() / degree,
-          m.any() ? FieldValue(std::string(text(r.event.toe_fate))) : FieldValue(),
-          mass.moved_volume,
-          mass.height,
-          mass.length,
-          mass.angle() / degree,
-          whole(mass.n_outliers)};
-}
-
 VectorLayer run_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
   VectorLayer layer{"runs",
                     "centre of mass at the end of each run, with how much of the mass moved",
                     GeometryType::point_z,
-                    run_fields(),
+                    vector_fields(run_fields()),
                     {},
                     vector_qml({SymbolKind::point,
                                 "status",
@@ -247,17 +221,26 @@ VectorLayer run_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
   for (const RunoutRun& r : runs) {
     VectorFeature f;
     f.points = {map(r.curves.empty() ? Vec3(Vec3::Zero()) : r.curves.back().centre_of_mass)};
-    f.values = run_values(r);
+    f.values = values_of(run_fields(), r);
     layer.features.push_back(std::move(f));
   }
   return layer;
+}
+
+const std::vector<Field<RunoutRuns>>& envelope_fields() {
+  using All = const RunoutRuns&;
+  static const std::vector<Field<RunoutRuns>> fields = {
+      {"area_m2", "m2", "Area", [](All all) -> Value { return swept_area(all); }},
+      {"n_cells", "", "Number of cells",
+       [](All all) -> Value { return static_cast<std::int64_t>(all.cells.size()); }, whole}};
+  return fields;
 }
 
 VectorLayer envelope_layer(const RunoutRuns& all, const MapPlace& map) {
   VectorLayer layer{"envelope",
                     "outline of all cells that any block of any run passed",
                     GeometryType::multi_polygon,
-                    {{"area_m2", FieldType::real}, {"n_cells", FieldType::integer}},
+                    vector_fields(envelope_fields()),
                     {},
                     vector_qml({SymbolKind::polygon, "", {{"", "", {253, 141, 60, 60}}}, 0.4})};
   VectorFeature f;
@@ -266,7 +249,7 @@ VectorLayer envelope_layer(const RunoutRuns& all, const MapPlace& map) {
   for (auto& rings : f.polygons)
     for (auto& ring : rings)
       for (Vec2& p : ring) p = map(p);
-  f.values = {swept_area(all), whole(static_cast<std::int64_t>(all.cells.size()))};
+  f.values = values_of(envelope_fields(), all);
   layer.features.push_back(std::move(f));
   return layer;
 }

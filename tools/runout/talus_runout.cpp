@@ -193,7 +193,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
     const auto write = [&](const char* name, const std::string& content) {
       tool.write_text((std::filesystem::path(o.tables) / name).string(), content);
     };
-    write("runout.csv", block_csv(all.runs));
+    write("runout.csv", block_csv(all.runs, trn.origin));
     write("runs.csv", run_csv(all.runs));
     write("sensitivity.csv", sensitivity_csv(sensitivity));
     write("curves.csv", curve_csv(all.runs, trn.origin));

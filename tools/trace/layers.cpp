@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/csv.hpp"
 #include "base/file_paths.hpp"
 #include "base/text.hpp"
 #include "post/hazard/hazard_maps.hpp"
@@ -33,7 +32,10 @@ Polygons square_of(const TraceSums& sums, std::uint32_t source, const Vec2& orig
   return {{{at + Vec2(-h, -h), at + Vec2(h, -h), at + Vec2(h, h), at + Vec2(-h, h)}}};
 }
 
-FieldValue whole(double value) { return static_cast<std::int64_t>(value); }
+using Value = FieldValue;
+constexpr FieldType words = FieldType::text, whole = FieldType::integer;
+
+Value counted_value(double n) { return static_cast<std::int64_t>(n); }
 
 // Classes of p_hit that source cells and links are drawn in.
 constexpr std::array<double, 4> p_limits = {0.01, 0.1, 0.5, 1};
@@ -56,60 +58,110 @@ VectorStyle p_style(SymbolKind kind, double size_mm) {
   return style;
 }
 
+struct ObjectRow {
+  const RecordObject& object;
+  const TracedObject& traced;
+};
+const std::vector<Field<ObjectRow>>& object_fields() {
+  using Row = const ObjectRow&;
+  static constexpr auto period = [](double rate) { return rate > 0 ? 1 / rate : std::nan(""); };
+  static const std::vector<Field<ObjectRow>> fields = {
+      {"object", "", "Object", [](Row r) -> Value { return r.object.name; }, words},
+      {"kind", "", "Kind", [](Row r) -> Value { return r.object.kind; }, words},
+      {"method", "", "How hits are known", [](Row r) -> Value { return r.traced.trace.method; },
+       words},
+      {"n_runs_hit", "", "Number of runs that hit it",
+       [](Row r) -> Value { return r.traced.trace.n_runs_hit; }, whole},
+      {"n_hits", "", "Number of hits", [](Row r) -> Value { return r.traced.trace.n_hits; }, whole},
+      {"run_share", "", "Share of runs that hit it",
+       [](Row r) -> Value { return r.traced.trace.run_share; }},
+      {"run_share_lo", "", "Share of runs that hit it, lower bound",
+       [](Row r) -> Value { return r.traced.trace.run_share_interval.low; }},
+      {"run_share_hi", "", "Share of runs that hit it, upper bound",
+       [](Row r) -> Value { return r.traced.trace.run_share_interval.high; }},
+      {"hits_a_run", "", "Hits a run", [](Row r) -> Value { return r.traced.trace.hits_a_run; }},
+      {"block_share", "", "Share of blocks that hit it",
+       [](Row r) -> Value { return r.traced.trace.weight_share; }},
+      {"volume_share", "", "Share of the volume that hits it",
+       [](Row r) -> Value { return r.traced.trace.volume_share; }},
+      {"ke_p50_kj", "kJ", "Kinetic energy, median",
+       [](Row r) -> Value { return r.traced.trace.energy.p50; }},
+      {"ke_p95_kj", "kJ", "Kinetic energy, 95th percentile",
+       [](Row r) -> Value { return r.traced.trace.energy.p95; }},
+      {"ke_p95_hi_kj", "kJ", "Kinetic energy, 95th percentile, upper bound",
+       [](Row r) -> Value { return r.traced.trace.energy.p95_high; }},
+      {"ke_max_kj", "kJ", "Kinetic energy, largest",
+       [](Row r) -> Value { return r.traced.trace.energy.largest; }},
+      {"top_height_p95_m", "m", "Height of the top, 95th percentile",
+       [](Row r) -> Value { return r.traced.trace.top_height_p95; }},
+      {"first_arrival_s", "s", "First arrival",
+       [](Row r) -> Value { return r.traced.trace.first_arrival; }},
+      {"deposited_m3_a_run", "m3", "Volume deposited on it a run",
+       [](Row r) -> Value { return r.traced.trace.deposited_a_run; }},
+      {"sources_50", "", "Source cells of half the hits",
+       [](Row r) -> Value { return double(r.traced.trace.n_sources[0]); }},
+      {"sources_90", "", "Source cells of 90 % of the hits",
+       [](Row r) -> Value { return double(r.traced.trace.n_sources[1]); }},
+      {"sources_100", "", "Source cells of all hits",
+       [](Row r) -> Value { return double(r.traced.trace.n_sources[2]); }},
+      {"frequency_per_a", "1/a", "Frequency", [](Row r) -> Value { return r.traced.rate; }},
+      {"return_period_a", "a", "Return period",
+       [](Row r) -> Value { return period(r.traced.rate); }},
+      {"return_period_lo_a", "a", "Return period, lower bound",
+       [](Row r) -> Value { return period(r.traced.rate_high); }},
+      {"return_period_hi_a", "a", "Return period, upper bound",
+       [](Row r) -> Value { return period(r.traced.rate_low); }}};
+  return fields;
+}
+
 VectorLayer object_layer(const TraceSums& sums, const std::vector<TracedObject>& objects,
                          const Vec2& origin) {
   VectorLayer layer{
       "objects",
       "endangered objects and what comes to them",
       GeometryType::multi_polygon,
-      {{"object", FieldType::text},
-       {"kind", FieldType::text},
-       {"method", FieldType::text},
-       {"n_runs_hit", FieldType::integer},
-       {"n_hits", FieldType::integer}},
+      vector_fields(object_fields()),
       {},
       vector_qml({SymbolKind::polygon, "", {{"", "", {200, 30, 30, 120}}}, 0.6, "\"object\""})};
-  for (const char* name :
-       {"run_share",          "run_share_lo",    "run_share_hi",       "hits_a_run",
-        "block_share",        "volume_share",    "ke_p50_kj",          "ke_p95_kj",
-        "ke_p95_hi_kj",       "ke_max_kj",       "top_height_p95_m",   "first_arrival_s",
-        "deposited_m3_a_run", "sources_50",      "sources_90",         "sources_100",
-        "frequency_per_a",    "return_period_a", "return_period_lo_a", "return_period_hi_a"})
-    layer.fields.push_back({name, FieldType::real});
   for (std::size_t o = 0; o < objects.size(); ++o) {
-    const ObjectTrace& t = objects[o].trace;
-    const RecordObject& object = sums.objects[o];
     VectorFeature f;
-    f.polygons = area_on_map(object, origin);
-    const auto period = [](double rate) { return rate > 0 ? 1 / rate : std::nan(""); };
-    f.values = {object.name,
-                object.kind,
-                t.method,
-                whole(t.n_runs_hit),
-                whole(t.n_hits),
-                t.run_share,
-                t.run_share_interval.low,
-                t.run_share_interval.high,
-                t.hits_a_run,
-                t.weight_share,
-                t.volume_share,
-                t.energy.p50,
-                t.energy.p95,
-                t.energy.p95_high,
-                t.energy.largest,
-                t.top_height_p95,
-                t.first_arrival,
-                t.deposited_a_run,
-                static_cast<double>(t.n_sources[0]),
-                static_cast<double>(t.n_sources[1]),
-                static_cast<double>(t.n_sources[2]),
-                objects[o].rate,
-                period(objects[o].rate),
-                period(objects[o].rate_high),
-                period(objects[o].rate_low)};
+    f.polygons = area_on_map(sums.objects[o], origin);
+    f.values = values_of(object_fields(), {sums.objects[o], objects[o]});
     layer.features.push_back(std::move(f));
   }
   return layer;
+}
+
+/// Of a table or a layer: the first one has the place, the second one the class.
+struct LinkRow {
+  const TraceSums& sums;
+  const SourceLink& link;
+  Vec2 origin;
+  [[nodiscard]] const TraceSource& source() const { return sums.source.at(link.source); }
+  [[nodiscard]] Vec2 place() const { return place_of_source(sums, link.source) + origin; }
+};
+const std::vector<Field<LinkRow>>& link_fields() {
+  using Row = const LinkRow&;
+  static const std::vector<Field<LinkRow>> fields = {
+      {"object", "", "Object",
+       [](Row r) -> Value { return r.sums.objects[static_cast<std::size_t>(r.link.object)].name; },
+       words},
+      {"source_cell", "", "Source cell", [](Row r) -> Value { return r.link.source; }, whole},
+      {"x_m", "m", "Middle of the cell, x", [](Row r) -> Value { return r.place().x(); }},
+      {"y_m", "m", "Middle of the cell, y", [](Row r) -> Value { return r.place().y(); }},
+      {"n_released", "", "Number of blocks released in the cell",
+       [](Row r) -> Value { return counted_value(r.source().n); }, whole},
+      {"n_none", "", "Number of these that hit no object",
+       [](Row r) -> Value { return counted_value(r.source().n_none); }, whole},
+      {"n_hits", "", "Number of hits", [](Row r) -> Value { return r.link.n_hits; }, whole},
+      {"p_hit", "", "Probability of a hit", [](Row r) -> Value { return r.link.p_hit; }},
+      {"share_of_hits", "", "Share of the hits of the object",
+       [](Row r) -> Value { return r.link.share_of_hits; }},
+      {"ke_p95_kj", "kJ", "Kinetic energy, 95th percentile",
+       [](Row r) -> Value { return r.link.energy_p95; }},
+      {"p_class", "", "Probability of a hit, class",
+       [](Row r) -> Value { return p_class(r.link.p_hit); }, words}};
+  return fields;
 }
 
 VectorLayer source_cell_layer(const TraceSums& sums, const std::vector<SourceLink>& links,
@@ -117,30 +169,13 @@ VectorLayer source_cell_layer(const TraceSums& sums, const std::vector<SourceLin
   VectorLayer layer{"source_cells",
                     "cells that blocks were released in, once for each object that they hit",
                     GeometryType::multi_polygon,
-                    {{"object", FieldType::text},
-                     {"source_cell", FieldType::integer},
-                     {"n_released", FieldType::integer},
-                     {"n_none", FieldType::integer},
-                     {"n_hits", FieldType::integer},
-                     {"p_hit", FieldType::real},
-                     {"share_of_hits", FieldType::real},
-                     {"ke_p95_kj", FieldType::real},
-                     {"p_class", FieldType::text}},
+                    vector_fields(link_fields()),
                     {},
                     vector_qml(p_style(SymbolKind::polygon, 0.1))};
   for (const SourceLink& link : links) {
-    const TraceSource& source = sums.source.at(link.source);
     VectorFeature f;
     f.polygons = square_of(sums, link.source, origin);
-    f.values = {sums.objects[static_cast<std::size_t>(link.object)].name,
-                whole(link.source),
-                whole(source.n),
-                whole(source.n_none),
-                whole(link.n_hits),
-                link.p_hit,
-                link.share_of_hits,
-                link.energy_p95,
-                p_class(link.p_hit)};
+    f.values = values_of(link_fields(), {sums, link, origin});
     layer.features.push_back(std::move(f));
   }
   return layer;
@@ -151,13 +186,7 @@ VectorLayer link_layer(const TraceSums& sums, const std::vector<SourceLink>& lin
   VectorLayer layer{"links",
                     "from a source cell to the mean place of its hits of an object",
                     GeometryType::line_zm,
-                    {{"object", FieldType::text},
-                     {"source_cell", FieldType::integer},
-                     {"n_hits", FieldType::integer},
-                     {"p_hit", FieldType::real},
-                     {"share_of_hits", FieldType::real},
-                     {"ke_p95_kj", FieldType::real},
-                     {"p_class", FieldType::text}},
+                    vector_fields(link_fields()),
                     {},
                     vector_qml(p_style(SymbolKind::line, 0.3))};
   const auto on_ground = [&trn](const Vec2& at) {
@@ -171,13 +200,7 @@ VectorLayer link_layer(const TraceSums& sums, const std::vector<SourceLink>& lin
     VectorFeature f;
     f.points = {on_ground(place_of_source(sums, link.source)), on_ground(link.place)};
     f.measure = {0, (f.points[1] - f.points[0]).head<2>().norm()};
-    f.values = {sums.objects[static_cast<std::size_t>(link.object)].name,
-                whole(link.source),
-                whole(link.n_hits),
-                link.p_hit,
-                link.share_of_hits,
-                link.energy_p95,
-                p_class(link.p_hit)};
+    f.values = values_of(link_fields(), {sums, link, trn.origin.head<2>()});
     layer.features.push_back(std::move(f));
   }
   return layer;
@@ -230,16 +253,9 @@ RasterStyle source_style(const std::string& object, const std::string& remark) {
 
 std::string link_csv(const TraceSums& sums, const std::vector<SourceLink>& links,
                      const Vec3& origin) {
-  std::string out = csv_line({"object", "source_cell", "x_m", "y_m", "n_released", "n_none",
-                              "n_hits", "p_hit", "share_of_hits", "ke_p95_kj"});
-  for (const SourceLink& link : links) {
-    const Vec2 at = place_of_source(sums, link.source) + origin.head<2>();
-    const TraceSource& source = sums.source.at(link.source);
-    out += csv_line({sums.objects[static_cast<std::size_t>(link.object)].name,
-                     std::to_string(link.source), text(at.x(), 12), text(at.y(), 12),
-                     text(source.n), text(source.n_none), std::to_string(link.n_hits),
-                     text(link.p_hit, 6), text(link.share_of_hits, 6), text(link.energy_p95, 6)});
-  }
+  std::string out = csv_row(names_of(link_fields()));
+  for (const SourceLink& link : links)
+    out += csv_row(values_of(link_fields(), {sums, link, origin.head<2>()}));
   return out;
 }
 

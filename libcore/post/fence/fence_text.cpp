@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
-#include "base/csv.hpp"
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "post/fence/fence_fields.hpp"
 #include "record/pieces.hpp"
 
 namespace talus {
@@ -176,28 +176,15 @@ std::vector<std::string> fence_notes(const FenceCase& fence, std::size_t index,
 }
 
 std::string verdict_csv(const std::vector<FenceCase>& fences, const FenceRunGroup& group) {
-  const std::vector<std::string> names = {
-      "fence",      "run_id", "block",     "verdict",      "weight",          "volume_m3",
-      "chainage_m", "time_s", "energy_kj", "top_height_m", "bottom_height_m", "recorded_at"};
-  std::string out = csv_line(names);
+  std::string out = csv_row(names_of(verdict_fields()));
   for (std::size_t i = 0; i < fences.size(); ++i)
-    for (int r = 0; r < n_runs(group); ++r)
-      for (const BlockVerdict& v : group.runs[r].at_fence[i].verdicts) {
-        std::vector<std::string> row = {fences[i].fence.name,
-                                        group.members[r].info.run_id,
-                                        std::to_string(v.block),
-                                        text(v.verdict),
-                                        text(group.runs[r].weight[v.block]),
-                                        text(group.runs[r].volume[v.block], 7)};
-        if (v.arrival >= 0) {
-          const FenceArrival& a = group.runs[r].at_fence[i].arrivals[v.arrival];
-          for (const double value : {a.chainage, a.time, a.energy() / 1e3, a.top, a.bottom})
-            row.push_back(text(value, 7));
-          row.emplace_back(recorded_at(a));
-        }
-        row.resize(names.size());
-        out += csv_line(row);
-      }
+    for (int r = 0; r < n_runs(group); ++r) {
+      const auto& at = group.runs[r].at_fence[i];
+      for (const BlockVerdict& v : at.verdicts)
+        out += csv_row(values_of(
+            verdict_fields(),
+            {fences[i].fence, group, r, v, v.arrival < 0 ? nullptr : &at.arrivals[v.arrival]}));
+    }
   return out;
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/csv.hpp"
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
+#include "post/runout/runout_fields.hpp"
 
 namespace talus {
 namespace {
@@ -77,50 +77,10 @@ std::string reach_text(const std::vector<RunoutRun>& runs) {
                          : reach_of_run(runs[0].member.info.run_id, runs[0].event);
 }
 
-// A column of the table of runs.
-struct RunColumn {
-  const char* heading;
-  bool only_if_moved;  // else empty: there is no run-out
-  std::string (*value)(const RunoutRun&);
-};
-using Run = const RunoutRun&;
-constexpr RunColumn run_columns[] = {
-    {"run_id", false, [](Run r) { return r.member.info.run_id; }},
-    {"seed", false, [](Run r) { return std::to_string(r.member.info.seed); }},
-    {"status", false, [](Run r) { return r.member.info.status; }},
-    {"moved", false, [](Run r) { return std::string(r.event.moved.any() ? "1" : "0"); }},
-    {"share_moved_1_m", false, [](Run r) { return text(r.event.moved.share, 7); }},
-    {"share_moved_20_m", false, [](Run r) { return text(r.event.moved.share_far, 7); }},
-    {"displacement_p50_m", false, [](Run r) { return text(r.event.moved.p50, 7); }},
-    {"displacement_p90_m", false, [](Run r) { return text(r.event.moved.p90, 7); }},
-    {"displacement_p95_m", false, [](Run r) { return text(r.event.moved.p95, 7); }},
-    {"displacement_max_m", false, [](Run r) { return text(r.event.moved.largest, 7); }},
-    {"H_m", true, [](Run r) { return text(r.event.event.height, 9); }},
-    {"L_path_m", true, [](Run r) { return text(r.event.event.path, 9); }},
-    {"L_chord_m", true, [](Run r) { return text(r.event.event.chord, 9); }},
-    {"reach_angle_path_deg", true,
-     [](Run r) { return text(r.event.event.path_angle() / degree, 9); }},
-    {"reach_angle_chord_deg", true,
-     [](Run r) { return text(r.event.event.chord_angle() / degree, 9); }},
-    {"toe_block", true, [](Run r) { return std::to_string(r.event.toe_block); }},
-    {"toe_fate", true, [](Run r) { return std::string(text(r.event.toe_fate)); }},
-    {"moved_volume_m3", true, [](Run r) { return text(r.event.mass.moved_volume, 7); }},
-    {"H95_m", true, [](Run r) { return text(r.event.mass.height, 7); }},
-    {"L95_m", true, [](Run r) { return text(r.event.mass.length, 7); }},
-    {"reach_angle_95_deg", true, [](Run r) { return text(r.event.mass.angle() / degree, 7); }},
-    {"blocks_beyond_L95", true, [](Run r) { return std::to_string(r.event.mass.n_beyond); }},
-    {"share_beyond_L95", true, [](Run r) { return text(r.event.mass.beyond_share, 7); }},
-    {"toe_share", true, [](Run r) { return text(r.event.mass.toe_share, 7); }},
-    {"outliers", true, [](Run r) { return std::to_string(r.event.mass.n_outliers); }},
-    {"case", false, [](Run r) { return r.member.info.case_name; }},
-    {"event", false, [](Run r) { return std::string(r.event.moved.is_event() ? "1" : "0"); }},
-    {"run_weight", false, [](Run r) { return text(r.member.run_weight, 7); }},
-};
-
-std::string drawn_text(const RunoutRun& run, const std::string& name) {
+FieldValue drawn_value(const RunoutRun& run, const std::string& name) {
   const auto found = std::find_if(run.drawn.begin(), run.drawn.end(),
                                   [&](const DrawnValue& value) { return value.name == name; });
-  return found == run.drawn.end() ? "" : text(found->value, 7);
+  return found == run.drawn.end() ? FieldValue() : FieldValue(found->value);
 }
 
 }  // namespace
@@ -215,52 +175,33 @@ std::string runout_summary(const RunoutRuns& all) {
 }
 
 std::string run_csv(const std::vector<RunoutRun>& runs) {
-  std::vector<std::string> headings;
-  for (const RunColumn& column : run_columns) headings.emplace_back(column.heading);
   const std::vector<DrawnValue> drawn =
       runs.empty() ? std::vector<DrawnValue>{} : runs.front().drawn;
-  for (const DrawnValue& value : drawn) headings.push_back(value.name);
-  std::string out = csv_line(headings);
+  std::vector<FieldValue> names = names_of(run_fields());
+  for (const DrawnValue& value : drawn) names.emplace_back(value.name);
+  std::string out = csv_row(names);
   for (const RunoutRun& r : runs) {
-    std::vector<std::string> row;
-    for (const RunColumn& column : run_columns)
-      row.push_back(column.only_if_moved && !r.event.moved.any() ? "" : column.value(r));
-    for (const DrawnValue& value : drawn) row.push_back(drawn_text(r, value.name));
-    out += csv_line(row);
+    std::vector<FieldValue> row = values_of(run_fields(), r);
+    for (const DrawnValue& value : drawn) row.push_back(drawn_value(r, value.name));
+    out += csv_row(row);
   }
   return out;
 }
 
-std::string block_csv(const std::vector<RunoutRun>& runs) {
-  std::string out =
-      csv_line({"run_id", "block", "fate", "volume_m3", "mass_kg", "drop_m", "path_length_m",
-                "chord_length_m", "reach_angle_path_deg", "reach_angle_chord_deg", "max_speed_m_s",
-                "max_energy_kj", "displacement_m"});
+std::string block_csv(const std::vector<RunoutRun>& runs, const Vec3& origin) {
+  std::string out = csv_row(names_of(block_fields()));
   for (const RunoutRun& r : runs)
     for (const BlockReach& b : r.event.blocks)
-      out += csv_line({r.member.info.run_id, std::to_string(b.block), text(b.fate),
-                       text(r.volume[b.block], 9), text(r.mass[b.block], 9),
-                       text(b.reach.height, 9), text(b.reach.path, 9), text(b.reach.chord, 9),
-                       text(b.reach.path_angle() / degree, 7),
-                       text(b.reach.chord_angle() / degree, 7), text(b.max_speed, 7),
-                       text(b.max_energy / 1e3, 7), text(r.displacement[b.block], 7)});
+      out += csv_row(values_of(block_fields(), {r, b, origin}));
   return out;
 }
 
 std::string curve_csv(const std::vector<RunoutRun>& runs, const Vec3& origin) {
-  std::string out =
-      csv_line({"run_id", "time_s", "x_m", "y_m", "z_m", "mean_speed_m_s", "max_speed_m_s",
-                "front_m", "translational_energy_kj", "rotational_energy_kj"});
-  for (const RunoutRun& r : runs) {
-    if (!r.has_frames) continue;
-    for (const CurveRow& row : r.curves) {
-      const Vec3 at = row.centre_of_mass + origin;
-      out += csv_line({r.member.info.run_id, text(row.time, 9), text(at.x(), 11), text(at.y(), 11),
-                       text(at.z(), 9), text(row.mean_speed, 7), text(row.max_speed, 7),
-                       text(row.front, 7), text(row.translation / 1e3, 7),
-                       text(row.rotation / 1e3, 7)});
-    }
-  }
+  std::string out = csv_row(names_of(curve_fields()));
+  for (const RunoutRun& r : runs)
+    if (r.has_frames)
+      for (const CurveRow& row : r.curves)
+        out += csv_row(values_of(curve_fields(), {r, row, origin}));
   return out;
 }
 

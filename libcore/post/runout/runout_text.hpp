@@ -14,8 +14,9 @@ namespace talus {
 /// ranges over those that moved, and the balance of volumes.
 [[nodiscard]] std::string runout_summary(const RunoutRuns& all);
 
-/// A row (CSV) for each block of each run: its fate and how far it came.
-[[nodiscard]] std::string block_csv(const std::vector<RunoutRun>& runs);
+/// A row (CSV) for each block of each run: its fate and how far it came. `origin`: map coordinates
+/// of the local origin [m].
+[[nodiscard]] std::string block_csv(const std::vector<RunoutRun>& runs, const Vec3& origin);
 
 /// A row (CSV) for each run: how much of the mass moved and how far, H, L and angle of reach.
 [[nodiscard]] std::string run_csv(const std::vector<RunoutRun>& runs);

@@ -30,3 +30,7 @@ was_made_by() {
   talus-runs --db "$1/out/runs.sqlite" trace "$1/out/$2" | sed -n 2p >made_by
   grep -qF -e "$3" made_by || { cat made_by >&2; fail "$2 of $1 was not made by: $3"; }
 }
+# on_page FILES...: every field of these layers and tables has a title and is on the page of fields
+on_page() {
+  python3 "$source_dir/tests/tools/fields.py" "$source_dir/docs/reference/fields.md" "$@" || fail "fields"
+}

@@ -2,7 +2,6 @@
 
 #include "base/error.hpp"
 #include "base/read_file.hpp"
-#include "report/field_words.hpp"
 #include "report/qgis_template_gdal.hpp"
 
 using namespace talus;
@@ -172,7 +171,7 @@ TEST(QgisProject, LayersSayWhatTheyAreAndWhatElseTheyCanShow) {
   project.layers[0].shown = "largest";
   project.layers[0].other_styles = {{"median", "<qgis a=\"b\">y</qgis>"}};
   project.layers.push_back({"Fences", "Fence", "f.gpkg", QgisLayer::line, "", true});
-  project.layers[1].fields = {"energy_p95_kj"};
+  project.layers[1].fields = {{"energy_p95_kj", "Energy, 95th percentile [kJ]"}};
   const std::string xml = qgis_project_xml(project, small(""));
   for (const char* part :
        {"<abstract>1 run failed\nspeed; in m/s\nrun id 1f, Talus 1</abstract>",
@@ -201,14 +200,4 @@ TEST(QgisProject, UnknownPlaceholdersAreRefusedWithTheirLine) {
   EXPECT_EQ(refusal(small("[% '{title}' %]")).substr(0, 73),
             "office.qgs:4: layout Plan, item Note: has {title} in an expression of QGI");
   EXPECT_EQ(refusal(small("[% regexp_match('a', 'a{2}b{x}') %] {2} { }")), "");
-}
-
-TEST(FieldWords, UnitAndPercentileAreSaid) {
-  EXPECT_EQ(field_words("energy_p95_hi_kj"), "Energy, 95th percentile, upper bound [kJ]");
-  EXPECT_EQ(field_words("speed_max_m_s"), "Speed, largest [m/s]");
-  EXPECT_EQ(field_words("share_moved_20_m"), "Share moved [> 20 m]");
-  EXPECT_EQ(field_words("n_cells"), "Number of cells");
-  EXPECT_EQ(field_words("L_path_m"), "L along the path [m]");
-  EXPECT_EQ(field_words("verdict"), "Verdict");
-  EXPECT_EQ(field_words("s"), "S");
 }

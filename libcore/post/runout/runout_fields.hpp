@@ -1,0 +1,27 @@
+// libcore/post/runout/runout_fields.hpp: public
+// Fields of what a run-out has a row of: blocks, runs, and points of the curves over time.
+#pragma once
+
+#include "base/fields.hpp"
+#include "post/runout/runout_runs.hpp"
+
+namespace talus {
+
+/// A block at the end of its run.
+struct RunBlock {
+  const RunoutRun& run;
+  const BlockReach& block;
+  Vec3 origin;  ///< map coordinates of the local zero [m]
+};
+[[nodiscard]] const std::vector<Field<RunBlock>>& block_fields();
+
+[[nodiscard]] const std::vector<Field<RunoutRun>>& run_fields();
+
+struct CurvePoint {
+  const RunoutRun& run;
+  const CurveRow& row;
+  Vec3 origin;  ///< as above
+};
+[[nodiscard]] const std::vector<Field<CurvePoint>>& curve_fields();
+
+}  // namespace talus
