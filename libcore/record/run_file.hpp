@@ -209,7 +209,7 @@ struct RunParts {
 /// must be).
 [[nodiscard]] RunFile read_run_file(const std::string& path, const RunParts& parts = {});
 
-/// What tells whether a run belongs to others: `info` without plan, and `grid`.
+/// What tells whether a run belongs to others: `info` and `grid`.
 [[nodiscard]] RunFile read_run_head(const std::string& path);
 
 /// Writes `run` to `path` itself, synced. Equal content gives equal bytes.

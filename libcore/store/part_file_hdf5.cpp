@@ -201,46 +201,6 @@ void share_out(const H5Reader& file, const std::string& path, const std::string&
 
 // --- groups ------------------------------------------------------------------------------------
 
-// The words of runs, one dataset each.
-struct InfoText {
-  const char *name, *description;
-  std::string RunInfo::*field;
-};
-constexpr InfoText info_texts[] = {
-    {"run_id", "digest of version, settings and inputs", &RunInfo::run_id},
-    {"trn_sha256", "of the terrain that the blocks slid on", &RunInfo::trn_sha256},
-    {"terrain_digest", "of the terrain before the slide, where beds differ",
-     &RunInfo::terrain_digest},
-    {"blocks_hash", "of the block set", &RunInfo::blocks_hash},
-    {"law", "talus or paper", &RunInfo::law},
-    {"case", "variant of the settings", &RunInfo::case_name},
-    {"status", "done or failed; running: not ended", &RunInfo::status},
-    {"reason", "why it failed", &RunInfo::reason},
-    {"config", "effective settings as TOML, each with its origin", &RunInfo::config},
-    {"made_with", "options beside the settings, digests of the files read, a line each",
-     &RunInfo::made_with},
-    {"plan", "what was computed and what was left out, JSON", &RunInfo::plan},
-    {"warnings", "what inputs and settings were warned of, a line each", &RunInfo::warnings}};
-struct InfoNumber {
-  const char *name, *units, *description;
-  double RunInfo::*field;
-};
-constexpr InfoNumber info_numbers[] = {
-    {"duration_s", "s", "simulated time asked for", &RunInfo::duration},
-    {"time_s", "s", "simulated time reached", &RunInfo::time}};
-
-struct InfoFlag {
-  const char *name, *description;
-  bool RunInfo::*field;
-};
-constexpr InfoFlag info_flags[] = {
-    {"independent",
-     "1: each block moved as if it were alone, among fences and trees as at the start",
-     &RunInfo::independent},
-    {"weights_are_frequencies", "1: weights of blocks are events a year",
-     &RunInfo::weights_are_frequencies},
-    {"seed_draws", "0: another seed gives the same run", &RunInfo::seed_draws}};
-
 bool has_objects(const Part& part) {
   return std::any_of(part.objects.begin(), part.objects.end(),
                      [](const auto& objects) { return !objects.empty(); });
@@ -261,19 +221,21 @@ void write_runs(H5Writer& file, const Part& part) {
   for (const InfoText& text : info_texts) {
     std::vector<std::string> values;
     for (const RunFile& run : part.runs) values.push_back(run.info.*text.field);
-    file.texts(std::string("runs/") + text.name, values, "run", text.description);
+    file.texts(std::string("runs/") + text.name, values, "run", text.long_name);
   }
   for (const InfoNumber& number : info_numbers) {
     std::vector<double> values;
     for (const RunFile& run : part.runs) values.push_back(run.info.*number.field);
     file.array<double>(std::string("runs/") + number.name, values, {{"run", values.size()}},
-                       number.units, number.description);
+                       number.units, number.long_name);
   }
-  for (const InfoFlag& flag : info_flags) {
+  const auto put_flag = [&](const InfoFlag& flag) {
     std::vector<int> values;
     for (const RunFile& run : part.runs) values.push_back(run.info.*flag.field ? 1 : 0);
-    put_indices(file, std::string("runs/") + flag.name, values, "run", flag.description);
-  }
+    put_indices(file, std::string("runs/") + flag.name, values, "run", flag.long_name);
+  };
+  for (const InfoFlag& flag : info_flags) put_flag(flag);
+  put_flag(seed_draws);
   std::vector<std::int64_t> seeds;
   for (const RunFile& run : part.runs) seeds.push_back(run.info.seed);
   file.array<std::int64_t>("runs/seed", seeds, {{"run", seeds.size()}}, "1", "seed");
@@ -315,11 +277,13 @@ void read_runs(const H5Reader& file, const std::string& path, Part& part) {
     same(number.name, values.size());
     for (std::size_t r = 0; r < values.size(); ++r) part.runs[r].info.*number.field = values[r];
   }
-  for (const InfoFlag& flag : info_flags) {
+  const auto take_flag = [&](const InfoFlag& flag) {
     const std::vector<int> values = file.array<std::int32_t>(std::string("runs/") + flag.name, 1);
     same(flag.name, values.size());
     for (std::size_t r = 0; r < values.size(); ++r) part.runs[r].info.*flag.field = values[r] != 0;
-  }
+  };
+  for (const InfoFlag& flag : info_flags) take_flag(flag);
+  take_flag(seed_draws);
   const std::vector<std::int64_t> seeds = file.array<std::int64_t>("runs/seed", 1);
   same("seed", seeds.size());
   for (std::size_t r = 0; r < seeds.size(); ++r) part.runs[r].info.seed = seeds[r];

@@ -32,41 +32,26 @@ void write_info(H5Writer& file, const RunFile& run) {
   file.attribute("", "format", std::string(format_name));
   file.attribute("", "format_version", format_version);
   file.attribute("", "description", std::string("One run of talus-dda"));
-  file.attribute("", "run_id", info.run_id);
   file.attribute("", "version", info.version);
   file.attribute("", "site", info.site);
   write_place(file, "", info);
-  file.attribute("", "trn_sha256", info.trn_sha256);
-  file.attribute("", "blocks_hash", info.blocks_hash);
-  file.attribute("", "law", info.law);
   file.attribute("", "seed", info.seed);
-  file.attribute("", "independent", std::int64_t{info.independent});
-  file.attribute("", "weights_are_frequencies", std::int64_t{info.weights_are_frequencies});
-  file.attribute("", "status", info.status);
-  file.attribute("", "reason", info.reason);
-  file.attribute("", "duration_s", info.duration);
-  file.attribute("", "time_s", info.time);
+  for (const InfoText& text : info_texts) {
+    const std::string& value = info.*text.field;
+    if (text.kind == InfoText::attribute)
+      file.attribute("", text.name, value);
+    else if (!text.is_optional || !value.empty())
+      file.text(text.name, value, text.long_name);
+  }
+  for (const InfoNumber& number : info_numbers) file.attribute("", number.name, info.*number.field);
+  for (const InfoFlag& flag : info_flags)
+    file.attribute("", flag.name, std::int64_t{info.*flag.field});
   if (!info.seed_draws)
-    file.array<std::int32_t>("seed_draws", std::array<std::int32_t, 1>{0}, {{"/one", 1}}, "1",
-                             "0: another seed gives the same run");
-  if (!info.case_name.empty()) file.text("case", info.case_name, "variant of the settings");
-  if (!info.terrain_digest.empty())
-    file.text("terrain_digest", info.terrain_digest, "of the terrain before the slide");
-  file.text("config", info.config, "effective settings as TOML, each with its origin");
-  if (!info.made_with.empty())
-    file.text("made_with", info.made_with,
-              "options beside the settings, digests of the files read, a line each");
-  file.text("plan", info.plan, "what was computed and what was left out, JSON");
-  if (!info.warnings.empty())
-    file.text("warnings", info.warnings, "what inputs and settings were warned of, a line each");
+    file.array<std::int32_t>(seed_draws.name, std::array<std::int32_t, 1>{0}, {{"/one", 1}}, "1",
+                             seed_draws.long_name);
 }
 
-void read_settings(const H5Reader& file, RunInfo& info) {
-  info.config = file.text("config");
-  if (file.has("made_with")) info.made_with = file.text("made_with");
-}
-
-RunInfo read_info(const H5Reader& file, const std::string& path) {
+RunInfo read_info(const H5Reader& file, const std::string& path, bool words) {
   if (file.attribute_text("", "format") != format_name)
     throw InputError({path}, "is not a run of talus-dda");
   if (const std::int64_t version = file.attribute_integer("", "format_version");
@@ -76,7 +61,6 @@ RunInfo read_info(const H5Reader& file, const std::string& path) {
                          std::to_string(format_version),
                      "run talus-dda of this version again");
   RunInfo info;
-  info.run_id = file.attribute_text("", "run_id");
   info.version = file.attribute_text("", "version");
   info.site = file.attribute_text("", "site");
   info.crs_wkt = file.attribute_text("", "crs");
@@ -84,20 +68,19 @@ RunInfo read_info(const H5Reader& file, const std::string& path) {
   if (origin.size() != 3 || !std::isfinite(origin[0] + origin[1] + origin[2]))
     throw InputError({path, 0, "origin_m"}, "is not three finite numbers");
   info.origin = Vec3(origin[0], origin[1], origin[2]);
-  info.trn_sha256 = file.attribute_text("", "trn_sha256");
-  if (file.has("terrain_digest")) info.terrain_digest = file.text("terrain_digest");
-  info.blocks_hash = file.attribute_text("", "blocks_hash");
-  info.law = file.attribute_text("", "law");
   info.seed = file.attribute_integer("", "seed");
-  info.seed_draws = !file.has("seed_draws");
-  if (file.has("case")) info.case_name = file.text("case");
-  info.independent = file.attribute_integer("", "independent") != 0;
-  info.weights_are_frequencies = file.attribute_integer("", "weights_are_frequencies") != 0;
-  info.status = file.attribute_text("", "status");
-  info.reason = file.attribute_text("", "reason");
-  if (file.has("warnings")) info.warnings = file.text("warnings");
-  info.duration = file.attribute_number("", "duration_s");
-  info.time = file.attribute_number("", "time_s");
+  for (const InfoText& text : info_texts) {
+    if (text.kind == InfoText::words && !words) continue;
+    if (text.kind == InfoText::attribute)
+      info.*text.field = file.attribute_text("", text.name);
+    else if (!text.is_optional || file.has(text.name))
+      info.*text.field = file.text(text.name);
+  }
+  for (const InfoNumber& number : info_numbers)
+    info.*number.field = file.attribute_number("", number.name);
+  for (const InfoFlag& flag : info_flags)
+    info.*flag.field = file.attribute_integer("", flag.name) != 0;
+  info.seed_draws = !file.has(seed_draws.name);
   return info;
 }
 
@@ -292,11 +275,7 @@ std::vector<Phase> read_phases(const H5Reader& file, std::size_t n_blocks,
 RunFile read_run_file(const std::string& path, const RunParts& parts) {
   const H5Reader file(path);
   RunFile run;
-  run.info = read_info(file, path);
-  if (parts.words) {
-    read_settings(file, run.info);
-    run.info.plan = file.text("plan");
-  }
+  run.info = read_info(file, path, parts.words);
   run.blocks = read_blocks(file, path);
   run.phase = read_phases(file, run.blocks.mass.size(), path);
   if (parts.frames)
@@ -326,8 +305,7 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
 RunFile read_run_head(const std::string& path) {
   const H5Reader file(path);
   RunFile run;
-  run.info = read_info(file, path);
-  read_settings(file, run.info);
+  run.info = read_info(file, path, true);
   if (file.has("passages")) run.grid = read_grid(file, "passages", path);
   return run;
 }

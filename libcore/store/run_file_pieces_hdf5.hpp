@@ -13,6 +13,51 @@
 
 namespace talus {
 
+/// What is said of a run: attributes or texts of a run file, columns of the group runs of a part.
+struct InfoText {
+  const char *name, *long_name;
+  std::string RunInfo::*field;
+  enum Kind { attribute, text, words } kind = text;  ///< words: of RunParts
+  bool is_optional = false;                          ///< a run file leaves it out where it is empty
+};
+struct InfoNumber {
+  const char *name, *units, *long_name;
+  double RunInfo::*field;
+};
+struct InfoFlag {
+  const char *name, *long_name;
+  bool RunInfo::*field;
+};
+inline constexpr InfoText info_texts[] = {
+    {"run_id", "digest of version, settings and inputs", &RunInfo::run_id, InfoText::attribute},
+    {"trn_sha256", "of the terrain that the blocks slid on", &RunInfo::trn_sha256,
+     InfoText::attribute},
+    {"blocks_hash", "of the block set", &RunInfo::blocks_hash, InfoText::attribute},
+    {"law", "talus or paper", &RunInfo::law, InfoText::attribute},
+    {"status", "done or failed; running: not ended", &RunInfo::status, InfoText::attribute},
+    {"reason", "why it failed", &RunInfo::reason, InfoText::attribute},
+    {"terrain_digest", "of the terrain before the slide, where beds differ",
+     &RunInfo::terrain_digest, InfoText::text, true},
+    {"case", "variant of the settings", &RunInfo::case_name, InfoText::text, true},
+    {"warnings", "what inputs and settings were warned of, a line each", &RunInfo::warnings,
+     InfoText::text, true},
+    {"config", "effective settings as TOML, each with its origin", &RunInfo::config,
+     InfoText::words},
+    {"made_with", "options beside the settings, digests of the files read, a line each",
+     &RunInfo::made_with, InfoText::words, true},
+    {"plan", "what was computed and what was left out, JSON", &RunInfo::plan, InfoText::words}};
+inline constexpr InfoNumber info_numbers[] = {
+    {"duration_s", "s", "simulated time asked for", &RunInfo::duration},
+    {"time_s", "s", "simulated time reached", &RunInfo::time}};
+inline constexpr InfoFlag info_flags[] = {
+    {"independent",
+     "1: each block moved as if it were alone, among fences and trees as at the start",
+     &RunInfo::independent},
+    {"weights_are_frequencies", "1: weights of blocks are events a year",
+     &RunInfo::weights_are_frequencies}};
+inline constexpr InfoFlag seed_draws = {"seed_draws", "0: another seed gives the same run",
+                                        &RunInfo::seed_draws};
+
 [[nodiscard]] std::vector<Vec3> as_points(const std::vector<double>& list);
 void put_points(H5Writer& file, const std::string& path, const std::vector<Vec3>& points,
                 const std::string& dimension, const std::string& units,
