@@ -44,4 +44,12 @@ template <class Row>
   return names;
 }
 
+template <class Row>
+[[nodiscard]] std::string csv_of(const std::vector<Field<Row>>& fields,
+                                 const std::vector<Row>& rows) {
+  std::string out = csv_row(names_of(fields));
+  for (const Row& row : rows) out += csv_row(values_of(fields, row));
+  return out;
+}
+
 }  // namespace talus

@@ -2,6 +2,7 @@
 // What fences would meet, what they hold and what they change. Page: docs/tools/talus-fence.md
 #include <cmath>
 
+#include "post/fence/fence_fields.hpp"
 #include "post/fence/fence_text.hpp"
 #include "post/maps/map_style.hpp"
 #include "tools/fence/inputs.hpp"

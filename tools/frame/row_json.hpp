@@ -21,4 +21,11 @@ template <class Row>
   return out;
 }
 
+template <class Row>
+[[nodiscard]] Json rows_json(const std::vector<Field<Row>>& fields, const std::vector<Row>& rows) {
+  Json out = Json::array();
+  for (const Row& row : rows) out.push_back(row_json(fields, row));
+  return out;
+}
+
 }  // namespace talus

@@ -320,11 +320,7 @@ std::string crossing_csv(const LineProfile& profile) {
   return out;
 }
 
-std::string bin_csv(const LineProfile& profile) {
-  std::string out = csv_row(names_of(across_fields()));
-  for (const AcrossSummary& bin : profile.bins) out += csv_row(values_of(across_fields(), bin));
-  return out;
-}
+std::string bin_csv(const LineProfile& profile) { return csv_of(across_fields(), profile.bins); }
 
 std::string station_csv(const LineProfile& profile) {
   std::string out = csv_row(names_of(station_fields()));
@@ -359,8 +355,8 @@ std::vector<std::pair<std::string, std::string>> profile_charts(const LineProfil
 
 Json profile_json(const LineProfile& profile) {
   const LineSums& sums = profile.sums;
-  Json bins = Json::array(), stations = Json::array();
-  for (const AcrossSummary& bin : profile.bins) bins.push_back(row_json(across_fields(), bin));
+  const Json bins = rows_json(across_fields(), profile.bins);
+  Json stations = Json::array();
   for (const StationSummary& s : profile.stations)
     stations.push_back(row_json(station_fields(), {profile, s}));
   const EnergyChange change = energy_change(sums);

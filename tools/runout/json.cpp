@@ -145,17 +145,6 @@ Json cases_json(const std::vector<RunoutRun>& runs) {
   return list;
 }
 
-Json sensitivity_json(const std::vector<SensitivityRow>& rows) {
-  Json list = Json::array();
-  for (const SensitivityRow& row : rows)
-    list.push_back({{"result", row.result},
-                    {"quantity", row.quantity},
-                    {"n_runs", row.n},
-                    {"rank_correlation", number_or_null(row.rank_correlation)},
-                    {"first_order", number_or_null(row.first_order)}});
-  return list;
-}
-
 Json mobility_json(const std::vector<MobilityRelation>& relations,
                    const std::vector<MobilityEvent>& events) {
   Json list = Json::array();

@@ -22,9 +22,6 @@ namespace talus {
 /// and over the events.
 void add_spreads(Json& to, const std::vector<RunoutRun>& runs, const std::vector<int>& some);
 
-/// Numbers are null where there are not enough runs.
-[[nodiscard]] Json sensitivity_json(const std::vector<SensitivityRow>& rows);
-
 [[nodiscard]] Json mobility_json(const std::vector<MobilityRelation>& relations,
                                  const std::vector<MobilityEvent>& events);
 

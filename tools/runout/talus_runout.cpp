@@ -20,6 +20,7 @@
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/moved_json.hpp"
 #include "tools/frame/options.hpp"
+#include "tools/frame/row_json.hpp"
 #include "tools/frame/run_inputs.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/runout/json.hpp"
@@ -195,7 +196,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
     };
     write("runout.csv", block_csv(all.runs, trn.origin));
     write("runs.csv", run_csv(all.runs));
-    write("sensitivity.csv", sensitivity_csv(sensitivity));
+    write("sensitivity.csv", csv_of(sensitivity_fields(), sensitivity));
     write("curves.csv", curve_csv(all.runs, trn.origin));
     write("runout.svg", mobility_svg(relations, events));
   }
@@ -215,7 +216,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
                  {"cases", cases_json(all.runs)},
                  {"cases_weighed", !inputs.pools_unasked()},
                  {"runs", runs},
-                 {"sensitivity", sensitivity_json(sensitivity)},
+                 {"sensitivity", rows_json(sensitivity_fields(), sensitivity)},
                  {"mobility", mobility_json(relations, events)}};
   add_spreads(result, all.runs, all_of(all.runs));
   if (trees.any) result["trees"] = trees_json(summary_of(trees.runs), trn.origin);

@@ -61,4 +61,17 @@ const std::vector<Field<VerdictRow>>& verdict_fields() {
   return fields;
 }
 
+std::string verdict_csv(const std::vector<FenceCase>& fences, const FenceRunGroup& group) {
+  std::string out = csv_row(names_of(verdict_fields()));
+  for (std::size_t i = 0; i < fences.size(); ++i)
+    for (int r = 0; r < n_runs(group); ++r) {
+      const auto& at = group.runs[r].at_fence[i];
+      for (const BlockVerdict& v : at.verdicts)
+        out += csv_row(values_of(
+            verdict_fields(),
+            {fences[i].fence, group, r, v, v.arrival < 0 ? nullptr : &at.arrivals[v.arrival]}));
+    }
+  return out;
+}
+
 }  // namespace talus

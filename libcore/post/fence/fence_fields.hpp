@@ -16,4 +16,8 @@ struct VerdictRow {
 };
 [[nodiscard]] const std::vector<Field<VerdictRow>>& verdict_fields();
 
+/// A row (CSV) for each fence, run and block: its verdict and, where it came to the fence, how.
+[[nodiscard]] std::string verdict_csv(const std::vector<FenceCase>& fences,
+                                      const FenceRunGroup& group);
+
 }  // namespace talus

@@ -7,7 +7,6 @@
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
-#include "post/fence/fence_fields.hpp"
 #include "record/pieces.hpp"
 
 namespace talus {
@@ -173,19 +172,6 @@ std::vector<std::string> fence_notes(const FenceCase& fence, std::size_t index,
     notes.push_back(std::move(broken));
   for (std::string& remark : build_remarks(code, fence.fence)) notes.push_back(std::move(remark));
   return notes;
-}
-
-std::string verdict_csv(const std::vector<FenceCase>& fences, const FenceRunGroup& group) {
-  std::string out = csv_row(names_of(verdict_fields()));
-  for (std::size_t i = 0; i < fences.size(); ++i)
-    for (int r = 0; r < n_runs(group); ++r) {
-      const auto& at = group.runs[r].at_fence[i];
-      for (const BlockVerdict& v : at.verdicts)
-        out += csv_row(values_of(
-            verdict_fields(),
-            {fences[i].fence, group, r, v, v.arrival < 0 ? nullptr : &at.arrivals[v.arrival]}));
-    }
-  return out;
 }
 
 }  // namespace talus

@@ -32,8 +32,4 @@ namespace talus {
                                                    const FenceRunGroup& group,
                                                    const DesignCode& code);
 
-/// A row (CSV) for each fence, run and block: its verdict and, where it came to the fence, how.
-[[nodiscard]] std::string verdict_csv(const std::vector<FenceCase>& fences,
-                                      const FenceRunGroup& group);
-
 }  // namespace talus

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/csv.hpp"
-#include "base/text.hpp"
 #include "base/units.hpp"
 #include "sampling/sensitivity.hpp"
 
@@ -115,13 +113,17 @@ std::vector<SensitivityRow> sensitivity_of(const std::vector<RunoutRun>& runs) {
   return rows;
 }
 
-std::string sensitivity_csv(const std::vector<SensitivityRow>& rows) {
-  std::string out = csv_line({"result", "quantity", "n_runs", "rank_correlation", "first_order"});
-  const auto number = [](double value) { return std::isnan(value) ? "" : text(value, 5); };
-  for (const SensitivityRow& row : rows)
-    out += csv_line({row.result, row.quantity, std::to_string(row.n), number(row.rank_correlation),
-                     number(row.first_order)});
-  return out;
+const std::vector<Field<SensitivityRow>>& sensitivity_fields() {
+  using Value = FieldValue;
+  using Row = const SensitivityRow&;
+  static const std::vector<Field<SensitivityRow>> fields = {
+      {"result", "", "Result", [](Row r) -> Value { return r.result; }, FieldType::text},
+      {"quantity", "", "Quantity", [](Row r) -> Value { return r.quantity; }, FieldType::text},
+      {"n_runs", "", "Number of runs", [](Row r) -> Value { return r.n; }, FieldType::integer},
+      {"rank_correlation", "", "Rank correlation",
+       [](Row r) -> Value { return r.rank_correlation; }},
+      {"first_order", "", "First-order index", [](Row r) -> Value { return r.first_order; }}};
+  return fields;
 }
 
 }  // namespace talus

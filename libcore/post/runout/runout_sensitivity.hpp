@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/fields.hpp"
 #include "post/runout/runout_runs.hpp"
 
 namespace talus {
@@ -24,7 +25,6 @@ struct SensitivityRow {
 /// NaN: not enough runs.
 [[nodiscard]] std::vector<SensitivityRow> sensitivity_of(const std::vector<RunoutRun>& runs);
 
-/// As a table (CSV), numbers empty where there are not enough runs.
-[[nodiscard]] std::string sensitivity_csv(const std::vector<SensitivityRow>& rows);
+[[nodiscard]] const std::vector<Field<SensitivityRow>>& sensitivity_fields();
 
 }  // namespace talus
