@@ -85,7 +85,7 @@ dem_given = $(if $(CONTOURS),,$(if $(call differ,$(DEM),$(SITE_DEM)),--dem $(DEM
 given = --given $1= $(foreach name,$(call named_in,$2),--given '$1=$(subst ','\'',$(name))')
 flags_of = $(shell echo $1 | tr a-z A-Z)_FLAGS
 given_files := $(if $(CONTOURS),--given import=$(contours_file)) \
-  $(DEM:%=--given trn=% --given import=%) \
+  $(if $(DEM),--given trn=$(DEM) --given import=$(DEM)) \
   $(if $(LINE),--given 'profile=$(line_file)') \
   --given report=site.toml $(foreach stage,import tin trn blocks check runout maps fence places \
   hazard trace search profile report,$(call given,$(stage),$($(call flags_of,$(stage)))))

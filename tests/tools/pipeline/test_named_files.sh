@@ -42,15 +42,15 @@ would_be "" "the same attributes"
 ogr2ogr -f "ESRI Shapefile" -a_srs EPSG:32633 -dialect SQLite -sql 'SELECT 2 AS id, geometry FROM source' other.shp source.geojson
 cp other.dbf "slope/the source.dbf"
 would "$@"
-would_be "batch blocks check fence maps report runout " "other attributes of the source"
+would_be "batch blocks check fence import maps report runout " "other attributes of the source"
 made slope -j2 "$@"
 printf ISO-8859-1 >"slope/the source.cpg"
 would "$@"
-would_be "batch blocks check fence maps report runout " "an encoding that came later"
+would_be "batch blocks check fence import maps report runout " "an encoding that came later"
 made slope -j2 "$@"
 rm "slope/the source.cpg"
 would "$@"
-would_be "batch blocks check fence maps report runout " "no encoding any more"
+would_be "batch blocks check fence import maps report runout " "no encoding any more"
 
 # a file that a setting names with the quotes of TOML, and one with its layer
 sed -i 's/^line = .*/file = "first.geojson"/' slope/site.toml

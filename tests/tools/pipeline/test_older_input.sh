@@ -59,7 +59,7 @@ would_be "import trn " "an older elevation model given to make"
 made slope terrain DEM=mine.tif TRN_FLAGS='--reference dem.tif'
 replaced slope/dem.tif dem.tif
 would terrain DEM=mine.tif TRN_FLAGS='--reference dem.tif'
-would_be "trn " "an older reference"
+would_be "import trn " "an older reference"
 
 # files that a data set is made of: its CRS, the parts of a mosaic
 gdal_translate -q -of AAIGrid dem.tif slope/grid.asc

@@ -13,7 +13,7 @@ report
 
 sed -i 's/5200150/5200190/g' slope/fence.geojson
 report
-says "fence.geojson: has changed since talus-dda read it"
+says "fence.geojson: has changed since talus-import read it"
 sed -i 's/5200190/5200150/g' slope/fence.geojson
 touch slope/contours.gpkg
 report
