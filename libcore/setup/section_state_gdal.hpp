@@ -10,8 +10,9 @@
 
 namespace talus {
 
-/// As section_digest() of site/section_digest.hpp; where a named file is part of a data set (a
-/// Shapefile, an archive, a folder), all files of that count.
+/// Digest of the effective values of `sections` ("object" stands for all [object.*]), of all files
+/// of the data sets that they name, and of the features of layers that stand for them
+/// (site_layers.hpp).
 [[nodiscard]] std::string section_state(const Site& site, const std::vector<std::string>& sections);
 
 }  // namespace talus
