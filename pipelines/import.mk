@@ -3,7 +3,7 @@
 # They come after it: all need trn.tif, which does.
 # in: CONTOURS, DEM, all files that site.toml names, IMPORT_FLAGS (e.g. --t-srs EPSG:32632)
 # out: $(OUT)/inputs.gpkg, import.json
-$(eval $(call remember,import,$(CONTOURS) $(DEM) $(IMPORT_FLAGS)))
+$(eval $(call remember,import,$(CONTOURS) $(DEM) $(dem_given) $(IMPORT_FLAGS)))
 import_files := $(addprefix $(OUT)/,$(import_products))
 inputs_given := --inputs $(OUT)/inputs.gpkg
 $(eval $(call together,$(import_files)))

@@ -166,41 +166,7 @@ VectorLayer magnitudes_of(const ImportReading& reading) {
   return table;
 }
 
-void measure(const std::vector<Vec3>& points, const Vec3& origin, bool has_heights,
-             LayerReading& layer) {
-  const char* const names[] = {"x_m", "y_m", "z_m"};
-  for (int axis = 0; axis < (has_heights ? 3 : 2) && !points.empty(); ++axis) {
-    std::vector<double> values;
-    for (const Vec3& point : points) values.push_back(point[axis] + origin[axis]);
-    layer.magnitudes.push_back(magnitude_of(names[axis], std::move(values)));
-  }
-}
-
 }  // namespace
-
-void measure(const Imported& inputs, ImportReading& reading) {
-  const ContourMap& map = inputs.map;
-  auto shapes = inputs.shapes.begin();
-  for (LayerReading& layer : reading.layers) {
-    std::vector<Vec3> corners;
-    if (layer.role == "contours") {
-      measure(map.contours.points, map.origin, true, layer);
-    } else if (layer.role == "breaklines") {
-      measure(map.breaklines.points, map.origin, true, layer);
-    } else if (layer.role == "spots" || layer.role == "points") {
-      measure(map.spots, map.origin, true, layer);
-    } else if (layer.role == "boundary") {
-      for (const BoundaryRing& ring : map.boundary)
-        for (const Vec2& p : ring.points) corners.emplace_back(p.x(), p.y(), 0);
-      measure(corners, map.origin, false, layer);
-    } else if (layer.role != "labels") {
-      for (const auto& shape : shapes->shapes)
-        corners.insert(corners.end(), shape.begin(), shape.end());
-      measure(corners, Vec3::Zero(), false, layer);
-      ++shapes;
-    }
-  }
-}
 
 void write_canonical(const std::string& path, const InputsRequest& request, const Imported& inputs,
                      const ImportReading& reading) {

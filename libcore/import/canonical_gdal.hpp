@@ -14,9 +14,6 @@
 
 namespace talus {
 
-/// How large the coordinates of each layer are: goes to `reading`.
-void measure(const Imported& inputs, ImportReading& reading);
-
 /// Layers contours or points, breaklines, spots and boundary, those of what stands on the ground
 /// (RequestedLayer::layer), and the tables `sources`, `decisions` and `magnitudes`.
 /// `source_feature` is the id of a line in the file that it comes from. The same inputs and reading

@@ -38,7 +38,8 @@ void place_ground(RawLayer& ground, RawInputs& raw) {
 // A layer without a system is in the frame; so is one whose system cannot be that of its
 // coordinates, but for those of a site, which no option names.
 void place_beside(RawLayer& layer, RawInputs& raw) {
-  const bool is_beyond = is_beyond_degrees(layer.own_crs, layer.lines.points);
+  const bool is_beyond =
+      layer.written == nullptr && is_beyond_degrees(layer.own_crs, layer.lines.points);
   layer.is_in_frame = layer.own_crs.empty() || raw.frame.empty() ||
                       same_crs(layer.own_crs, raw.frame) || (is_beyond && !layer.is_of_site());
   layer.crs = layer.is_in_frame ? raw.frame : layer.own_crs;
@@ -72,9 +73,15 @@ void check_places(RawInputs& raw) {
     if (layer.crs.empty() || points.empty()) continue;
     CrsExtent place{layer.crs, window_of(points, layer.crs), raw.frame};
     place.has_crs_option = place.has_unit_option = &layer == raw.ground();
-    place.layer = layer.source.layer->GetName();
-    place.geometry_column = layer.source.layer->GetGeometryColumn();
-    for (const std::string& warning : check_place(place, {parse_source_path(layer.path()).source}))
+    if (layer.written != nullptr) {
+      place.crs_said_in = layer.own_crs.empty() ? "the terrain" : "crs of [site]";
+    } else {
+      place.layer = layer.source.layer->GetName();
+      place.geometry_column = layer.source.layer->GetGeometryColumn();
+    }
+    const Where where =
+        layer.written != nullptr ? layer.where() : Where{parse_source_path(layer.path()).source};
+    for (const std::string& warning : check_place(place, where))
       raw.reading.warnings.push_back(warning);
   }
 }

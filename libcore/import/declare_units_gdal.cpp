@@ -90,7 +90,7 @@ void record_height_system(RawLayer& layer, const RawInputs& raw) {
 
 void declare_plan_units(RawInputs& raw) {
   for (RawLayer& layer : raw.layers) {
-    if (layer.lines.points.empty()) continue;
+    if (layer.lines.points.empty() || layer.written != nullptr) continue;
     const std::string& otherwise = &layer == raw.ground() ? raw.request.crs : raw.frame;
     const std::string& crs = layer.own_crs.empty() ? otherwise : layer.own_crs;
     const double unit_m = plan_unit_of(layer, crs, raw.reading);

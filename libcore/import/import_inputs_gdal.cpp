@@ -19,6 +19,7 @@ RawInputs read_inputs(const InputsRequest& request) {
   check_places(raw);
   take_to_frame(raw);
   check_neighbours(raw);
+  measure(raw);
   for (const RawLayer& layer : raw.layers) raw.reading.layers.push_back(layer.taken);
   return raw;
 }

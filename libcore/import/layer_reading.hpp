@@ -37,6 +37,9 @@ struct LayerReading {
   int n_passed_over = 0;             ///< parts of another kind in the same layer
   std::string passed_over;           ///< in words: "2 points, 1 open line"; empty: none
   std::string elevation_from;        ///< "Z" or "field ELEV"; empty: no heights are read
+  double area_m2 = 0;                ///< of all polygons, in the frame
+  int n_united = 0, n_made = 0;      ///< polygons that met another one, and those made of them
+  std::string operation;             ///< sentence: how it was reprojected; empty: it was not
   double unit_m = 1;                 ///< metres in one unit of the heights
   std::vector<std::string> remarks;  ///< sentences: closed lines that are areas, stroked curves
   std::vector<Decision> decisions;   ///< in the order of the questions

@@ -109,7 +109,7 @@ void bring_to_one_side(const std::string& crs, std::vector<std::unique_ptr<OGRPo
 }
 
 // Areas of a site are united where they meet; their rings belong to no single feature.
-void read_areas(RawLayer& layer) {
+Uniting read_areas(RawLayer& layer) {
   std::vector<std::unique_ptr<OGRPolygon>> polygons;
   for_each_part(layer.source, [&](const OGRGeometry& part, const OGRFeature& feature) {
     const Where where = where_of_feature(layer.source, feature);
@@ -121,10 +121,9 @@ void read_areas(RawLayer& layer) {
   });
   bring_to_one_side(layer.own_crs, polygons);
   const Uniting uniting = unite_polygons(polygons, where_of_layer(layer.source));
-  layer.n_united = uniting.n_united;
-  layer.n_made = uniting.n_made;
   const OGRFeature none(layer.source.layer->GetLayerDefn());
   for (const auto& polygon : polygons) append_rings(*polygon, none, layer);
+  return uniting;
 }
 
 std::string label_of(const OpenLayer& source, const OGRFeature& feature) {
@@ -138,7 +137,7 @@ std::string label_of(const OpenLayer& source, const OGRFeature& feature) {
                    "name the field with the labels' text: --elevation-field labels=FIELD");
 }
 
-void read_parts(const RequestedLayer& requested, RawLayer& layer) {
+Uniting read_parts(const RequestedLayer& requested, RawLayer& layer) {
   if (requested.role == InputRole::site_areas) return read_areas(layer);
   for_each_part(layer.source, [&](const OGRGeometry& part, const OGRFeature& feature) {
     const OGRwkbGeometryType type = wkbFlatten(part.getGeometryType());
@@ -154,17 +153,45 @@ void read_parts(const RequestedLayer& requested, RawLayer& layer) {
     if (requested.role == InputRole::labels)
       layer.attributes.push_back({label_of(layer.source, feature)});
   });
+  return {};
+}
+
+// Points of the site file.
+RawLayer take_written(const RequestedLayer& requested) {
+  RawLayer layer;
+  layer.role = requested.role;
+  layer.written = &requested;
+  layer.source.ref.path = requested.where.file;
+  layer.source.role = role_of(requested.role);
+  layer.own_crs = requested.crs;
+  layer.lines.points = requested.points;
+  const int n = static_cast<int>(requested.points.size());
+  for (int end = requested.role == InputRole::site_points ? 1 : n; end <= n; ++end) {
+    layer.lines.begin.push_back(end);
+    layer.lines.feature.push_back(0);
+  }
+  if (requested.role == InputRole::site_areas) layer.polygon = {0};
+  layer.taken.role = requested.section;
+  layer.taken.file = requested.where.file;
+  layer.taken.layer = requested.section;
+  layer.taken.noun = singular(layer.source.role.shape);
+  layer.taken.n_parts = layer.lines.n_lines();
+  layer.decide("layer", layer.taken.layer, "written in the site file");
+  return layer;
 }
 
 RawLayer open_raw(const RequestedLayer& requested) {
+  if (!requested.points.empty()) return take_written(requested);
   refuse_laser_scan(requested.ref.path);
   RawLayer layer;
   layer.role = requested.role;
   layer.source = open_layer(requested.ref, role_of(requested.role));
   layer.own_crs = wkt_of(layer.source.layer->GetSpatialRef());
   if (layer.has_heights()) layer.field = HeightField::find(layer.source);
-  read_parts(requested, layer);
+  const Uniting uniting = read_parts(requested, layer);
   layer.taken = reading_of(layer.source);
+  layer.taken.n_united = uniting.n_united;
+  layer.taken.n_made = uniting.n_made;
   layer.taken.role = name_of(requested);
   const SourcePath named = parse_source_path(requested.ref.path);
   layer.decide("layer", layer.taken.layer,
@@ -177,6 +204,7 @@ RawLayer open_raw(const RequestedLayer& requested) {
 }  // namespace
 
 Where RawLayer::where() const {
+  if (written != nullptr) return written->where;
   return is_of_site() ? where_of_layer(source) : Where{source.ref.path};
 }
 

@@ -28,20 +28,17 @@ struct RawLayer {
   /// point has the height 0, or NaN where no heights are asked for.
   Polylines lines;
   std::vector<int> polygon;          ///< of each ring; rings of one follow its outline  (n_lines)
-  int n_united = 0, n_made = 0;      ///< polygons that met another one, and those made of them
   bool has_z = true;                 ///< of every line
   std::int64_t n_flat = 0;           ///< lines without Z
   std::int64_t n_no_number = 0;      ///< lines with a Z that is no number
   std::optional<HeightField> field;  ///< that may hold the heights
   std::vector<std::vector<std::string>> attributes;  ///< as text; empty: not set   (n_points)
   LayerReading taken;
+  const RequestedLayer* written = nullptr;  ///< in the site file; null: `source` is open
 
   // declare_place
   std::string crs;           ///< WKT of the coordinates; empty: local metres
   bool is_in_frame = false;  ///< in plan
-
-  // take_to_frame
-  std::string operation;  ///< sentence; empty: nothing was done in plan
 
   [[nodiscard]] const std::string& path() const { return source.ref.path; }
   [[nodiscard]] bool has_heights() const { return source.role.heights != HeightsOf::nothing; }
@@ -97,6 +94,9 @@ void take_to_frame(RawInputs& raw);
 /// the contours: mixed units.
 void check_elevation(const Vec3& place, const std::string& path, const char* hint);
 void check_neighbours(RawInputs& raw);
+
+/// Areas, and where the request wants them magnitudes.
+void measure(RawInputs& raw);
 
 /// All of these, in this order.
 [[nodiscard]] RawInputs read_inputs(const InputsRequest& request);

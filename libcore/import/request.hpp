@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
+#include "base/types.hpp"
+
 namespace talus {
 
 /// A vector source: "map.gpkg|layername=index,between|subset=ELEV > 900", or an archive. Layers are
@@ -42,6 +45,10 @@ struct RequestedLayer {
   std::string section = {};  ///< of the site file, "fence.valley"
   std::string file = {};     ///< as the section has it
   std::string digest = {};   ///< of the data set; empty: not known
+  // Of points that are written in the site file, in place of `ref`:
+  std::vector<Vec3> points = {};  ///< a line, a ring, or points that stand alone
+  std::string crs = {};           ///< WKT; empty: that of the frame
+  Where where = {};               ///< in the site file
 };
 
 /// What the user says of the systems of a ground that its file does not, or not as wanted.
@@ -64,8 +71,9 @@ struct InputsRequest : SystemsByUser {
   /// There is a terrain already: `frame` is its system, WKT. Without it the first layer, contours
   /// or points, is the ground, and the frame is its system, or t_srs.
   bool has_frame = false;
-  std::string frame;  ///< empty: local metres
-  std::string seal;   ///< of the ground that talus-import wrote; empty: it did not
+  std::string frame;         ///< empty: local metres
+  bool is_measured = false;  ///< say how large the numbers of each layer are
+  std::string seal;          ///< of the ground that talus-import wrote; empty: it did not
 };
 
 }  // namespace talus

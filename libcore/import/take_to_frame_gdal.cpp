@@ -22,10 +22,13 @@ void take_plan(RawLayer& layer, RawInputs& raw) {
     throw InputError(
         layer.where(),
         "cannot be reprojected from " + crs_name(layer.crs) + " to " + crs_name(raw.frame),
-        layer.is_of_site() ? "check the CRS of the file" : "");
+        layer.written != nullptr
+            ? "check crs of [site]: it is that of the coordinates in the site file"
+        : layer.is_of_site() ? "check the CRS of the file"
+                             : "");
   for (const Vec3& point : points)
     check_finite({point.x(), point.y(), 0}, where_of_layer(layer.source));
-  layer.operation = sentence_on(operation);
+  layer.taken.operation = sentence_on(operation);
   if (&layer == raw.ground()) check_can_be_computed_in(raw.frame, points.front(), layer.path());
 }
 
@@ -57,7 +60,7 @@ void take_to_frame(RawInputs& raw) {
   for (RawLayer& layer : raw.layers) {
     if (layer.lines.points.empty()) continue;
     if (!layer.is_in_frame) take_plan(layer, raw);
-    layer.decide("operation in plan", layer.is_in_frame ? "none" : layer.operation,
+    layer.decide("operation in plan", layer.is_in_frame ? "none" : layer.taken.operation,
                  layer.is_in_frame ? "it is in the system of the map"
                                    : "the best that PROJ has for the place");
     if (!layer.has_heights()) continue;

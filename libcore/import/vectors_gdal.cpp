@@ -1,10 +1,8 @@
 #include "import/vectors_gdal.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "base/sha256.hpp"
-#include "geometry/plan2d.hpp"
 #include "import/raw_inputs_gdal.hpp"
 
 namespace talus {
@@ -18,17 +16,10 @@ VectorShapes take_shapes(RawLayer& layer) {
   VectorShapes found;
   static_cast<LayerReading&>(found) = layer.taken;
   found.attributes = std::move(layer.attributes);
-  found.operation = layer.operation;
-  found.n_united = layer.n_united;
-  found.n_made = layer.n_made;
   const Polylines& lines = layer.lines;
-  for (int l = 0; l < lines.n_lines(); ++l) {
+  for (int l = 0; l < lines.n_lines(); ++l)
     found.shapes.emplace_back(lines.points.begin() + lines.begin[l],
                               lines.points.begin() + lines.begin[l + 1]);
-    if (layer.polygon.empty()) continue;
-    const bool is_hole = l > 0 && layer.polygon[l] == layer.polygon[l - 1];
-    found.area_m2 += (is_hole ? -1 : 1) * std::abs(ring_area(found.shapes.back()));
-  }
   found.polygon = std::move(layer.polygon);
   return found;
 }

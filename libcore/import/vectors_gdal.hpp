@@ -36,11 +36,7 @@ struct VectorShapes : LayerReading {
   /// Of points: the fields asked for, as text; empty where a layer does not have one or it is not
   /// set.                                                                     (n_shapes x n_fields)
   std::vector<std::vector<std::string>> attributes;
-  std::string operation;              ///< sentence: how they were reprojected; empty: they were not
   std::vector<std::string> warnings;  ///< places beside their CRS, a better operation
-  int n_united = 0;                   ///< polygons that met another one ...
-  int n_made = 0;                     ///< ... and the polygons made of them
-  double area_m2 = 0;                 ///< of all polygons, in the wanted CRS
 };
 
 /// Throws InputError: source cannot be opened, no such layer or several that may be meant, nothing

@@ -4,11 +4,8 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/sha256.hpp"
 #include "base/source_path.hpp"
 #include "import/canonical_gdal.hpp"
-#include "import/crs_operation_gdal.hpp"
-#include "import/crs_place_gdal.hpp"
 #include "import/feature_tables_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/data_files_gdal.hpp"
@@ -81,28 +78,13 @@ VectorShapes shapes_of_file(InputLog& log, const Site& site, const SitePlace& pl
 
 // --- points of the site file -------------------------------------------------------------------
 
-// Map coordinates of the site file, in the CRS of the terrain.
-void bring_to_ground(InputLog& log, const Site& site, const Trn& ground, const std::string& key,
-                     std::vector<Vec3>& points) {
-  const std::string said =
-      site.info.crs.empty() ? std::string() : crs_from_user(site.info.crs, "site.crs");
-  const std::string crs = said.empty() ? ground.crs_wkt : said;
-  const Where where = where_of(site, key);
-  CrsExtent place{crs, window_of(points, crs), ground.crs_wkt};
-  place.crs_said_in = said.empty() ? "the terrain" : "crs of [site]";
-  for (const std::string& warning : check_place(place, where)) log.warn(warning);
-  if (same_crs(crs, ground.crs_wkt)) return;
-  const CrsOperation operation = find_operation(crs, ground.crs_wkt, place.extent, where);
-  if (!carry_out(operation, points))
-    throw InputError(
-        where, "cannot be reprojected from " + crs_name(crs) + " to " + crs_name(ground.crs_wkt),
-        "check crs of [site]: it is that of the coordinates in the site file");
-  Sha256 hash;
-  for (const Vec3& point : points) hash.add(point.data(), sizeof point);
-  log.content_read(key, hash.hex());
-  log.info(key + ": " + sentence_on(operation));
-  log.record(key + ": " + sentence_on(operation));
-  if (const std::string doubt = doubt_on(operation); !doubt.empty()) log.warn(key + ": " + doubt);
+RequestedLayer written(const Site& site, const SitePlace& place) {
+  const std::string& crs = site.info.crs;
+  RequestedLayer layer{role_of(place.kind), {}, {}, place.layer, place.section};
+  layer.points = place.points;
+  layer.crs = crs.empty() ? crs : crs_from_user(crs, "site.crs");
+  layer.where = where_of(site, place.section + "." + place.points_key);
+  return layer;
 }
 
 }  // namespace
@@ -173,8 +155,10 @@ std::vector<RequestedLayer> layers_of(const Site& site) {
   for (const ObjectSettings& object : site.objects) places.push_back(place_of(site, object));
   for (const PlaceSettings& place : site.places) places.push_back(place_of(place));
   std::vector<RequestedLayer> layers;
-  for (const SitePlace& place : places)
+  for (const SitePlace& place : places) {
+    if (!place.points.empty()) layers.push_back(written(site, place));
     if (!place.file.empty()) layers.push_back(requested(site, place));
+  }
   return layers;
 }
 
@@ -204,7 +188,7 @@ VectorShapes local_shapes(InputLog& log, const Site& site, const Trn& ground,
     for (Vec3& point : shape) point -= ground.origin;
   if (place.points.empty()) return found;
   const std::vector<Vec3> points =
-      local_points(log, site, ground, place.points, place.section + "." + place.points_key);
+      local_points(log, site, ground, place.points, place.section, place.points_key);
   if (place.kind != VectorKind::points) {
     found.shapes.insert(found.shapes.begin(), points);
     return found;
@@ -226,8 +210,24 @@ std::vector<std::vector<Vec2>> shapes_in_plan(InputLog& log, const Site& site, c
 }
 
 std::vector<Vec3> local_points(InputLog& log, const Site& site, const Trn& ground,
-                               std::vector<Vec3> points, const std::string& key) {
-  if (!points.empty() && !ground.crs_wkt.empty()) bring_to_ground(log, site, ground, key, points);
+                               std::vector<Vec3> points, const std::string& section,
+                               const std::string& key) {
+  if (!points.empty() && !ground.crs_wkt.empty()) {
+    InputsRequest request;
+    request.layers = {written(site, {section, "", VectorKind::lines, "", std::move(points), key})};
+    request.has_frame = true;
+    request.frame = ground.crs_wkt;
+    ImportReading reading;
+    VectorShapes found = std::move(import_inputs(request, reading).shapes.front());
+    for (const std::string& warning : reading.warnings) log.warn(warning);
+    if (!found.operation.empty()) {
+      const std::string name = section + "." + key;
+      log.content_read(name, digest_of(found));
+      log.info(name + ": " + found.operation);
+      log.record(name + ": " + found.operation);
+    }
+    points = std::move(found.shapes.front());
+  }
   for (Vec3& p : points) p -= ground.origin;
   return points;
 }

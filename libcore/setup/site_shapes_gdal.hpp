@@ -41,7 +41,8 @@ struct SitePlace {
 /// without a radius.
 [[nodiscard]] SitePlace place_of(const Site& site, const ObjectSettings& object);
 
-/// All layers that the site names, to be read together: what talus-import is asked for.
+/// All that stands on the ground of the site, in files and in the site file itself, to be read
+/// together: what talus-import is asked for.
 [[nodiscard]] std::vector<RequestedLayer> layers_of(const Site& site);
 
 /// A raster that the site names.
@@ -63,8 +64,9 @@ struct SiteRaster {
                                                             const SitePlace& place);
 
 /// Points of the site file (map coordinates in the CRS of [site]) as local ones; z NaN stays NaN.
-/// `key` is where they stand. Throws InputError when they cannot be reprojected.
+/// `key` of `section` is where they stand. Throws InputError as read_vectors().
 [[nodiscard]] std::vector<Vec3> local_points(InputLog& log, const Site& site, const Trn& ground,
-                                             std::vector<Vec3> points, const std::string& key);
+                                             std::vector<Vec3> points, const std::string& section,
+                                             const std::string& key);
 
 }  // namespace talus

@@ -173,7 +173,7 @@ void find_mass(InputLog& log, BlocksWork& work) {
   } else if (options.kind == FailureSurface::plane) {
     const auto& p = work.site.source.plane_point_m;
     options.plane_point = local_points(log, work.site, work.ground, {Vec3(p[0], p[1], p[2])},
-                                       "source.plane_point_m")[0];
+                                       "source", "plane_point_m")[0];
     work.at_foot =
         plane_at_foot(work.ground, work.area, {options.plane_dip, options.plane_dip_direction},
                       options.plane_point);

@@ -8,30 +8,6 @@
 #include "io/data_files_gdal.hpp"
 
 namespace talus {
-namespace {
-
-std::string sentence_on(const VectorShapes& found) {
-  std::string words = sentence_on(static_cast<const LayerReading&>(found));
-  if (!found.polygon.empty()) words += " of " + grouped_text(found.area_m2, 4) + " m2 in all";
-  if (found.n_united > 0)
-    words += "; " + std::to_string(found.n_united) + " that overlap or touch were united to " +
-             std::to_string(found.n_made);
-  if (!found.operation.empty()) words += "; " + found.operation;
-  return words;
-}
-
-LayerRead facts_on(const VectorShapes& found) {
-  LayerRead layer = facts_on(found, found.role);
-  if (!found.polygon.empty()) {
-    layer.facts.emplace_back("n_united", std::int64_t{found.n_united});
-    layer.facts.emplace_back("n_made_of_them", std::int64_t{found.n_made});
-    layer.facts.emplace_back("area_m2", found.area_m2);
-  }
-  if (!found.operation.empty()) layer.facts.emplace_back("operation", found.operation);
-  return layer;
-}
-
-}  // namespace
 
 void read_members(InputLog& log, const std::string& role, const std::string& path) {
   const std::string file = file_of(path);
@@ -50,7 +26,12 @@ void read_data(InputLog& log, const std::string& role, const std::string& path) 
 std::string sentence_on(const LayerReading& taken) {
   std::string words = taken.file + ": layer " + taken.layer;
   if (!taken.where.empty()) words += " where " + taken.where;
-  return words + ", " + counted(taken.n_parts, taken.noun);
+  words += ", " + counted(taken.n_parts, taken.noun);
+  if (taken.area_m2 > 0) words += " of " + grouped_text(taken.area_m2, 4) + " m2 in all";
+  if (taken.n_united > 0)
+    words += "; " + std::to_string(taken.n_united) + " that overlap or touch were united to " +
+             std::to_string(taken.n_made);
+  return words + (taken.operation.empty() ? "" : "; ") + taken.operation;
 }
 
 LayerRead facts_on(const LayerReading& taken, const std::string& role) {
@@ -61,6 +42,12 @@ LayerRead facts_on(const LayerReading& taken, const std::string& role) {
     layer.facts.emplace_back("elevation_from", taken.elevation_from);
     layer.facts.emplace_back("elevation_unit_m", taken.unit_m);
   }
+  if (taken.area_m2 > 0) {
+    layer.facts.emplace_back("n_united", std::int64_t{taken.n_united});
+    layer.facts.emplace_back("n_made_of_them", std::int64_t{taken.n_made});
+    layer.facts.emplace_back("area_m2", taken.area_m2);
+  }
+  if (!taken.operation.empty()) layer.facts.emplace_back("operation", taken.operation);
   layer.facts.emplace_back("n_passed_over", std::int64_t{taken.n_passed_over});
   if (!taken.passed_over.empty()) layer.facts.emplace_back("passed_over", taken.passed_over);
   if (!taken.remarks.empty()) layer.facts.emplace_back("remarks", taken.remarks);
@@ -88,7 +75,7 @@ VectorShapes read_layer(InputLog& log, const std::string& role, const VectorQuer
   found.role = role;
   say_shapes(log, found);
   for (const std::string& warning : found.warnings) log.warn(warning);
-  log.layer_read(facts_on(found));
+  log.layer_read(facts_on(found, role));
   return found;
 }
 

@@ -16,7 +16,16 @@ struct Stage {
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> list = {
       {"import",
-       {"terrain.contours",
+       {"site.crs",
+        "source.polygon",
+        "ground.polygon",
+        "fence.line",
+        "forest.polygon",
+        "object.polygon",
+        "object.line",
+        "object.position_m",
+        "place.polygon",
+        "terrain.contours",
         "terrain.elevation_field",
         "terrain.breaklines",
         "terrain.spots",

@@ -180,7 +180,7 @@ std::vector<Vec3> each_place_once(const PlacedContext& context, const PlacedSett
 std::vector<Vec3> positions_of(const PlacedContext& context, const PlacedSettings& section) {
   std::vector<Vec3> positions =
       local_points(context.tool, context.site, context.ground, section.position_m,
-                   "blocks." + section.name + ".position_m");
+                   "blocks." + section.name, "position_m");
   if (!section.release_file.empty())
     for (const Vec3& p : release_from_file(context, section)) positions.push_back(p);
   if (section.release_grid) {

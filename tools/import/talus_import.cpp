@@ -78,9 +78,10 @@ InputsRequest whole_request(Tool& tool, const Site& site, Options& o) {
     throw InputError({site.file}, "[terrain] names neither contours nor dem",
                      "name what the ground is made from, or give --contours or --dem");
   }
+  request.is_measured = true;
   for (RequestedLayer& layer : request.layers) layer.digest = digest_of_data(layer.ref.path);
   for (const RequestedLayer& layer : layers_of(site)) {
-    read_data(tool, layer.section, layer.ref.path);
+    if (!layer.file.empty()) read_data(tool, layer.section, layer.ref.path);
     request.layers.push_back(layer);
   }
   return request;
@@ -131,7 +132,6 @@ void run_tool(Tool& tool, const Site& site, Options& o) {
   const Imported inputs = import_inputs(request, reading);
   say_reading(tool, reading);
   for (const VectorShapes& shapes : inputs.shapes) say_shapes(tool, shapes);
-  measure(inputs, reading);
   reading.layers.insert(reading.layers.end(), rasters.begin(), rasters.end());
   write_canonical(tool.stage(o.out), request, inputs, reading);
   Json report = {{"tool", "talus-import"},

@@ -104,6 +104,12 @@ ogrinfo -q contours.gpkg -sql "DELETE FROM contours WHERE fid = 1" >/dev/null
 expect 1 talus-tin inputs.gpkg -o bad.ply
 says "inputs.gpkg: is older than contours.gpkg"
 
+# what is written in the site file stands beside what is in files
+expect 0 talus-import site.toml -o written.gpkg --set source.polygon_file= --set \
+  'source.polygon=[[500096,5200248],[500144,5200248],[500144,5200296],[500096,5200296]]'
+says "site.toml: layer source, 1 polygon of 2304 m2 in all"
+prints "source: 1 polygon"
+
 # an elevation model stays where it is; its system is that of the site
 gdal_translate -q -a_srs EPSG:32633 -a_ullr 499996 5200324 500228 5199996 "$source_dir/sample_sites/designed/slope.asc" dem.tif
 sed -i -e 's/^contours = .*/dem = "dem.tif"/' -e '/^elevation_field/d' site.toml

@@ -22,8 +22,8 @@ struct Canonical : ImportTest {
              {{"Polygon", "[[[649990,5199990],[650110,5199990],[650110,5200060],[649990,5199990]]]",
                ""}}));
     const std::string path = (folder / "inputs.gpkg").string();
+    request.is_measured = true;
     inputs = import_inputs(request, reading);
-    measure(inputs, reading);
     write_canonical(path, request, inputs, reading);
     return path;
   }

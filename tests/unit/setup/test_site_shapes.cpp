@@ -14,14 +14,14 @@ struct SiteShapes : testing::Test {
 };
 
 TEST_F(SiteShapes, PointsOfTheSiteFileBecomeLocal) {
-  const auto points = local_points(log, site_of(folder), trn, {Vec3(500012, 5000034, 7)}, "a.b");
+  const auto points = local_points(log, site_of(folder), trn, {Vec3(500012, 5000034, 7)}, "a", "b");
   EXPECT_EQ(points[0], Vec3(12, 34, 7));
   EXPECT_TRUE(log.contents.empty());
 }
 
 TEST_F(SiteShapes, PointsInAnotherCrsAreReprojectedAndCount) {
   const Site site = site_of(folder, "[site]\ncrs = 'EPSG:25832'\n");
-  const auto points = local_points(log, site, trn, {Vec3(500012, 5000034, 7)}, "a.b");
+  const auto points = local_points(log, site, trn, {Vec3(500012, 5000034, 7)}, "a", "b");
   EXPECT_NEAR((points[0] - Vec3(12, 34, 7)).norm(), 0, 2);
   EXPECT_FALSE(log.digest_of("a.b").empty());
   EXPECT_TRUE(log.has(Severity::record, "a.b: "));
@@ -30,9 +30,30 @@ TEST_F(SiteShapes, PointsInAnotherCrsAreReprojectedAndCount) {
 TEST_F(SiteShapes, ExchangedCoordinatesAreRefused) {
   EXPECT_HOLDS(refusal_of([&] {
                  static_cast<void>(
-                     local_points(log, site_of(folder), trn, {Vec3(5000034, 500012, 0)}, "a.b"));
+                     local_points(log, site_of(folder), trn, {Vec3(5000034, 500012, 0)}, "a", "b"));
                }),
                "with x and y exchanged they would lie in it");
+}
+
+TEST_F(SiteShapes, PointsOfTheSiteFileAreLayersAsThoseOfFiles) {
+  const Site site = site_of(folder,
+                            "[site]\ncrs = 'EPSG:25832'\n"
+                            "[source]\npolygon = [[500010, 5000010], [500030, 5000010], "
+                            "[500030, 5000030]]\n[fence.low]\nline = [[500060, 5000010], "
+                            "[500060, 5000090]]\n");
+  InputsRequest request;
+  request.layers = layers_of(site);
+  request.has_frame = true;
+  request.frame = trn.crs_wkt;
+  ImportReading reading;
+  const Imported inputs = import_inputs(request, reading);
+  ASSERT_EQ(inputs.shapes.size(), 2u);
+  EXPECT_EQ(inputs.shapes[0].role, "source");
+  EXPECT_NEAR(inputs.shapes[0].area_m2, 200, 0.1);
+  EXPECT_EQ(inputs.shapes[1].role, "fence.low");
+  const auto local = local_shapes(log, site, trn, place_of(site.fences[0])).shapes[0];
+  for (std::size_t i = 0; i < local.size(); ++i)
+    EXPECT_EQ(local[i].head<2>(), (inputs.shapes[1].shapes[0][i] - trn.origin).head<2>());
 }
 
 // Two fences and a stand of the same site, as talus-import writes them.
