@@ -1,5 +1,6 @@
 #include "import/crs_place_gdal.hpp"
 
+#include <geodesic.h>
 #include <ogr_spatialref.h>
 
 #include <Eigen/LU>
@@ -81,10 +82,9 @@ class Ground {
     base->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     unit_deg_ = base->GetAngularUnits() / degree;
     meridian_deg_ = base->GetPrimeMeridian();
-    major_m_ = base->GetSemiMajor();
     const double flattening_inverse = base->GetInvFlattening();
-    const double flattening = flattening_inverse > 0 ? 1 / flattening_inverse : 0;
-    squared_eccentricity_ = flattening * (2 - flattening);
+    geod_init(&ellipsoid_, base->GetSemiMajor(),
+              flattening_inverse > 0 ? 1 / flattening_inverse : 0);
     down_.reset(OGRCreateCoordinateTransformation(&srs_, base.get()));
     if (down_) up_.reset(down_->GetInverse());
   }
@@ -134,12 +134,11 @@ class Ground {
     return Vec2(x, y);
   }
 
-  // Metres on the ground to the east and to the north in one degree of each.
-  [[nodiscard]] Vec2 metres_in_degree(double latitude) const {
-    const double s = std::sin(latitude * degree), w = 1 - squared_eccentricity_ * s * s;
-    const double across = major_m_ / std::sqrt(w);
-    const double along = major_m_ * (1 - squared_eccentricity_) / (w * std::sqrt(w));
-    return {across * std::cos(latitude * degree) * degree, along * degree};
+  // Metres on the ground between two longitudes and latitudes.
+  [[nodiscard]] double distance(const Vec2& a, const Vec2& b) const {
+    double metres = 0;
+    geod_inverse(&ellipsoid_, a.y(), a.x(), b.y(), b.x(), &metres, nullptr, nullptr);
+    return metres;
   }
 
  private:
@@ -147,7 +146,8 @@ class Ground {
   std::string wkt_;
   Transformation down_, up_;
   std::optional<Area> area_;
-  double unit_deg_ = 1, meridian_deg_ = 0, major_m_ = 6378137, squared_eccentricity_ = 0;
+  double unit_deg_ = 1, meridian_deg_ = 0;
+  geod_geodesic ellipsoid_{};
 };
 
 // How the axes of a map run on the ground.
@@ -159,14 +159,14 @@ struct Axes {
 std::optional<Axes> axes_at(const Ground& ground, const Vec2& lon_lat) {
   constexpr double step_deg = 1e-4;
   const double sign = lon_lat.y() > 0 ? -1 : 1;  // never beyond a pole
-  const auto here = ground.map_place(lon_lat);
-  const auto east = ground.map_place({lon_lat.x() + step_deg, lon_lat.y()});
-  const auto north = ground.map_place({lon_lat.x(), lon_lat.y() + sign * step_deg});
+  const Vec2 to_east(lon_lat.x() + step_deg, lon_lat.y());
+  const Vec2 to_north(lon_lat.x(), lon_lat.y() + sign * step_deg);
+  const auto here = ground.map_place(lon_lat), east = ground.map_place(to_east),
+             north = ground.map_place(to_north);
   if (!here || !east || !north) return std::nullopt;
-  const Vec2 metres = ground.metres_in_degree(lon_lat.y()) * step_deg;
   Mat2 map_of_ground;
-  map_of_ground.col(0) = (*east - *here) / metres.x();
-  map_of_ground.col(1) = (*north - *here) / (sign * metres.y());
+  map_of_ground.col(0) = (*east - *here) / ground.distance(lon_lat, to_east);
+  map_of_ground.col(1) = (*north - *here) / (sign * ground.distance(lon_lat, to_north));
   if (!(std::abs(map_of_ground.determinant()) > 1e-6)) return std::nullopt;
   const Mat2 ground_of_map = map_of_ground.inverse();
   const auto bearing = [](const Vec2& v) { return std::atan2(v.x(), v.y()) / degree; };

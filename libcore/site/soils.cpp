@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "site/number_key.hpp"
 
 namespace talus {
 namespace {
@@ -67,41 +68,36 @@ struct GroundCheck {
   const Site& site;
   const GroundSettings& ground;
 
-  [[nodiscard]] bool is_given(double GroundSettings::*key) const {
-    return !std::isnan(ground.*key);
+  [[nodiscard]] bool is_given(const char* key) const {
+    return !std::isnan(number_key(site, key_of(ground, key))->value);
   }
   [[noreturn]] void refuse(const char* key, const std::string& finding,
                            const std::string& hint) const {
     throw InputError(where_of(site, key_of(ground, key)), "[ground." + ground.name + "] " + finding,
                      hint);
   }
-  void exclude(const char* a, double GroundSettings::*of_a, const char* b,
-               double GroundSettings::*of_b, const char* hint) const {
-    if (is_given(of_a) && is_given(of_b))
+  void exclude(const char* a, const char* b, const char* hint) const {
+    if (is_given(a) && is_given(b))
       refuse(b, std::string("has ") + a + " and " + b + ", which exclude each other", hint);
   }
-  void need(const char* a, double GroundSettings::*of_a, const char* b,
-            double GroundSettings::*of_b) const {
-    if (is_given(of_a) && !is_given(of_b))
+  void need(const char* a, const char* b) const {
+    if (is_given(a) && !is_given(b))
       refuse(a, std::string("has ") + a + " without " + b, std::string("give ") + b + " too");
   }
 
   void check() const {
-    using G = GroundSettings;
-    exclude("cor_half_speed_m_s", &G::cor_half_speed_m_s, "cor_half_energy_kj",
-            &G::cor_half_energy_kj, "one says how COR falls: by speed, or by energy");
-    exclude("rolling_resistance", &G::rolling_resistance, "bearing_kpa", &G::bearing_kpa,
+    exclude("cor_half_speed_m_s", "cor_half_energy_kj",
+            "one says how COR falls: by speed, or by energy");
+    exclude("rolling_resistance", "bearing_kpa",
             "bearing_kpa gives the rolling resistance by the size of the block");
-    exclude("scar_friction", &G::scar_friction, "friction_weak_deg", &G::friction_weak_deg,
+    exclude("scar_friction", "friction_weak_deg",
             "friction follows the slid distance, or the speed");
-    need("scar_friction", &G::scar_friction, "scar_rate_1_m", &G::scar_rate_1_m);
-    need("scar_friction", &G::scar_friction, "scar_decay_1_s", &G::scar_decay_1_s);
-    need("scar_rate_1_m", &G::scar_rate_1_m, "scar_friction", &G::scar_friction);
-    need("scar_decay_1_s", &G::scar_decay_1_s, "scar_friction", &G::scar_friction);
-    need("friction_weak_deg", &G::friction_weak_deg, "weakening_speed_m_s",
-         &G::weakening_speed_m_s);
-    need("weakening_speed_m_s", &G::weakening_speed_m_s, "friction_weak_deg",
-         &G::friction_weak_deg);
+    need("scar_friction", "scar_rate_1_m");
+    need("scar_friction", "scar_decay_1_s");
+    need("scar_rate_1_m", "scar_friction");
+    need("scar_decay_1_s", "scar_friction");
+    need("friction_weak_deg", "weakening_speed_m_s");
+    need("weakening_speed_m_s", "friction_weak_deg");
     const double friction = std::tan(ground.friction_deg * degree);
     if (ground.scar_friction < friction)
       refuse("scar_friction",
