@@ -230,58 +230,47 @@ std::unique_ptr<Candidate> best_in_space(const std::string& from, const std::str
 
 }  // namespace
 
-struct HeightOperation::Impl {
-  std::vector<Transformation> steps;
-  std::string sentence, plan;
-  Where where;
-
-  void add(const std::string& from, const std::string& to, const Candidate& operation) {
-    steps.push_back(transformation_by(from, to, operation.text));
-    if (!steps.back()) throw InputError(where, "PROJ cannot carry out \"" + operation.name + "\"");
-  }
-};
-
-HeightOperation::HeightOperation(const std::string& plan_wkt, const std::string& from,
-                                 const std::string& to, const MapWindow& window, const Where& where)
-    : impl_(std::make_unique<Impl>()) {
-  const GdalErrors errors;
-  impl_->where = where;
-  impl_->plan = horizontal_crs(plan_wkt);
-  const DegreeWindow area = degrees_of(impl_->plan, window);
-  const std::string source = in_space(impl_->plan, from, where);
-  const std::string target = in_space(impl_->plan, to, where);
-  const std::string what = "taking heights from " + heights_name(from) + " to " + heights_name(to);
-  impl_->sentence = "heights taken from " + heights_name(from) + " to " + heights_name(to);
-  if (const auto direct = best_in_space(source, target, area, what, where)) {
-    impl_->add(source, target, *direct);
-    impl_->sentence += " by \"" + direct->name + "\", " + accuracy_text(direct->accuracy_m);
-    return;
-  }
-  const std::string between = in_space(impl_->plan, ellipsoidal_heights, where);
-  const auto first = best_in_space(source, between, area, what, where);
-  const auto second = best_in_space(between, target, area, what, where);
-  if (!first || !second)
-    throw InputError(where, what + ": PROJ knows no operation for that here",
-                     "bring the heights to " + heights_name(to) +
-                         " with the software of the agency that publishes its model");
-  impl_->add(source, between, *first);
-  impl_->add(between, target, *second);
-  impl_->sentence += " by \"" + first->name + "\" and \"" + second->name + "\"";
+void HeightOperation::add(const std::string& from, const std::string& to, const std::string& name,
+                          const std::string& operation) {
+  steps_.push_back(transformation_by(from, to, operation));
+  if (!steps_.back()) throw InputError(where_, "PROJ cannot carry out \"" + name + "\"");
 }
 
-HeightOperation::~HeightOperation() = default;
-
-const std::string& HeightOperation::sentence() const { return impl_->sentence; }
+HeightOperation::HeightOperation(const std::string& plan_wkt, const std::string& from,
+                                 const std::string& to, const MapWindow& window, Where where)
+    : where_(std::move(where)) {
+  const GdalErrors errors;
+  const std::string plan = horizontal_crs(plan_wkt);
+  const DegreeWindow area = degrees_of(plan, window);
+  const std::string source = in_space(plan, from, where_), target = in_space(plan, to, where_);
+  const std::string what = "taking heights from " + heights_name(from) + " to " + heights_name(to);
+  sentence_ = "heights taken from " + heights_name(from) + " to " + heights_name(to);
+  if (const auto direct = best_in_space(source, target, area, what, where_)) {
+    add(source, target, direct->name, direct->text);
+    sentence_ += " by \"" + direct->name + "\", " + accuracy_text(direct->accuracy_m);
+    return;
+  }
+  const std::string ellipsoid = in_space(plan, ellipsoidal_heights, where_);
+  const auto first = best_in_space(source, ellipsoid, area, what, where_);
+  const auto second = best_in_space(ellipsoid, target, area, what, where_);
+  if (!first || !second)
+    throw InputError(where_, what + ": PROJ knows no operation for that here",
+                     "bring the heights to " + heights_name(to) +
+                         " with the software of the agency that publishes its model");
+  add(source, ellipsoid, first->name, first->text);
+  add(ellipsoid, target, second->name, second->text);
+  sentence_ += " by \"" + first->name + "\" and \"" + second->name + "\"";
+}
 
 void HeightOperation::apply(std::size_t n, const double* x, const double* y, double* z) const {
   const GdalErrors errors;
   for (std::size_t i = 0; i < n; ++i) {
     if (std::isnan(z[i])) continue;
     double east = x[i], north = y[i], height = z[i];
-    for (const Transformation& step : impl_->steps)
+    for (const auto& step : steps_)
       if (!step->Transform(1, &east, &north, &height)) height = HUGE_VAL;
     if (!std::isfinite(height))
-      throw InputError(impl_->where,
+      throw InputError(where_,
                        "the height at x " + text(x[i], 10) + ", y " + text(y[i], 10) +
                            " cannot be taken to the other system: its grid does not reach there",
                        "cut the map there first");

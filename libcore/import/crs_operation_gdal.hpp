@@ -15,6 +15,8 @@
 #include "base/types.hpp"
 #include "terrain/grid_frame.hpp"
 
+class OGRCoordinateTransformation;
+
 namespace talus {
 
 /// How coordinates are taken from one system to another.
@@ -52,20 +54,21 @@ class HeightOperation {
   /// operation that PROJ knows: throws InputError at `where` when its grid is missing or there is
   /// none, so that heights are the same on every machine.
   HeightOperation(const std::string& plan_wkt, const std::string& from, const std::string& to,
-                  const MapWindow& window, const Where& where);
-  ~HeightOperation();
-  HeightOperation(const HeightOperation&) = delete;
-  HeightOperation& operator=(const HeightOperation&) = delete;
+                  const MapWindow& window, Where where);
 
   /// New heights of n places; NaN stays NaN. Throws InputError with the place where the grid ends.
   void apply(std::size_t n, const double* x, const double* y, double* z) const;
   void apply(std::vector<Vec3>& points) const;
   /// "heights taken from A to B by "WGS 84 to EGM96 height (1)", good to 1 m".
-  [[nodiscard]] const std::string& sentence() const;
+  [[nodiscard]] const std::string& sentence() const { return sentence_; }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void add(const std::string& from, const std::string& to, const std::string& name,
+           const std::string& operation);
+
+  std::vector<std::shared_ptr<OGRCoordinateTransformation>> steps_;
+  std::string sentence_;
+  Where where_;
 };
 
 /// Stands for heights above the ellipsoid of the system in plan.

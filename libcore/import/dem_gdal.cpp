@@ -205,138 +205,103 @@ void check_crs(const std::string& crs, const std::string& path, const MapWindow&
 
 }  // namespace
 
-struct DemFile::Impl {
-  std::string path, crs;
-  std::string name;  // that GDAL opens: the path, or a virtual raster
-  double nodata = std::numeric_limits<double>::quiet_NaN();  // beside a mask, which GDAL prefers
-  GridFrame frame;
-  DemReading reading;
-  std::unique_ptr<HeightOperation> to_vertical;
-  Dataset source, ringed, warped;  // warped reads from ringed and is closed first
-  GDALRasterBand* band = nullptr;
-  double scale = 1, offset = 0;
-  bool has_heights = true;
-  mutable std::optional<bool> accepts_doubts;  // asked once: it may take a look at all heights
-
-  [[nodiscard]] Where where(std::size_t index, int row, int col, int n_cols) const {
-    const int r = row + static_cast<int>(index / static_cast<std::size_t>(n_cols));
-    const int c = col + static_cast<int>(index % static_cast<std::size_t>(n_cols));
-    return {path, 0,
-            "row " + std::to_string(r) + ", column " + std::to_string(c) + " (" +
-                text(frame.x(c), 10) + ", " + text(frame.y(r), 10) + ")"};
-  }
-  void open();
-  void check_value(double raw, const Where& place) const;
-  void check_most_values(const double* raw, std::size_t n) const;
-  void check_place_of(const MapWindow& edges, const std::string& work_crs, bool has_options);
-  void take_to(const std::string& target, bool accept_ballpark, const MapWindow& edges);
-  void take_heights_to(const DemOptions& options);
-  void shift_heights(int row, int n_rows, int col, int n_cols, double* elevation) const;
-};
-
 DemFile::DemFile(const std::string& path, const DemOptions& options)
-    : impl_(std::make_unique<Impl>()) {
-  impl_->path = path;
-  impl_->has_heights = options.has_heights;
-  impl_->open();
-  GDALDataset* dataset = impl_->source.get();
-  if (options.accepts_doubts || !options.has_heights) impl_->accepts_doubts = true;
-  DemReading& reading = impl_->reading;
+    : path_(path), has_heights_(options.has_heights) {
+  open();
+  GDALDataset* dataset = source_.get();
+  if (options.accepts_doubts || !options.has_heights) accepts_doubts_ = true;
   const MapWindow edges = edges_of(*dataset);
-  impl_->crs = with_heights_said(
+  crs_ = with_heights_said(
       crs_said({path, wkt_of(dataset->GetSpatialRef()), edges, options.crs_may_be_missing}, options,
-               reading.notes),
+               reading_.notes),
       options, path);
   if (!options.t_srs.empty()) {
-    check_unit_of_heights(*dataset, impl_->crs, path, options);
-    if (impl_->crs.empty())
+    check_unit_of_heights(*dataset, crs_, path, options);
+    if (crs_.empty())
       throw InputError({path}, "there is no CRS to reproject from", "name it with --crs EPSG:code");
-    impl_->take_to(options.t_srs, options.accept_ballpark, edges);
-    if (impl_->warped) dataset = impl_->warped.get();
+    take_to(options.t_srs, options.accept_ballpark, edges);
+    if (warped_) dataset = warped_.get();
   }
-  check_crs(impl_->crs, path, edges_of(*dataset), !options.crs_may_be_missing);
-  impl_->frame = frame_of_raster(*dataset, path);
-  if (!impl_->warped) {
+  check_crs(crs_, path, edges_of(*dataset), !options.crs_may_be_missing);
+  frame_ = frame_of_raster(*dataset, path);
+  if (!warped_) {
     const MapWindow read = intersection(edges, options.window);
     const bool is_beside = read.x_min > read.x_max || read.y_min > read.y_max;
-    impl_->check_place_of(is_beside ? edges : read, impl_->crs, !options.crs_may_be_missing);
+    check_place_of(is_beside ? edges : read, crs_, !options.crs_may_be_missing);
   }
-  impl_->take_heights_to(options);
-  impl_->band = dataset->GetRasterBand(1);
-  impl_->scale = impl_->source->GetRasterBand(1)->GetScale();
-  impl_->offset = impl_->source->GetRasterBand(1)->GetOffset();
+  take_heights_to(options);
+  band_ = dataset->GetRasterBand(1);
+  scale_ = source_->GetRasterBand(1)->GetScale();
+  offset_ = source_->GetRasterBand(1)->GetOffset();
 }
 
 // An alpha band becomes the mask of the elevations.
-void DemFile::Impl::open() {
-  source = open_raster(path);
-  name = source->GetDescription();
-  check_band(*source, path, has_heights);
-  check_placed(*source, path, has_heights ? CellKind::heights : CellKind::values);
-  const std::string masked = with_alpha_as_mask(*source);
+void DemFile::open() {
+  source_ = open_raster(path_);
+  name_ = source_->GetDescription();
+  check_band(*source_, path_, has_heights_);
+  check_placed(*source_, path_, has_heights_ ? CellKind::heights : CellKind::values);
+  const std::string masked = with_alpha_as_mask(*source_);
   if (masked.empty()) return;
   int has_nodata = 0;
-  const double value = source->GetRasterBand(1)->GetNoDataValue(&has_nodata);
-  if (has_nodata != 0) nodata = value;
-  name = masked;
+  const double value = source_->GetRasterBand(1)->GetNoDataValue(&has_nodata);
+  if (has_nodata != 0) nodata_ = value;
+  name_ = masked;
   const GdalErrors errors;
-  source.reset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
-  if (!source) throw InputError({path}, "its alpha band cannot be read: " + errors.failure());
+  source_.reset(GDALDataset::Open(name_.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+  if (!source_) throw InputError({path_}, "its alpha band cannot be read: " + errors.failure());
 }
 
-void DemFile::Impl::check_place_of(const MapWindow& edges, const std::string& work_crs,
-                                   bool has_options) {
-  if (crs.empty() || !is_finite(edges)) return;
-  CrsExtent place{crs, edges, work_crs};
+void DemFile::check_place_of(const MapWindow& edges, const std::string& work_crs,
+                             bool has_options) {
+  if (crs_.empty() || !is_finite(edges)) return;
+  CrsExtent place{crs_, edges, work_crs};
   place.has_crs_option = has_options;
   place.is_raster = true;
-  for (std::string& warning : check_place(place, {path}))
-    reading.warnings.push_back(std::move(warning));
+  for (std::string& warning : check_place(place, {path_}))
+    reading_.warnings.push_back(std::move(warning));
 }
 
 // Reprojects in plan, unless it is there already.
-void DemFile::Impl::take_to(const std::string& target, bool accept_ballpark,
-                            const MapWindow& edges) {
-  const std::string wanted = with_heights_of(crs, target, {path});
-  if (same_crs(crs, target)) return;
+void DemFile::take_to(const std::string& target, bool accept_ballpark, const MapWindow& edges) {
+  const std::string wanted = with_heights_of(crs_, target, {path_});
+  if (same_crs(crs_, target)) return;
   check_place_of(edges, target, true);
-  const CrsOperation operation =
-      plan_operation(crs, target, edges, {path}, accept_ballpark, reading.notes, reading.warnings);
-  ringed = with_unknown_ring(*source, name);
-  if (!ringed) throw InputError({path}, "cannot be reprojected");
-  warped = reprojected(*source, *ringed, path, operation);
-  crs = wanted;
+  const CrsOperation operation = plan_operation(crs_, target, edges, {path_}, accept_ballpark,
+                                                reading_.notes, reading_.warnings);
+  ringed_ = with_unknown_ring(*source_, name_);
+  if (!ringed_) throw InputError({path_}, "cannot be reprojected");
+  warped_ = reprojected(*source_, *ringed_, path_, operation);
+  crs_ = wanted;
 }
 
-void DemFile::Impl::take_heights_to(const DemOptions& options) {
-  to_vertical = height_operation(crs, options, extent(frame), path);
-  if (!to_vertical) return;
-  reading.notes.push_back(path + ": " + to_vertical->sentence());
-  crs = with_heights(horizontal_crs(crs), options.t_vertical, {path});
+void DemFile::take_heights_to(const DemOptions& options) {
+  to_vertical_ = height_operation(crs_, options, extent(frame_), path_);
+  if (!to_vertical_) return;
+  reading_.notes.push_back(path_ + ": " + to_vertical_->sentence());
+  crs_ = with_heights(horizontal_crs(crs_), options.t_vertical, {path_});
 }
 
-DemFile::~DemFile() = default;
-
-const std::string& DemFile::path() const { return impl_->path; }
-const GridFrame& DemFile::frame() const { return impl_->frame; }
-const std::string& DemFile::crs_wkt() const { return impl_->crs; }
-const DemReading& DemFile::reading() const { return impl_->reading; }
 bool DemFile::accepts_doubts() const {
-  if (!impl_->accepts_doubts) impl_->accepts_doubts = were_heights_judged(impl_->path);
-  return *impl_->accepts_doubts;
+  if (!accepts_doubts_) accepts_doubts_ = were_heights_judged(path_);
+  return *accepts_doubts_;
 }
-double DemFile::raw_of(double z) const { return (z - impl_->offset) / impl_->scale; }
-Where DemFile::where_of_cell(int row, int col) const {
-  return impl_->where(0, row, col, impl_->frame.n_cols);
+
+Where DemFile::where(std::size_t index, int row, int col, int n_cols) const {
+  const int r = row + static_cast<int>(index / static_cast<std::size_t>(n_cols));
+  const int c = col + static_cast<int>(index % static_cast<std::size_t>(n_cols));
+  return {path_, 0,
+          "row " + std::to_string(r) + ", column " + std::to_string(c) + " (" +
+              text(frame_.x(c), 10) + ", " + text(frame_.y(r), 10) + ")"};
 }
 
 // Most cells of a strip above every summit: whole numbers of a smaller unit.
-void DemFile::Impl::check_most_values(const double* raw, std::size_t n) const {
+void DemFile::check_most_values(const double* raw, std::size_t n) const {
   std::size_t n_known = 0, n_beyond = 0;
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (std::size_t i = 0; i < n; ++i) {
-    const double z = raw[i] * scale + offset;
-    if (std::isnan(z) || raw[i] == nodata || is_usual_nodata(raw[i])) continue;
+    const double z = raw[i] * scale_ + offset_;
+    if (std::isnan(z) || raw[i] == nodata_ || is_usual_nodata(raw[i])) continue;
     ++n_known;
     if (std::abs(z) > highest_elevation) ++n_beyond;
     low = std::min(low, z), high = std::max(high, z);
@@ -353,73 +318,72 @@ void DemFile::Impl::check_most_values(const double* raw, std::size_t n) const {
     readings += std::string(readings.empty() ? "; as " : ", as ") + unit.name + " they would be " +
                 text(low * unit.metres, 8) + " to " + text(high * unit.metres, 8) + " m";
     ways += (ways.empty() ? "if they are " : "; if they are ") + std::string(unit.name) + ": " +
-            metres_command(unit.metres, crs, path);
+            metres_command(unit.metres, crs_, path_);
     if (unit.metres < 0.3) break;
   }
-  throw InputError({path},
+  throw InputError({path_},
                    "the elevations are " + text(low, 8) + " to " + text(high, 8) +
                        ", expected metres" + readings,
                    ways);
 }
 
-void DemFile::Impl::check_value(double raw, const Where& place) const {
-  const double z = raw * scale + offset;
+void DemFile::check_value(double raw, const Where& place) const {
+  const double z = raw * scale_ + offset_;
   if (std::abs(z) <= highest_elevation && !is_usual_nodata(raw)) return;
   throw InputError(place,
                    "the elevation is " + text(z, 10) +
                        " m, which the file does not declare as "
                        "nodata",
                    "if it stands for nodata: " +
-                       translate_command("-a_nodata " + text(raw), path, "declared.tif"));
+                       translate_command("-a_nodata " + text(raw), path_, "declared.tif"));
 }
 
 void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) const {
   const std::size_t n = static_cast<std::size_t>(n_rows) * static_cast<std::size_t>(n_cols);
   const GdalErrors errors;
   std::vector<unsigned char> mask;
-  const int mask_flags = impl_->band->GetMaskFlags();
+  const int mask_flags = band_->GetMaskFlags();
   // half transparent cells hold values that are mixed with unknown ones
   const unsigned char least_known = (mask_flags & GMF_ALPHA) != 0 ? 255 : 1;
-  CPLErr status = impl_->band->RasterIO(GF_Read, col, row, n_cols, n_rows, elevation, n_cols,
-                                        n_rows, GDT_Float64, 0, 0, nullptr);
+  CPLErr status = band_->RasterIO(GF_Read, col, row, n_cols, n_rows, elevation, n_cols, n_rows,
+                                  GDT_Float64, 0, 0, nullptr);
   if (status == CE_None && mask_flags != GMF_ALL_VALID) {
     mask.resize(n);
-    status = impl_->band->GetMaskBand()->RasterIO(GF_Read, col, row, n_cols, n_rows, mask.data(),
-                                                  n_cols, n_rows, GDT_Byte, 0, 0, nullptr);
+    status = band_->GetMaskBand()->RasterIO(GF_Read, col, row, n_cols, n_rows, mask.data(), n_cols,
+                                            n_rows, GDT_Byte, 0, 0, nullptr);
   }
   if (status != CE_None || errors.failed()) {
     const bool names_other_format = errors.failure().find("not recognized") != std::string::npos;
-    throw InputError(
-        {impl_->path},
-        "reading rows " + std::to_string(row) + " to " + std::to_string(row + n_rows - 1) + " of " +
-            size_text(impl_->frame.n_rows, impl_->frame.n_cols) + " failed: " + errors.failure(),
-        names_other_format
-            ? "make one file of it: " + translate_command("", impl_->path, "one.tif")
-            : way_to_read(impl_->path, "the file is damaged or cut short: fetch it again"));
+    throw InputError({path_},
+                     "reading rows " + std::to_string(row) + " to " +
+                         std::to_string(row + n_rows - 1) + " of " +
+                         size_text(frame_.n_rows, frame_.n_cols) + " failed: " + errors.failure(),
+                     names_other_format
+                         ? "make one file of it: " + translate_command("", path_, "one.tif")
+                         : way_to_read(path_, "the file is damaged or cut short: fetch it again"));
   }
   for (std::size_t i = 0; i < n; ++i) {
     double& z = elevation[i];
-    if (std::isnan(z) || z == impl_->nodata || (!mask.empty() && mask[i] < least_known)) {
+    if (std::isnan(z) || z == nodata_ || (!mask.empty() && mask[i] < least_known)) {
       z = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
-    if (impl_->has_heights && !(std::abs(z) <= highest_elevation)) {
-      if (z > highest_elevation) impl_->check_most_values(elevation + i, n - i);
-      impl_->check_value(z, impl_->where(i, row, col, n_cols));
+    if (has_heights_ && !(std::abs(z) <= highest_elevation)) {
+      if (z > highest_elevation) check_most_values(elevation + i, n - i);
+      check_value(z, where(i, row, col, n_cols));
     }
-    if (impl_->scale != 1 || impl_->offset != 0) z = z * impl_->scale + impl_->offset;
+    if (scale_ != 1 || offset_ != 0) z = z * scale_ + offset_;
   }
-  if (impl_->to_vertical) impl_->shift_heights(row, n_rows, col, n_cols, elevation);
+  if (to_vertical_) shift_heights(row, n_rows, col, n_cols, elevation);
 }
 
-void DemFile::Impl::shift_heights(int row, int n_rows, int col, int n_cols,
-                                  double* elevation) const {
+void DemFile::shift_heights(int row, int n_rows, int col, int n_cols, double* elevation) const {
   const auto n = static_cast<std::size_t>(n_cols);
   std::vector<double> x(n), y(n);
-  for (int c = 0; c < n_cols; ++c) x[c] = frame.x(col + c);
+  for (int c = 0; c < n_cols; ++c) x[c] = frame_.x(col + c);
   for (int r = 0; r < n_rows; ++r) {
-    std::fill(y.begin(), y.end(), frame.y(row + r));
-    to_vertical->apply(n, x.data(), y.data(), elevation + static_cast<std::size_t>(r) * n);
+    std::fill(y.begin(), y.end(), frame_.y(row + r));
+    to_vertical_->apply(n, x.data(), y.data(), elevation + static_cast<std::size_t>(r) * n);
   }
 }
 

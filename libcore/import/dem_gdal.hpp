@@ -9,13 +9,18 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/progress.hpp"
+#include "import/crs_operation_gdal.hpp"
 #include "import/request.hpp"
+#include "io/raster_bands_gdal.hpp"
 #include "terrain/grid_frame.hpp"
+
+class GDALRasterBand;
 
 namespace talus {
 
@@ -45,18 +50,21 @@ class DemFile {
   /// its CRS is not used (check_place), has elevations in another unit, or when the options
   /// contradict it. The hint holds the command that mends it.
   explicit DemFile(const std::string& path, const DemOptions& options = {});
-  ~DemFile();
   DemFile(const DemFile&) = delete;
   DemFile& operator=(const DemFile&) = delete;
 
-  [[nodiscard]] const std::string& path() const;
-  [[nodiscard]] const GridFrame& frame() const;      ///< its cell centres
-  [[nodiscard]] const std::string& crs_wkt() const;  ///< empty for local metres
-  [[nodiscard]] const DemReading& reading() const;
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] const GridFrame& frame() const { return frame_; }    ///< its cell centres
+  [[nodiscard]] const std::string& crs_wkt() const { return crs_; }  ///< empty for local metres
+  [[nodiscard]] const DemReading& reading() const { return reading_; }
   /// By the options, or because the file's heights were judged (judged_heights_gdal.hpp).
   [[nodiscard]] bool accepts_doubts() const;
-  [[nodiscard]] double raw_of(double z) const;  ///< what stands in the file for an elevation
-  [[nodiscard]] Where where_of_cell(int row, int col) const;  ///< with its place on the map
+  /// What stands in the file for an elevation.
+  [[nodiscard]] double raw_of(double z) const { return (z - offset_) / scale_; }
+  /// With its place on the map.
+  [[nodiscard]] Where where_of_cell(int row, int col) const {
+    return where(0, row, col, frame_.n_cols);
+  }
 
   /// Elevations of n_rows x n_cols nodes from (row, col) on, NaN = unknown [m]. Throws InputError
   /// with the place for a file that ends early and for values that are no elevations: infinite,
@@ -64,8 +72,26 @@ class DemFile {
   void read(int row, int n_rows, int col, int n_cols, double* elevation) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  [[nodiscard]] Where where(std::size_t index, int row, int col, int n_cols) const;
+  void open();
+  void check_value(double raw, const Where& place) const;
+  void check_most_values(const double* raw, std::size_t n) const;
+  void check_place_of(const MapWindow& edges, const std::string& work_crs, bool has_options);
+  void take_to(const std::string& target, bool accept_ballpark, const MapWindow& edges);
+  void take_heights_to(const DemOptions& options);
+  void shift_heights(int row, int n_rows, int col, int n_cols, double* elevation) const;
+
+  std::string path_, crs_;
+  std::string name_;              ///< that GDAL opens: the path, or a virtual raster
+  double nodata_ = std::nan("");  ///< beside a mask, which GDAL prefers
+  GridFrame frame_;
+  DemReading reading_;
+  std::unique_ptr<HeightOperation> to_vertical_;
+  Dataset source_, ringed_, warped_;  ///< warped reads from ringed and is closed first
+  GDALRasterBand* band_ = nullptr;
+  double scale_ = 1, offset_ = 0;
+  bool has_heights_ = true;
+  mutable std::optional<bool> accepts_doubts_;  ///< asked once: it may take a look at all heights
 };
 
 /// The TRN of a GeoTIFF written by write_trn(), or of any raster that DemFile takes: its cell

@@ -60,11 +60,13 @@ void register_gdal_drivers() {
   static_cast<void>(once);
 }
 
-std::string GdalErrors::why_not_written() const {
+void GdalErrors::check_written(const std::string& path, bool is_written) const {
+  if (is_written && !failed()) return;
+  std::string hint = "is the disk full, or its quota used up?";
   for (const char* words : {"No such file", "ermission denied", "Read-only", "not permitted"})
     if (failure_.find(words) != std::string::npos)
-      return "the folder takes no new files: name another output";
-  return "is the disk full, or its quota used up?";
+      hint = "the folder takes no new files: name another output";
+  throw InputError({path}, "cannot be written: " + failure_, hint);
 }
 
 }  // namespace talus

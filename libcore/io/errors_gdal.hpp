@@ -20,8 +20,9 @@ class GdalErrors {
   [[nodiscard]] const std::string& failure() const { return failure_; }
   /// The first warning, likewise.
   [[nodiscard]] const std::string& warning() const { return warning_; }
-  /// What may be wrong with a file that cannot be written: the folder, or the disk.
-  [[nodiscard]] std::string why_not_written() const;
+  /// Throws InputError for a file that was not written, or not without a failure; it says what may
+  /// be wrong: the folder, or the disk.
+  void check_written(const std::string& path, bool is_written) const;
   void note(bool is_failure, bool is_warning, const char* message);  ///< called by GDAL
 
  private:

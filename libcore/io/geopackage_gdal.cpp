@@ -203,8 +203,7 @@ void write_geopackage(const std::string& path, const std::string& crs_wkt,
     static_cast<void>(dataset->CommitTransaction());
   }
   dataset.reset();  // the last bytes are written here
-  if (!is_open || errors.failed())
-    throw InputError({path}, "cannot be written: " + errors.failure(), errors.why_not_written());
+  errors.check_written(path, is_open);
 }
 
 }  // namespace talus

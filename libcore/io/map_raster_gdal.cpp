@@ -128,11 +128,6 @@ OwnedDataset copy_to(const char* driver_name, const std::string& path, GDALDatas
       driver->CreateCopy(path.c_str(), &source, FALSE, options.List(), nullptr, nullptr));
 }
 
-void check_written(const std::string& path, bool written, const GdalErrors& errors) {
-  if (written && !errors.failed()) return;
-  throw InputError({path}, "cannot be written: " + errors.failure(), errors.why_not_written());
-}
-
 }  // namespace
 
 void write_map_raster(const std::string& path, const MapRaster& raster) {
@@ -144,7 +139,7 @@ void write_map_raster(const std::string& path, const MapRaster& raster) {
   OwnedDataset written = source ? copy_to("COG", path, *source, options) : nullptr;
   const bool is_written = written != nullptr;
   written.reset();  // the last bytes are written here
-  check_written(path, is_written, errors);
+  errors.check_written(path, is_written);
 }
 
 }  // namespace talus

@@ -100,8 +100,7 @@ void write_trn(const std::string& path, const Trn& trn, const TrnFileOptions& op
         sums.low, sums.high, mean, std::sqrt(std::max(0.0, sums.sum_sq / sums.n - mean * mean)));
   }
   dataset.reset();  // the last bytes are written here
-  if (status != CE_None || errors.failed())
-    throw InputError({path}, "cannot be written: " + errors.failure(), errors.why_not_written());
+  errors.check_written(path, status == CE_None);
 }
 
 }  // namespace talus
