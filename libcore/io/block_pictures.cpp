@@ -12,6 +12,7 @@
 #include "base/percentile.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "blocks/joint_sets.hpp"
 
 namespace talus {
 namespace {
@@ -35,7 +36,6 @@ Vec2 on_net(Vec3 direction) {
 
 std::string great_circle(const Vec3& normal, const std::string& style) {
   const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
-  std::vector<Vec3> lower;
   // Start at the strike, so that the lower half comes in one piece.
   const double start = std::atan2(-u.z(), v.z());
   const double sign = std::cos(start + 0.1) * u.z() + std::sin(start + 0.1) * v.z() < 0 ? 1 : -1;
@@ -50,21 +50,9 @@ std::string great_circle(const Vec3& normal, const std::string& style) {
   return "<polyline points=\"" + path + "\" fill=\"none\" " + style + "/>\n";
 }
 
-std::string attitude_text(const Vec3& n) {
-  const double dip = std::atan2(std::hypot(n.x(), n.y()), std::abs(n.z())) / degree;
-  double direction = std::atan2(n.x(), n.y()) / degree;
-  if (n.z() < 0) direction += 180;
-  direction = std::fmod(direction + 360, 360);
-  return text(std::round(direction)) + "/" + text(std::round(dip));
-}
-
-}  // namespace
-
-namespace {
-
-// Upward unit normal of a plane of this dip and dip direction [rad].
-Vec3 upward_pole(double dip, double direction) {
-  return {std::sin(dip) * std::sin(direction), std::sin(dip) * std::cos(direction), std::cos(dip)};
+std::string attitude_text(const Vec3& normal) {
+  const Attitude a = attitude(normal);
+  return text(std::round(a.dip_direction / degree)) + "/" + text(std::round(a.dip / degree));
 }
 
 std::string polygon(const std::vector<Vec3>& directions, const std::string& style) {
@@ -84,8 +72,8 @@ std::string pole_zone(double azimuth, double limit, Low low, High high, const st
   for (int k = -n; k <= n; ++k) {
     const double off = limit * k / n;
     if (!(low(off) < high(off))) continue;
-    ring.push_back(upward_pole(low(off), azimuth + off));
-    back.push_back(upward_pole(high(off), azimuth + off));
+    ring.push_back(pole(low(off), azimuth + off));
+    back.push_back(pole(high(off), azimuth + off));
   }
   if (ring.size() < 2) return "";
   ring.insert(ring.end(), back.rbegin(), back.rend());
