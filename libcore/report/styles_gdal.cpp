@@ -40,19 +40,24 @@ std::map<std::string, std::string> styles_of(GDALDataset& dataset) {
   return styles;
 }
 
-// Of the fields of a layer.
-std::map<std::string, std::string> titles_of(GDALDataset& dataset, const std::string& layer) {
+// Of the fields of each layer, by "layer.field", where the file holds them.
+std::map<std::string, std::string> titles_of(GDALDataset& dataset) {
   std::map<std::string, std::string> titles;
-  OGRLayer* const table = dataset.GetLayerByName("gpkg_data_columns");
-  if (table == nullptr) return titles;
-  table->ResetReading();
-  for (const auto& row : table) {
-    const auto text = [&row](const char* name) -> std::string {
-      const int i = row->GetFieldIndex(name);
-      return i < 0 ? "" : row->GetFieldAsString(i);
-    };
-    if (text("table_name") == layer) titles[text("column_name")] = text("title");
-  }
+  const auto rows = [&dataset](const char* sql, const auto& take) {
+    OGRLayer* const found = dataset.ExecuteSQL(sql, nullptr, nullptr);
+    if (found == nullptr) return;
+    for (const auto& row : found) take(*row);
+    dataset.ReleaseResultSet(found);
+  };
+  bool has_titles = false;
+  rows("SELECT name FROM sqlite_master WHERE name = 'gpkg_data_columns'",
+       [&](const OGRFeature&) { has_titles = true; });
+  if (has_titles)
+    rows("SELECT table_name, column_name, title FROM gpkg_data_columns WHERE title IS NOT NULL",
+         [&](const OGRFeature& row) {
+           titles[std::string(row.GetFieldAsString(0)) + "." + row.GetFieldAsString(1)] =
+               row.GetFieldAsString(2);
+         });
   return titles;
 }
 
@@ -64,17 +69,17 @@ std::vector<StyledLayer> styled_layers(const std::string& path) {
       GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   if (!dataset) throw InputError({path}, "cannot be read as a GeoPackage");
   const auto styles = styles_of(*dataset);
+  const auto titles = titles_of(*dataset);
   std::vector<StyledLayer> layers;
   for (OGRLayer* layer : dataset->GetLayers()) {
     StyledLayer found{layer->GetName(), shape_of(layer->GetGeomType()), "",
                       layer->GetFeatureCount() == 0};
     if (found.shape == StyledLayer::none) continue;
     if (const char* words = layer->GetMetadataItem("DESCRIPTION")) found.description = words;
-    std::map<std::string, std::string> titles = titles_of(*dataset, found.name);
     for (int i = 0; i < layer->GetLayerDefn()->GetFieldCount(); ++i) {
       const std::string name = layer->GetLayerDefn()->GetFieldDefn(i)->GetNameRef();
-      const std::string& title = titles[name];
-      found.fields.emplace_back(name, title.empty() ? name : title);
+      const auto title = titles.find(found.name + "." + name);
+      found.fields.emplace_back(name, title == titles.end() ? name : title->second);
     }
     if (const auto style = styles.find(found.name); style != styles.end())
       found.qml = style->second;

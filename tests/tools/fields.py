@@ -50,12 +50,13 @@ if sys.argv[1] == '--print':
         print(''.join(sections(file)), end='')
     sys.exit()
 page = open(sys.argv[1], encoding='utf-8').read()
+missing = ''
 for file in sys.argv[2:]:
     if file.endswith('.csv'):
-        for name in next(csv.reader(open(file, encoding='utf-8'))):
-            if f'| `{name}` |' not in page:
-                sys.exit(f'{file}: {name} is not in {sys.argv[1]}')
-        continue
-    for text in sections(file):
-        if text not in page:
-            sys.exit(f'{file}: {sys.argv[1]} should hold{text}')
+        names = next(csv.reader(open(file, encoding='utf-8')))
+        missing += ''.join(f'{file}: {name}\n' for name in names  # a dot: a key of the site file
+                           if '.' not in name and f'| `{name}` |' not in page)
+    else:
+        missing += ''.join(text for text in sections(file) if text not in page)
+if missing:
+    sys.exit(f'{sys.argv[1]} does not hold\n{missing}')

@@ -11,6 +11,7 @@ made s -j2 fence-search report
 [ "$(find s/out/verify/house-1 -name 'run_*.h5' | wc -l)" = 10 ] || fail "$(find s/out/verify)"
 [ -f s/out/verify/house-1/run_11.h5 ] || fail 'the seeds after those of the search do not verify'
 grep -q '"comparison": "as predicted"' s/out/fence_search.json || fail 'nothing was verified'
+on_page s/out/fence_search.gpkg
 for words in 'Where a fence belongs' 'house-1' 'as predicted' 'cost against what is let through'; do
   grep -q "$words" s/out/report.html || fail "the report does not say: $words"
 done

@@ -9,6 +9,7 @@ polygon = [[500090, 5200200], [500150, 5200200], [500150, 5200246], [500090, 520
 stems_per_ha = 800
 END
 made wood -j2
+on_page wood/out/runout.gpkg
 grep -q '^forest.below.stems_per_ha = 800' wood/out/stages/run.txt || fail 'the stage run does not read it'
 python3 - wood/out <<'END' || fail 'see above'
 import json, re, sqlite3, sys, zipfile

@@ -18,6 +18,7 @@ made slope RUNS=2 report
 for file in hazard/class.tif hazard/class.png hazard/hazard.gpkg trace.gpkg links.csv sources/source_road.tif; do
   [ -f "slope/out/$file" ] || fail "no $file"
 done
+on_page slope/out/hazard/hazard.gpkg slope/out/trace.gpkg slope/out/links.csv
 for words in 'What endangers the objects, and where to act' 'Hazard classes' 'road: where to act'; do
   grep -q "$words" slope/out/report.html || fail "the report does not say: $words"
 done

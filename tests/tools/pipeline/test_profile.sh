@@ -20,6 +20,8 @@ prints 'by frames'
 for file in profile.gpkg profile.json crossings.csv bins.csv stations.csv ground.svg count.svg energy.svg speed.svg height.svg; do
   [ -f "slope/out/profile/$file" ] || fail "no $file"
 done
+on_page slope/out/profile/profile.gpkg slope/out/profile/crossings.csv slope/out/profile/bins.csv \
+  slope/out/profile/stations.csv
 cp slope/out/profile/stations.csv first.csv
 made slope RUNS=2 profile LINE=line.gpkg
 prints 'Nothing to be done'

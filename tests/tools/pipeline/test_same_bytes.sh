@@ -6,6 +6,8 @@ made one -j2
 for name in trn.tif blocks.h5 runs/run_1.h5 without/run_1.h5 runout.gpkg maps/velocity.tif fence.json report.html site.qgz; do
   [ -s "one/out/$name" ] || fail "no $name"
 done
+on_page one/out/blocks.gpkg one/out/runout.gpkg one/out/fence.gpkg one/out/runout.csv one/out/runs.csv \
+  one/out/curves.csv one/out/sensitivity.csv one/out/fence.csv
 made one
 prints "Nothing to be done for 'all'"
 expect 0 make -q -C one BIN=

@@ -23,6 +23,7 @@ a=$(sed -n 's/.*a (Real) = //p' layer)
 holds "$a > 100 && $a < $(value source.json volume_m3)"
 [ "$(ogrinfo -q -sql "select count(*) as n from planes_by_share_of_foot" source.gpkg | sed -n 's/.*n (Integer.*) = //p')" = 5 ] ||
   fail "not five shares of the foot"
+python3 "$source_dir/tests/tools/fields.py" "$source_dir/docs/reference/fields.md" source.gpkg || fail "fields"
 cp source.gpkg first.gpkg
 expect 0 talus-source site.toml --trn trn.tif --layers source.gpkg --no-db --overwrite
 cmp -s source.gpkg first.gpkg || fail "another layer for the same inputs"

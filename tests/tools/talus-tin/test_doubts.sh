@@ -33,6 +33,7 @@ expect 1 talus-tin zero.geojson -o bad.ply --doubts places.gpkg
 says "1 height cannot be; the first: contour at 0 m, feature 5, x 650"
 says "hint: mend it in the map, or go on with --accept-doubts (make TIN_FLAGS=--accept-doubts); all places are in places.gpkg"
 nothing_left bad.ply
+python3 "$source_dir/tests/tools/fields.py" "$source_dir/docs/reference/fields.md" places.gpkg || fail "fields"
 ogr2ogr -q -f CSV places.csv places.gpkg doubts -lco GEOMETRY=AS_XY
 grep -q '650[0-9]*,5200100,contour,"5",0,1040,1060,-1040,,refused' places.csv || fail "$(cat places.csv)"
 slope 5 -600 >deep.geojson
