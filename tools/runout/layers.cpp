@@ -126,30 +126,12 @@ VectorLayer path_point_layer(const std::vector<RunoutRun>& runs, const MapPlace&
   return layer;
 }
 
-const std::vector<Field<RunoutRun>>& streamline_fields() {
-  static const std::vector<Field<RunoutRun>> fields = {
-      {"run_id", "", "Run", [](Run r) -> Value { return r.member.info.run_id; }, words},
-      {"H_m", "m", "H", [](Run r) -> Value { return r.event.event.height; }},
-      {"L_path_m", "m", "L along the path", [](Run r) -> Value { return r.event.event.path; }},
-      {"L_chord_m", "m", "L in a straight line",
-       [](Run r) -> Value { return r.event.event.chord; }},
-      {"reach_angle_path_deg", "deg", "Reach angle along the path",
-       [](Run r) -> Value { return r.event.event.path_angle() / degree; }},
-      {"reach_angle_chord_deg", "deg", "Reach angle in a straight line",
-       [](Run r) -> Value { return r.event.event.chord_angle() / degree; }},
-      {"angle_monotone_along_path", "", "Whether the angle falls all along the path",
-       [](Run r) -> Value { return r.event.profile.monotone ? 1 : 0; }, whole},
-      {"smallest_angle_along_path_deg", "deg", "Smallest angle along the path",
-       [](Run r) -> Value { return r.event.profile.smallest / degree; }}};
-  return fields;
-}
-
 VectorLayer streamline_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
   VectorLayer layer{"streamline",
                     "from the top of the source to the toe of the deposit, M = horizontal "
                     "distance in m",
                     GeometryType::line_zm,
-                    vector_fields(streamline_fields()),
+                    vector_fields(run_fields()),
                     {},
                     vector_qml({SymbolKind::line,
                                 "",
@@ -165,7 +147,7 @@ VectorLayer streamline_layer(const std::vector<RunoutRun>& runs, const MapPlace&
       distance.push_back(distance.back() +
                          (e.streamline[i] - e.streamline[i - 1]).head<2>().norm());
     VectorFeature f = line_feature(e.streamline, distance, map);
-    f.values = values_of(streamline_fields(), r);
+    f.values = values_of(run_fields(), r);
     layer.features.push_back(std::move(f));
   }
   return layer;
