@@ -30,6 +30,10 @@ add_custom_command(OUTPUT ${qgis_plugin_zip} DEPENDS ${qgis_plugin_files} VERBAT
 add_custom_target(qgis-plugin ALL DEPENDS ${qgis_plugin_zip})
 install(FILES ${qgis_plugin_zip} DESTINATION ${CMAKE_INSTALL_DATADIR}/talus)
 
+# The Python package, which is a Debian package of its own.
+install(DIRECTORY python/talus DESTINATION lib/python3/dist-packages COMPONENT python
+        FILES_MATCHING PATTERN "*.py")
+
 find_program(HELP2MAN help2man)
 if(HELP2MAN)
   foreach(tool ${tools})
@@ -54,8 +58,16 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)  # the letters of maps
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "make, gdal-bin")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "qgis, bash-completion")
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL Unspecified python)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME talus)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_DEPENDS fonts-dejavu-core)  # the letters of maps
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_RECOMMENDS "make, gdal-bin")
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SUGGESTS "qgis, bash-completion, python3-talus")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-talus)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3-h5py, python3-pandas, python3-xarray")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS talus)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "runs of Talus as tables of pandas and arrays of xarray")
 include(CPack)

@@ -131,6 +131,10 @@ void write_blocks(const std::string& path, const BlockSet& set,
   write_bytes(path, file.image());
 }
 
+bool is_block_set(const std::string& path) {
+  return H5Reader(path).attribute_text("", "format") == format_name;
+}
+
 BlockSet read_blocks(const std::string& path) {
   const H5Reader file(path);
   check_format(file, path);

@@ -15,6 +15,9 @@ namespace talus {
 void write_blocks(const std::string& path, const BlockSet& set,
                   const std::map<std::string, std::string>& tags = {});
 
+/// Whether an HDF5 file of Talus holds blocks at rest, not a run. Throws InputError (H5Reader).
+[[nodiscard]] bool is_block_set(const std::string& path);
+
 /// Reads and checks a block set (broken_promise). Throws InputError for files that are not one, are
 /// damaged, or break a promise of block_set.hpp.
 [[nodiscard]] BlockSet read_blocks(const std::string& path);

@@ -230,11 +230,10 @@ std::vector<std::string> doubts_about(const std::vector<MeshBody>& bodies) {
 }
 
 std::string obj_text(const std::vector<Polyhedron>& surfaces, const std::string& name,
-                     const Vec3& shift) {
+                     const Vec3& shift, std::size_t n_before) {
   TALUS_ASSERT(!surfaces.empty() && name.find_first_of(" \t\r\n#") == std::string::npos);
   std::ostringstream out;
   out << "o " << name << '\n';
-  std::size_t n_before = 0;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     if (surfaces.size() > 1) out << "g " << name << part_suffix << k << '\n';
     for (const Vec3& v : surfaces[k].vertices)

@@ -67,8 +67,9 @@ struct Mesh {
 [[nodiscard]] std::vector<std::string> doubts_about(const std::vector<MeshBody>& bodies);
 
 /// A body as the text of an OBJ file, coordinates with 17 digits: an object of one surface, or of
-/// several that are its convex parts, each a group NAME_part_k. The name has no blanks.
+/// several that are its convex parts, each a group NAME_part_k. The name has no blanks. `n_before`:
+/// vertices of the file before these.
 [[nodiscard]] std::string obj_text(const std::vector<Polyhedron>& surfaces, const std::string& name,
-                                   const Vec3& shift);
+                                   const Vec3& shift, std::size_t n_before = 0);
 
 }  // namespace talus

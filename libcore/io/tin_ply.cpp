@@ -139,12 +139,9 @@ std::string comment_lines(std::string_view comment, const std::string& text) {
 }
 
 std::string header_text(const Tin& tin, const std::string& digest) {
-  const std::string wkt = in_one_line(tin.crs_wkt);
-  std::string header = "ply\nformat binary_little_endian 1.0\n";
-  const std::string code = epsg_code(wkt);
-  if (!code.empty()) header += "comment crs EPSG:" + code + "\n";
-  header += comment_lines(wkt_comment, wkt) + "comment heights_judged " + digest + "\n" +
-            comment_lines(accepted_comment, in_one_line(tin.accepted_doubts));
+  std::string header = "ply\nformat binary_little_endian 1.0\n" + crs_comments(tin.crs_wkt) +
+                       "comment heights_judged " + digest + "\n" +
+                       comment_lines(accepted_comment, in_one_line(tin.accepted_doubts));
   header += "comment origin_m " + text(tin.origin.x()) + " " + text(tin.origin.y()) + " " +
             text(tin.origin.z()) + "\n";
   header += "element vertex " + std::to_string(tin.points.size()) +
@@ -155,6 +152,11 @@ std::string header_text(const Tin& tin, const std::string& digest) {
 }
 
 }  // namespace
+
+std::string crs_comments(const std::string& crs_wkt) {
+  const std::string wkt = in_one_line(crs_wkt), code = epsg_code(wkt);
+  return (code.empty() ? "" : "comment crs EPSG:" + code + "\n") + comment_lines(wkt_comment, wkt);
+}
 
 void write_tin(const std::string& path, const Tin& tin) {
   Sha256 digest;

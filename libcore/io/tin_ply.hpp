@@ -16,6 +16,9 @@
 
 namespace talus {
 
+/// Lines of a PLY header that say the CRS, as above; "" without one.
+[[nodiscard]] std::string crs_comments(const std::string& crs_wkt);
+
 /// Writes binary little-endian PLY: vertices x y z (double), faces as lists of three (uchar, int).
 /// The file says that its heights were judged, whatever `is_judged` is. Throws InputError when it
 /// cannot be written.

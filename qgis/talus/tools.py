@@ -14,7 +14,7 @@ from collections import namedtuple
 NOT_SHOWN = {"quiet", "verbose", "json", "overwrite", "label", "failures", "progress", "messages", "print-config",
              "describe", "no-db"}
 EXTENSIONS = {"GeoTIFF": "tif", "GeoPackage": "gpkg", "HDF5": "h5", "JSON": "json", "CSV": "csv", "SVG": "svg",
-              "PNG": "png", "HTML": "html", "QGZ": "qgz", "TOML": "toml", "PLY": "ply", "XDMF": "xmf"}
+              "PNG": "png", "HTML": "html", "QGZ": "qgz", "TOML": "toml", "PLY": "ply"}
 # Goals that a dialog of their own stands for, or that need a terminal.
 GOALS_NOT_SHOWN = {"new-site", "submit", "runs-shard"}
 LONGEST_WAIT_S = 20

@@ -34,13 +34,13 @@ WAIT_S = 30  # then SIGTERM: nothing says that a run of an hour must end sooner
 LONGER_S = 120
 MEMORY_BYTES = 4 << 30
 # talus-verify computes for minutes: --tool verify tries it.
-TOOLS = ("blocks check dda fence hazard maps places reduce report runout runs site source tin trace "
+TOOLS = ("blocks check dda export fence hazard maps places reduce report runout runs site source tin trace "
          "trn").split()
 # What an option without a unit in its name holds. Options of --help that are not here hold words.
 OUTPUTS = set("out report json csv svg run-table curves thickness trn-out footprints stereonet "
-              "size-curve hillshade doubts hold-out xdmf change qgis scenarios "
+              "size-curve hillshade doubts hold-out change qgis scenarios "
               "assume-joints page".split())
-OUTPUT_FOLDERS = {"obj", "rasters"}
+OUTPUT_FOLDERS = {"rasters"}
 KEPT_IF_REFUSED = {"doubts"}
 INPUTS = {"trn": "trn", "bed": "trn", "blocks": "blocks", "like": "trn", "reference": "trn",
           "reference-points": "vector", "breaklines": "vector", "spots": "vector",

@@ -7,7 +7,6 @@
 #include "io/block_pictures.hpp"
 #include "io/blocks_hdf5.hpp"
 #include "io/footprints_gdal.hpp"
-#include "io/mesh.hpp"
 #include "io/trn_file_gdal.hpp"
 
 namespace talus {
@@ -46,22 +45,6 @@ void write_pictures(Tool& tool, const BlocksOutputs& files, const BlocksWork& wo
     tool.write_text(files.size_curve, size_curve_svg(work.blocks.volume));
 }
 
-std::string obj_name(int block) {
-  std::string number = std::to_string(block);
-  number.insert(0, 6 - std::min<size_t>(6, number.size()), '0');
-  return "block_" + number;
-}
-
-void write_objs(Tool& tool, const BlocksOutputs& files, const BlockSet& set) {
-  const auto path = [&](int b) { return files.obj_folder + "/" + obj_name(b) + ".obj"; };
-  for (int b = 0; b < n_blocks(set); ++b)
-    tool.write_text(path(b), obj_text(block_surfaces(set, b), obj_name(b), set.origin));
-  // Those of an earlier run with more blocks do not belong to these.
-  if (!tool.overwrite()) return;
-  int old = n_blocks(set);
-  while (std::filesystem::remove(path(old))) ++old;
-}
-
 }  // namespace
 
 void write_outputs(Tool& tool, const BlocksOutputs& files, const BlocksWork& work,
@@ -78,7 +61,6 @@ void write_outputs(Tool& tool, const BlocksOutputs& files, const BlocksWork& wor
                      footprint_layers(work.blocks, rings), {{"RUN_ID", tool.run_id()}});
   }
   write_pictures(tool, files, work);
-  if (!files.obj_folder.empty()) write_objs(tool, files, work.blocks);
   if (!files.report.empty()) tool.write_text(files.report, json_text(report, 2) + "\n");
 }
 

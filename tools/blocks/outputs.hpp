@@ -12,10 +12,9 @@ namespace talus {
 /// Paths of the command line; all but `blocks` may be empty: not asked for.
 struct BlocksOutputs {
   std::string blocks, trn, report, footprints, stereonet, size_curve;
-  std::string obj_folder;  ///< for one OBJ file a block
 };
 
-/// Writes what is asked for; removes OBJ files that an earlier run with more blocks left behind.
+/// Writes what is asked for.
 void write_outputs(Tool& tool, const BlocksOutputs& files, const BlocksWork& work,
                    const Json& report);
 

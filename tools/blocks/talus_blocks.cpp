@@ -45,8 +45,6 @@ void declare(Tool& tool, Options& o) {
   tool.output("--footprints", o.files.footprints, "plan outlines of the blocks (GeoPackage)");
   tool.output("--stereonet", o.files.stereonet, "poles and mean planes of the joints (SVG)");
   tool.output("--size-curve", o.files.size_curve, "size distribution of the blocks (SVG)");
-  tool.output_folder("--obj", o.files.obj_folder,
-                     "folder for one OBJ file a block, map coordinates");
   declare_sizes(tool, o.sizes);
   tool.footer(
       "Examples:\n  talus-blocks site.toml --trn slope.tif -o blocks.h5 --trn-out bed.tif "

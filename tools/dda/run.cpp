@@ -13,7 +13,6 @@
 #include "record/pieces.hpp"
 #include "run/runner.hpp"
 #include "setup/run_settings.hpp"
-#include "store/xdmf_hdf5.hpp"
 #include "tools/dda/report.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
@@ -70,15 +69,9 @@ RunFile new_file(Tool& tool, const Site& site, const SetUp& setup, const DdaOpti
 
 std::string part_of(const DdaOptions& o) { return o.out + ".part"; }
 
-// Where the numbers of the XDMF file go.
-fs::path xdmf_data_of(const DdaOptions& o) {
-  return fs::path(o.xdmf).replace_extension(".xdmf.h5");
-}
-
 // The checkpoint takes the place of what a stopped run left, and is removed at the end.
 void declare_outputs_beside(Tool& tool, const DdaOptions& o) {
   for (const char* end : {"", ".new"}) tool.write_also(part_of(o) + end, true);
-  if (!o.xdmf.empty()) tool.write_also(xdmf_data_of(o).string());
 }
 
 void check_leftover(Tool& tool, const DdaOptions& o) {
@@ -220,9 +213,6 @@ void write_outputs(Tool& tool, Runner& runner, const Site& site, const Trn& trn,
     merge_pieces(runner.file);  // the reach is that of the pieces
     write_run_file(path, without_frames(runner.file, trn, {}));
   }
-  if (o.xdmf.empty()) return;
-  const fs::path data = xdmf_data_of(o);
-  write_xdmf(tool.stage(o.xdmf), tool.stage(data.string()), data.filename().string(), runner.file);
 }
 
 }  // namespace

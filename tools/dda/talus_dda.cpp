@@ -19,7 +19,6 @@ void declare(Tool& tool, SiteOptions& site, DdaOptions& o) {
       ->required();
   tool.input("--blocks", o.request.files.blocks, "block set (talus-blocks)")->required();
   tool.output("-o,--out", o.out, "run to write (HDF5); not needed for --plan");
-  tool.output("--xdmf", o.xdmf, "scene for ParaView (XDMF), with its own HDF5 file beside it");
   tool.app().add_flag("--plan{show}", o.plan,
                       "print what the scene needs and what is left out, then end; --plan=full "
                       "computes everything");

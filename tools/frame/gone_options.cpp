@@ -52,6 +52,8 @@ constexpr GoneOption gone_options[] = {
     {"talus-trace", "--page", "--pages png,pdf,a3"},
     {"talus-trn", "--co", "gdal_translate -co NAME=VALUE of the terrain"},
     {"talus-fence", "--seed", "nothing: the bootstrap has one seed"},
+    {"talus-blocks", "--obj", "talus-export BLOCKS.h5 -o BLOCKS.obj once the blocks are there"},
+    {"talus-dda", "--xdmf", "talus-export RUN.h5 -o RUN.xmf once the run is there"},
     {"talus-dda", "--law", "--set solver.law=VALUE"},
     {"talus-dda", "--duration-s", "--set solver.duration_s=VALUE"},
     {"talus-dda", "--time-step-s", "--set solver.time_step_s=VALUE"},

@@ -20,6 +20,7 @@ needs talus-trn crypto gdal hdf5_serial proj sqlite3
 needs talus-tin crypto gdal gmp hdf5_serial proj sqlite3
 needs talus-maps cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3
 needs talus-reduce crypto gdal hdf5_serial proj sqlite3
+needs talus-export crypto gdal hdf5_serial proj sqlite3
 needs talus-runout cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
 needs talus-fence cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
 needs talus-hazard cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus

@@ -2,18 +2,12 @@
 . "$source_dir/tests/tools/talus-blocks/scene.sh"
 make_site
 expect 0 blocks --report r.json --footprints f.gpkg --trn-out bed.tif --stereonet net.svg \
-  --size-curve size.svg --obj objs
+  --size-curve size.svg
 prints " blocks, "
-for file in blocks.h5 r.json f.gpkg bed.tif net.svg size.svg objs/block_000000.obj; do
+for file in blocks.h5 r.json f.gpkg bed.tif net.svg size.svg; do
   [ -s "$file" ] || fail "$file is missing"
 done
 n=$(value r.json n_blocks)
-[ "$n" -eq "$(find objs -name '*.obj' | wc -l)" ] || fail "not one OBJ a block"
-# written over with fewer blocks, none of the old ones is left
-expect 0 blocks --overwrite --report fewer.json --obj objs --set joints.rear.spacing_m=9
-fewer=$(value fewer.json n_blocks)
-holds "$fewer < $n"
-[ "$fewer" -eq "$(find objs -name '*.obj' | wc -l)" ] || fail "OBJ files of the run before are left"
 [ "$n" -eq "$(ogrinfo -so f.gpkg blocks | sed -n 's/Feature Count: //p')" ] || fail "not one footprint a block"
 holds "$(value r.json volume_error) < 1e-9 && $(value r.json volume_error) > -1e-9"
 holds "$(value r.json convexified_change) < 0.01 && $(value r.json convexified_change) > -0.02"

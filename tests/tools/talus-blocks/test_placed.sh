@@ -33,7 +33,7 @@ expect 0 blocks --overwrite --report r.json
 
 placed 'file = "cube.obj"' 'scale = 2' 'y_up = true' 'position_m = [[500020, 5200020], [500030, 5200020]]' \
   'height_above_ground_m = 3' 'velocity_m_s = [1, 0, 0]'
-expect 0 blocks --overwrite --report r.json --obj objs
+expect 0 blocks --overwrite --report r.json
 holds "$(value r.json volume_m3) == 16"
 for shape in box prism eota rock; do
   placed "shape = \"$shape\"" 'volume_m3 = 2.5' 'position_m = [500020, 5200020]' 'random_orientation = true'

@@ -1,4 +1,4 @@
-# A run from end to end: outputs, figures that must hold, equal bytes, XDMF, the plan.
+# A run from end to end: outputs, figures that must hold, equal bytes, the plan.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
 
@@ -52,21 +52,7 @@ grep -q "3 blocks left the terrain" out || fail "the summary does not say that b
 expect 3 run_dda -o lost.h5 --set solver.duration_s=20 --set ground.ground.friction_deg=0 --set solver.max_lost_share=0
 says "; take a larger terrain, or give max_lost_share"
 
-# ParaView
-expect 0 run_dda -o x.h5 --xdmf x.xmf -q --set solver.duration_s=1
-[ "$(grep -c '<Time Value' x.xmf)" -eq 11 ] || fail "not one grid a frame in x.xmf"
-grep -q 'x.xdmf.h5:/frame_10/points' x.xmf || fail "x.xmf does not name its data"
-[ -s x.xdmf.h5 ] || fail "no data beside x.xmf"
-
-# the data beside it is an output like any other, and so is the checkpoint
-expect 1 run_dda -o q.xdmf.h5 --xdmf q.xmf
-says "q.xdmf.h5: is named for two outputs"
-cp blocks.h5 b.xdmf.h5
-expect 2 talus-dda site.toml --trn slope.tif --blocks b.xdmf.h5 --no-db -o y.h5 --xdmf b.xmf --overwrite
-says "b.xdmf.h5: is both an input and an output"
-rm x.xmf
-expect 1 run_dda -o y.h5 --xdmf x.xmf --set solver.duration_s=1e6
-says "x.xdmf.h5: exists already"
+# the checkpoint is an output like any other
 cp blocks.h5 z.h5.part
 expect 2 talus-dda site.toml --trn slope.tif --blocks z.h5.part --no-db -o z.h5 --overwrite --set solver.duration_s=0.1
 says "z.h5.part: is both an input and an output"
