@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "base/memory.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "ensemble/run_set.hpp"
@@ -102,6 +103,10 @@ BlockScene scene_of(const Blocks& blocks, const Vec3& origin, const std::string&
   if (o.trn.empty()) return scene;
   const Trn trn = read_trn(o.trn);
   check_terrain(trn, blocks, o);
+  constexpr double bytes_per_node = 600;  // with two triangles, in memory and as a file
+  require_memory(bytes_per_node * static_cast<double>(trn.elevation.size()), {o.trn},
+                 counted(static_cast<std::int64_t>(trn.elevation.size()), "node"),
+                 "leave --trn away; the terrain is a raster that other programs open");
   scene.ground.push_back(ground_body(trn, origin));
   return scene;
 }
