@@ -80,10 +80,11 @@ contours_file = $(if $(findstring |,$(CONTOURS)),$(firstword $(subst |, ,$(CONTO
 contours_given = $(if $(call differ,$(CONTOURS),$(SITE_CONTOURS)),--contours \
   $(contours_file)$(if $(findstring |,$(CONTOURS)),'$(subst ','\'',$(subst \
   $(contours_file)|,|,$(CONTOURS)))'))
-dem_given = $(if $(CONTOURS),,$(if $(call differ,$(DEM),$(SITE_DEM)),--dem $(DEM)) $(systems_of_dem))
+dem_given = $(if $(CONTOURS),,$(if $(call differ,$(DEM),$(SITE_DEM)),--dem $(DEM)) \
+  $(systems_of_dem))
 # What TRN_FLAGS say of the system of an elevation model is that of the site.
-systems_of_dem = $(foreach option,--crs --t-srs,$(subst @, ,$(filter $(option)@% $(option)=%,$(subst \
-  $(option) ,$(option)@,$(TRN_FLAGS)))))
+systems_of_dem = $(foreach option,--crs --t-srs,$(subst @, ,$(filter \
+  $(option)@% $(option)=%,$(subst $(option) ,$(option)@,$(TRN_FLAGS)))))
 # given(NAME,FLAGS): options of talus-site for the files of a list, which may be empty
 given = --given $1= $(foreach name,$(call named_in,$2),--given '$1=$(subst ','\'',$(name))')
 flags_of = $(shell echo $1 | tr a-z A-Z)_FLAGS
