@@ -68,9 +68,11 @@ class SiteOptions {
   /// Declares --inputs: what the site names as talus-import wrote it. Other bytes of that file make
   /// no other result: what is read of it counts.
   void take_inputs() {
-    tool_.app().add_option("--inputs", inputs_,
-                           "the site's layers as talus-import wrote them; not given: as the site "
-                           "names them");
+    tool_.app()
+        .add_option("--inputs", inputs_,
+                    "the site's layers as talus-import wrote them; not given: as the site "
+                    "names them")
+        ->check(CLI::ExistingFile);
     tool_.leave_out_of_run_id({"inputs"});
   }
 

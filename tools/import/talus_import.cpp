@@ -81,18 +81,20 @@ InputsRequest whole_request(Tool& tool, const Site& site, Options& o) {
   request.is_measured = true;
   for (RequestedLayer& layer : request.layers) layer.digest = digest_of_data(layer.ref.path);
   for (const RequestedLayer& layer : layers_of(site)) {
-    if (!layer.file.empty()) read_data(tool, layer.section, layer.ref.path);
+    if (!layer.file.empty()) tool.read_by_content(layer.ref.path);
     request.layers.push_back(layer);
   }
   return request;
 }
 
-// Rasters are used where they are.
+// Rasters are used where they are. Like layers on the ground they count by content: the terrain,
+// which is made from the same import, is not of an older fence.
 std::vector<LayerReading> look_at_rasters(Tool& tool, const Site& site, const std::string& dem) {
   std::vector<LayerReading> rasters;
   if (!dem.empty() && !is_tin_file(dem)) rasters.push_back(look_at_raster("dem", dem));
   for (const SiteRaster& raster : rasters_of(site)) {
-    read_data(tool, raster.key, raster.path);
+    tool.read_by_content(raster.path);
+    tool.content_read(raster.key, digest_of_data(raster.path));
     rasters.push_back(look_at_raster(raster.key, raster.path));
   }
   return rasters;

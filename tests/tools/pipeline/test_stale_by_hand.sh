@@ -3,17 +3,19 @@
 . "$source_dir/tests/tools/pipeline/common.sh"
 site slope
 cat >slope/fence.geojson <<'END'
-{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32633"}},"features":[{"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[500060,5200150],[500164,5200150]]}}]}
+{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32633"}},"features":[{"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[500060,5200140],[500164,5200140]]}}]}
 END
 sed -i 's/^line = .*/file = "fence.geojson"/' slope/site.toml
 made slope
+sed -i 's/5200140/5200150/g' slope/fence.geojson
+made slope  # the terrain is that of the first make
 report() { expect 0 talus-report slope/site.toml --dir slope/out -o slope/out/report.html --qgis slope/out/site.qgz --overwrite; }
 report
 [ ! -s err ] || { cat err >&2; fail "something of one make is stale"; }
 
 sed -i 's/5200150/5200190/g' slope/fence.geojson
 report
-says "fence.geojson: has changed since talus-import read it"
+says "fence.geojson: has changed since talus-dda read it"
 sed -i 's/5200190/5200150/g' slope/fence.geojson
 touch slope/contours.gpkg
 report
