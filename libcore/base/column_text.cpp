@@ -94,11 +94,12 @@ bool holds_value(std::string_view line) {
 }
 
 void check_encoding(const std::string& text, const std::string& file) {
-  const bool is_utf16 = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
-  if (is_utf16 || text.find('\0') != std::string::npos)
+  const std::string command = "iconv -f UTF-16 -t UTF-8 " + command_words(file) + " > columns.csv";
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw InputError({file}, "is written in UTF-16, expected UTF-8", command);
+  if (text.find('\0') != std::string::npos)
     throw InputError({file}, "is no plain text (UTF-16, or binary), expected columns of numbers",
-                     "save it as CSV in UTF-8; of UTF-16: iconv -f UTF-16 -t UTF-8 " +
-                         command_words(file) + " > columns.csv");
+                     "save it as CSV in UTF-8; of UTF-16: " + command);
 }
 
 std::string_view without_mark(const std::string& text) {

@@ -241,5 +241,5 @@ refused "bad.csv:3: says \"n/a\", expected a number" map.geojson --spots bad.csv
 iconv -f UTF-8 -t UTF-16 mark.csv >wide.csv
 refused "is written in UTF-16, expected UTF-8" map.geojson --spots wide.csv
 eval "$(hint)"
-expect 0 talus-tin map.geojson -o found.ply --overwrite --spots points.csv
+expect 0 talus-tin map.geojson -o found.ply --overwrite --spots columns.csv
 cmp -s csv.ply found.ply || fail "the table of the hint gives another terrain"

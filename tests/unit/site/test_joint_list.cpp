@@ -117,6 +117,8 @@ TEST(ReadOrientations, WhatCannotBeMeantIsRefusedWithItsLine) {
   EXPECT_EQ(refused("Dip,Dip dir\n10,80\n20,\n"), "f.txt:3: there is nothing in column Dip dir");
   EXPECT_EQ(refused("\xff\xfe"
                     "1"),
+            "f.txt: is written in UTF-16, expected UTF-8");
+  EXPECT_EQ(refused(std::string("1\0", 2)),
             "f.txt: is no plain text (UTF-16, or binary), expected columns of numbers");
 }
 
