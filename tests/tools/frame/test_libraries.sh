@@ -15,22 +15,22 @@ needs() {
 }
 
 needs talus-runs crypto sqlite3
-needs talus-site crypto gdal hdf5_serial proj sqlite3 tomlplusplus
-needs talus-trn crypto gdal hdf5_serial proj sqlite3
-needs talus-tin crypto gdal gmp hdf5_serial proj sqlite3
-needs talus-maps cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3
-needs talus-reduce crypto gdal hdf5_serial proj sqlite3
-needs talus-export crypto gdal hdf5_serial proj sqlite3
-needs talus-runout cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
-needs talus-fence cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
-needs talus-hazard cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
-needs talus-trace cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
-needs talus-profile crypto gdal hdf5_serial proj sqlite3
-needs talus-fence-search crypto gdal hdf5_serial proj sqlite3 tomlplusplus
-needs talus-report crypto gdal hdf5_serial proj sqlite3 tomlplusplus
-needs talus-dda crypto gdal hdf5_serial proj sqlite3 tomlplusplus
-needs talus-verify crypto gdal hdf5_serial proj sqlite3 tomlplusplus
-needs talus-blocks crypto gdal gmp hdf5_serial proj sqlite3 tomlplusplus
-needs talus-check crypto gdal gmp hdf5_serial proj sqlite3 tomlplusplus
-needs talus-source crypto gdal gmp hdf5_serial proj sqlite3 tomlplusplus
+needs talus-site crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
+needs talus-trn crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3
+needs talus-tin crypto gdal gmp hdf5_serial hdf5_serial_hl proj sqlite3
+needs talus-maps cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3
+needs talus-reduce crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3
+needs talus-export crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3
+needs talus-runout cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-fence cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-hazard cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-trace cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-profile crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3
+needs talus-fence-search crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
+needs talus-report crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
+needs talus-dda crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
+needs talus-verify crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
+needs talus-blocks crypto gdal gmp hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
+needs talus-check crypto gdal gmp hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
+needs talus-source crypto gdal gmp hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
 exit 0
