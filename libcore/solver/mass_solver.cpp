@@ -227,6 +227,7 @@ MassResult solve_mass(const MassSettings& settings, MassSystem& s, int width) {
     return std::min(settings.from_rest ? 2 * planned : planned + (planned + 1) / 2,
                     settings.most_sweeps);
   };
+  double first_change = -1;
   for (int planned = settings.sweeps;; planned = more_than(planned)) {
     const int measured_from = settings.from_rest ? result.sweeps : planned - 1;
     for (; result.sweeps < planned; ++result.sweeps) {
@@ -235,8 +236,10 @@ MassResult solve_mass(const MassSettings& settings, MassSystem& s, int width) {
       sweep_turns(s);
     }
     result.change = change_since_before(s);
+    if (first_change < 0) first_change = result.change;
     if (result.change <= settings.settled || planned >= settings.most_sweeps) break;
   }
+  result.diverges = result.change > settings.settled && result.change > first_change;
   run(MassPass::empty);
   return result;
 }

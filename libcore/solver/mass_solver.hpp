@@ -58,6 +58,7 @@ struct MassResult {
   double change = 0;  ///< of velocities in the last of them, or in the last half of them where the
                       ///< mass is from rest: root of the mean square over the bodies or over the
                       ///< mass, whichever is larger [m/s]
+  bool diverges = false;  ///< ... and it grew with the sweeps: the impulses mean nothing
   int n_colours = 0;
 };
 

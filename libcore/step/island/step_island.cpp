@@ -202,10 +202,13 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
     const double longest = prepare_substep(scene, k, is_mass, t, ahead, state, work);
     const bool is_tried = t == 0 && begins_as_mass(scene, longest, state, work);
     if (is_tried) is_mass = true;
-    if (is_mass)
+    if (is_mass) {
       make_mass_substep(scene, t, longest, is_tried, state, work, report);
-    else
+      is_mass = is_any_in_mass(w.members, state);
+      if (!is_mass) work.search.is_of_step = false;
+    } else {
       make_substep(scene, t, std::min({longest, w.tries.longest, dt}), state, work, report);
+    }
     if (!w.end.sleep.blocks.empty()) {
       wake_members(scene, t, w.end.sleep, state, w.members);
       work.search.is_of_step = false;

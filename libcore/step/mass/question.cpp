@@ -44,6 +44,16 @@ void for_each(const IslandMembers& members, State& state, const Visit& visit) {
   for (const int b : members.moving) visit(state.mass[static_cast<size_t>(b)]);
 }
 
+// Exact from now on, for so many steps at least. False.
+bool leave(const IslandMembers& members, int barred, State& state) {
+  if (state.mass.empty()) return false;
+  for_each(members, state, [&](MassShare& share) {
+    share = {};
+    share.barred = barred;
+  });
+  return false;
+}
+
 void become_mass(const IslandMembers& members, const MassShare& share, State& state) {
   if (state.mass.empty()) state.mass.resize(state.motion.size());
   for_each(members, state, [&](MassShare& of_member) { of_member = share; });
@@ -66,17 +76,13 @@ bool may_be_mass(const Scene& scene, const IslandMembers& members, const State& 
          static_cast<int>(members.moving.size()) >= mass::least_size && !has_bonds(members, state);
 }
 
+void bar_from_mass(const Scene& scene, const IslandMembers& members, State& state) {
+  leave(members, calm_steps(scene), state);
+}
+
 bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& state) {
   const double by_gravity = scene.gravity.norm() * scene.settings.dt;
-  const auto leave = [&](int barred) {
-    if (!state.mass.empty())
-      for_each(members, state, [&](MassShare& share) {
-        share = {};
-        share.barred = barred;
-      });
-    return false;
-  };
-  if (!may_be_mass(scene, members, state)) return leave(0);
+  if (!may_be_mass(scene, members, state)) return leave(members, 0, state);
   MassShare all;  // what the members say together
   int n_in_mass = 0;
   if (!state.mass.empty()) {
@@ -99,10 +105,12 @@ bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& stat
     else
       all.calm = 2 * n_fast > n_in_mass ? 0 : std::max(0, all.calm - n_steps);
     if (all.calm >= calm_steps(scene) || all.unsettled >= law::patience)
-      return leave(calm_steps(scene));
+      return leave(members, calm_steps(scene), state);
   } else {
-    if (all.barred > 0) return leave(std::max(0, all.barred - static_cast<int>(state.stride)));
-    if (faster_than(members, state, law::slow * by_gravity) <= mass::most_moving) return leave(0);
+    if (all.barred > 0)
+      return leave(members, std::max(0, all.barred - static_cast<int>(state.stride)), state);
+    if (faster_than(members, state, law::slow * by_gravity) <= mass::most_moving)
+      return leave(members, 0, state);
     all.calm = 0;
   }
   all.is_in_mass = true;

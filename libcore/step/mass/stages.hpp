@@ -29,6 +29,8 @@ namespace talus {
 /// that the scene sets. Fills State::mass of the members.
 [[nodiscard]] bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& state);
 [[nodiscard]] bool is_any_in_mass(const IslandMembers& members, const State& state);
+/// The mass is exact from now on, for mass::calm_time at least.
+void bar_from_mass(const Scene& scene, const IslandMembers& members, State& state);
 /// Whether an island is one that a mass step can advance at all.
 [[nodiscard]] bool may_be_mass(const Scene& scene, const IslandMembers& members,
                                const State& state);

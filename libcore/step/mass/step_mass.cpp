@@ -87,6 +87,11 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
       solve_contacts(scene, settings_of(scene, share, h, work.workers), state, work);
     }
     report.passes += w.solved.sweeps;
+    if (w.solved.diverges) {
+      ++report.cuts[static_cast<std::size_t>(SubstepCut::unconverged)];
+      bar_from_mass(scene, island.members, state);
+      return false;
+    }
     if (is_long_step(scene, h) && w.error > scene.settings.accuracy) {
       ++report.cuts[static_cast<std::size_t>(SubstepCut::inaccurate)];
       h /= 2;

@@ -11,7 +11,8 @@ namespace talus {
 
 /// Makes a substep of at most `h` from `t`; pairs are those of work.search, manifolds and members
 /// those of work.island. False: nothing was done, since a member is off the known ground
-/// (IslandSystem::outsider) or wakes (SubstepEnd::woken). `is_tried`: begins_as_mass() has just
+/// (IslandSystem::outsider) or wakes (SubstepEnd::woken), or since the sweeps diverge: the members
+/// are in no mass then. `is_tried`: begins_as_mass() has just
 /// tried it over the same `h`.
 bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, State& state,
                        Work& work, StepReport& report);
