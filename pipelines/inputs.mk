@@ -77,10 +77,11 @@ named_in = $(filter-out $(OUT)/%,$(foreach name,$(wildcard $(call words_in,$1)),
 # Of "map.gpkg|layername=index|subset=ELEV > 900" the file, and where make was given it the words of
 # the recipe that name it whole.
 contours_file = $(if $(findstring |,$(CONTOURS)),$(firstword $(subst |, ,$(CONTOURS))),$(CONTOURS))
-contours_given = $(if $(call differ,$(CONTOURS),$(SITE_CONTOURS)),--contours \
-  $(contours_file)$(if $(findstring |,$(CONTOURS)),'$(subst ','\'',$(subst \
+contours_given = $(if $(call differ,$(CONTOURS),$(SITE_CONTOURS)),--set \
+  terrain.contours=$(contours_file)$(if $(findstring |,$(CONTOURS)),'$(subst ','\'',$(subst \
   $(contours_file)|,|,$(CONTOURS)))'))
-dem_given = $(if $(CONTOURS),,$(if $(call differ,$(DEM),$(SITE_DEM)),--dem $(DEM)) \
+dem_given = $(if $(CONTOURS),,$(if $(call differ,$(DEM),$(SITE_DEM)),--set terrain.contours= \
+  --set terrain.dem=$(DEM)) \
   $(systems_of_dem))
 # What TRN_FLAGS say of the system of an elevation model is that of the site.
 systems_of_dem = $(foreach option,--crs --t-srs,$(subst @, ,$(filter \

@@ -325,7 +325,8 @@ def check_import(source, options):
     """Contours and points that talus-import brings to one form first make the same terrain."""
     os.rename('t.tif', 'direct.tif')
     write('s.toml', '[site]\nname = "t"\n[terrain]\ncontours = "given"\n')
-    code, _, err = call(['talus-import', 's.toml', '-o', 'inputs.gpkg', '--contours', source, '--no-db', *options])
+    given = f'terrain.contours={source}'
+    code, _, err = call(['talus-import', 's.toml', '-o', 'inputs.gpkg', '--set', given, '--no-db', *options])
     assert code == 0, f'talus-import: {err}'
     accepted, err = terrain_of(TIN, 'inputs.gpkg', [word for word in options if word == '--points'])
     assert accepted, f'after talus-import: {err}'

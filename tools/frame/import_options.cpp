@@ -77,8 +77,7 @@ SystemsByUser systems_by_user(const CrsOptions& o) {
   return said;
 }
 
-void declare_import_options(Tool& tool, ImportOptions& o, const std::string& contours) {
-  tool.input(contours, o.contours.path, "contour lines (any vector source that GDAL reads)");
+void declare_import_options(Tool& tool, ImportOptions& o) {
   tool.flag("--points", o.of_points,
             "the source holds points of the ground, not contours: a vector layer, CSV or XYZ");
   tool.input("--labels", o.labels.path,

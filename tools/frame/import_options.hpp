@@ -22,8 +22,7 @@ void declare_crs_options(Tool& tool, CrsOptions& options);
 /// Throws UsageError for what is no system.
 [[nodiscard]] SystemsByUser systems_by_user(const CrsOptions& options);
 
-/// A contour map, or points of the ground, and what belongs to it. `contours` is the name of the
-/// argument or option for the ground itself.
+/// A contour map, or points of the ground, and what belongs to it.
 struct ImportOptions {
   LayerRef contours, labels, breaklines, spots, boundary;
   bool of_points = false;
@@ -31,7 +30,8 @@ struct ImportOptions {
   std::vector<std::string> fields, units;  ///< "elev", "spots=hoehe"; "0.3048", "spots=0.3048"
   CrsOptions crs;
 };
-void declare_import_options(Tool& tool, ImportOptions& options, const std::string& contours);
+/// All but `contours`.
+void declare_import_options(Tool& tool, ImportOptions& options);
 
 /// The layers that are given, with what is said of each; their further files become inputs. Of a
 /// file that talus-import wrote its own layers. Throws UsageError for options beside it, which say

@@ -25,7 +25,8 @@ struct Options {
   std::string dem, out, report;
 };
 
-// What no option gives stands in [terrain]. Of an elevation model the system is taken alone.
+// The ground stands in [terrain], and what belongs to it where no option gives it. Of an elevation
+// model the system is taken alone.
 void take_from_site(Tool& tool, const Site& site, Options& o) {
   const TerrainSettings& t = site.terrain;
   const auto take = [&](const char* role, const std::string& path, std::string& given) {
@@ -34,9 +35,9 @@ void take_from_site(Tool& tool, const Site& site, Options& o) {
     tool.read_also(role, given);
   };
   ImportOptions& ground = o.ground;
-  if (o.dem.empty()) take("contours", t.contours, ground.contours.path);
+  take("contours", t.contours, ground.contours.path);
   if (ground.contours.path.empty()) {
-    if (o.dem.empty() && !t.dem.empty()) o.dem = resolved(site, t.dem);
+    if (!t.dem.empty()) o.dem = resolved(site, t.dem);
     return;
   }
   take("breaklines", t.breaklines, ground.breaklines.path);
@@ -75,8 +76,9 @@ InputsRequest whole_request(Tool& tool, const Site& site, Options& o) {
       return request;
     }
   } else {
-    throw InputError({site.file}, "[terrain] names neither contours nor dem",
-                     "name what the ground is made from, or give --contours or --dem");
+    throw InputError(
+        {site.file}, "[terrain] names neither contours nor dem",
+        "name what the ground is made from: --set terrain.contours=FILE, or terrain.dem");
   }
   request.is_measured = true;
   for (RequestedLayer& layer : request.layers) layer.digest = digest_of_data(layer.ref.path);
@@ -157,8 +159,7 @@ int main(int argc, char** argv) {
   Options o;
   Tool tool("talus-import", "Brings what a site is made from to one form.");
   SiteOptions site(tool);
-  declare_import_options(tool, o.ground, "--contours");
-  tool.option("--dem", o.dem, "elevation model in place of contours; it is used where it is");
+  declare_import_options(tool, o.ground);
   tool.output("-o,--out", o.out, "layers in metres and in one system (GeoPackage)")->required();
   tool.output("--report", o.report, "every decision, and how large the numbers are (JSON)");
   tool.footer("Example:\n  talus-import site.toml -o inputs.gpkg --report import.json");

@@ -47,7 +47,9 @@ std::string check_every(const std::string& word) {
 }
 
 void declare(Tool& tool, Options& o) {
-  talus::declare_import_options(tool, o.inputs, "contours");
+  tool.input("contours", o.inputs.contours.path,
+             "contour lines (any vector source that GDAL reads)");
+  talus::declare_import_options(tool, o.inputs);
   tool.output("-o,--out", o.out, "TIN to write (binary PLY)")->required();
   tool.option("--flat", o.flat, "flat triangles on summits, ridges, valley floors: fill or keep")
       ->check(CLI::IsMember({"fill", "keep"}));

@@ -67,9 +67,9 @@ expect 1 talus-tin inputs.gpkg -o bad.ply
 says "inputs.gpkg: was changed since talus-import wrote it"
 says "or take a layer of it as it is: 'inputs.gpkg|layername=contours'"
 expect 0 talus-tin 'inputs.gpkg|layername=contours' -o changed.ply --t-srs EPSG:25833
-expect 1 talus-import site.toml --contours none.geojson -o bad.gpkg
+expect 1 talus-import site.toml --set terrain.contours=none.geojson -o bad.gpkg
 printf '[terrain]\n' >none.toml
 expect 1 talus-import none.toml -o bad.gpkg
 says "[terrain] names neither contours nor dem"
-says "hint: name what the ground is made from, or give --contours or --dem"
+says "hint: name what the ground is made from: --set terrain.contours=FILE, or terrain.dem"
 nothing_left bad.gpkg

@@ -99,6 +99,7 @@ says "release.gpkg: layer release, 1 polygon"
 expect 1 talus-source site.toml --trn trn.tif -o bad.json --inputs valley.gpkg --no-db
 says "valley.gpkg: was not written by talus-import"
 says "hint: leave --inputs out, or write it: talus-import SITE.toml -o inputs.gpkg"
+expect 0 talus-source site.toml --trn trn.tif -o source.json --overwrite --no-db
 cp contours.gpkg known.gpkg
 ogrinfo -q contours.gpkg -sql "DELETE FROM contours WHERE fid = 1" >/dev/null
 expect 1 talus-tin inputs.gpkg -o bad.ply
