@@ -202,7 +202,7 @@ TEST(RunFile, IsReadInParts) {
   EXPECT_EQ(head.info.site, run.info.site);
   EXPECT_EQ(head.info.trn_sha256, run.info.trn_sha256);
   EXPECT_EQ(head.info.config, run.info.config);
-  EXPECT_TRUE(head.info.plan.empty());
+  EXPECT_EQ(head.info.plan, run.info.plan);
   EXPECT_EQ(head.grid.n_cols, run.grid.n_cols);
   EXPECT_EQ(n_blocks(head), 0);
 
