@@ -19,7 +19,7 @@ TEST_F(TakeToFrame, EachLayerIsTakenByAnOperationThatIsNamed) {
   EXPECT_NEAR(spot.x(), 500000, 1e-6);
   EXPECT_NEAR(spot.y(), 5200000, 1000);
   EXPECT_EQ(spot.z(), 105);
-  EXPECT_EQ(raw.layers[0].operation, "");
+  EXPECT_EQ(raw.layers[0].taken.operation, "");
   ASSERT_EQ(raw.reading.operations.size(), 1U);
   EXPECT_NE(raw.reading.operations[0].find("spots.geojson: reprojected from EPSG:4326"),
             std::string::npos);
