@@ -4,7 +4,6 @@
 python=/usr/bin/python3
 $python -c 'import h5py, matplotlib, netCDF4, pandas, xarray' ||
   fail "python3-h5py, -matplotlib, -netcdf4, -pandas or -xarray is missing: sh pipelines/install_packages.sh test"
-command -v Rscript >/dev/null || fail "r-base-core is missing: sh pipelines/install_packages.sh test"
 
 make_terrain
 make_site
@@ -28,9 +27,13 @@ PYTHONPATH=$source_dir/python MPLBACKEND=Agg \
   expect 0 $python "$source_dir/tests/tools/python/run_page.py" "$source_dir/docs/guide/python.md" site
 prints "rank correlation -1.00 from 6 runs"
 [ -s site/reach.png ] && [ -s site/crossings.csv ] || fail "no picture or no table"
-awk '/^```r$/ { on = 1; next } /^```/ { on = 0 } on' "$source_dir/docs/guide/python.md" >page.R
-expect 0 sh -c "cd site && Rscript ../page.R"
-prints "Median"
+if Rscript -e 'library(rhdf5)' >/dev/null 2>&1; then
+  awk '/^```r$/ { on = 1; next } /^```/ { on = 0 } on' "$source_dir/docs/guide/python.md" >page.R
+  expect 0 sh -c "cd site && Rscript ../page.R"
+  prints "Median"
+else
+  echo "The lines in R were not executed: they need r-base-core and r-bioc-rhdf5."
+fi
 
 # what is no run is refused with its name
 PYTHONPATH=$source_dir/python expect 1 $python -c 'import talus; talus.open_run("site/out/blocks.h5")'
