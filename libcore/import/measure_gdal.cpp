@@ -1,5 +1,6 @@
 // The part of import/raw_inputs_gdal.hpp that says how large the numbers of each layer are.
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "geometry/plan2d.hpp"
@@ -8,19 +9,15 @@
 namespace talus {
 namespace {
 
-double area_of_ring(const Polylines& lines, int ring) {
-  const Vec2 first = lines.points[lines.begin[ring]].head<2>();
-  double twice = 0;
-  for (int k = lines.begin[ring] + 1; k + 1 < lines.begin[ring + 1]; ++k)
-    twice += cross(lines.points[k].head<2>() - first, lines.points[k + 1].head<2>() - first);
-  return std::abs(twice) / 2;
-}
-
 double area_of(const RawLayer& layer) {
   double area = 0;
   for (std::size_t r = 0; r < layer.polygon.size(); ++r) {
     const bool is_hole = r > 0 && layer.polygon[r] == layer.polygon[r - 1];
-    area += (is_hole ? -1 : 1) * area_of_ring(layer.lines, static_cast<int>(r));
+    const auto ring =
+        std::span(layer.lines.points)
+            .subspan(static_cast<std::size_t>(layer.lines.begin[r]),
+                     static_cast<std::size_t>(layer.lines.begin[r + 1] - layer.lines.begin[r]));
+    area += (is_hole ? -1 : 1) * std::abs(ring_area(ring));
   }
   return area;
 }

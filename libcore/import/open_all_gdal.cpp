@@ -172,7 +172,8 @@ RawLayer take_written(const RequestedLayer& requested) {
   }
   if (requested.role == InputRole::site_areas) layer.polygon = {0};
   layer.taken.role = requested.section;
-  layer.taken.file = requested.where.file;
+  const Where& where = requested.where;
+  layer.taken.file = where.file.empty() ? where.text() : where.file;
   layer.taken.layer = requested.section;
   layer.taken.noun = singular(layer.source.role.shape);
   layer.taken.n_parts = layer.lines.n_lines();

@@ -53,5 +53,5 @@ expect 1 talus-trn feet.xml -o bad.tif
 says "linearUnit is foot, expected meter"
 sed '$d' ground.ply >short.ply
 expect 1 talus-trn short.ply -o bad.tif --crs EPSG:25832
-says "it was truncated"
+says "short.ply:218: the file ends early"
 nothing_left bad.tif bad.ply
