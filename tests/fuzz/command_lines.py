@@ -8,7 +8,8 @@ and files that are right, damaged, of another kind, missing or folders.
 Claims of each command line, whatever it says:
 - it ends by itself, or within a minute of SIGTERM, with an exit code of docs/tools/common.md;
 - a code other than 0 comes with a message, and no message is one of an unexpected failure;
-- a file that stood there before is as it was, unless --overwrite names it; nothing temporary is left;
+- a file that stood there before is as it was, unless --overwrite names it; nothing temporary is left
+  (tools that read a folder of runs bring its ensemble.json up to date);
 - where the code is 1 or 2 no output is there, but for those that are kept to look at (--doubts).
 
 A command line that breaks one is printed as a shell takes it, with its folder kept. Further input
@@ -130,7 +131,7 @@ class Bench:
 
     def digest_of_pool(self):
         return {path: hashlib.sha256(path.read_bytes()).digest()
-                for path in sorted(self.pool.iterdir()) if path.is_file() and "runs.sqlite" not in path.name}
+                for path in sorted(self.pool.iterdir()) if path.is_file() and "runs.sqlite" not in path.name and path.name != "ensemble.json"}
 
     # --- command lines -------------------------------------------------------------------------
     def describe(self, tool):
@@ -231,7 +232,10 @@ class Bench:
                       if path.parts[0].startswith("out_") and path.name not in kept
                       and (folder / path).is_file() and "runs.sqlite" not in path.name]
         if self.digest_of_pool() != self.digests:
-            found.append("an input was changed")
+            now = self.digest_of_pool()
+            changed = sorted(path.name for path in now.keys() | self.digests.keys()
+                             if now.get(path) != self.digests.get(path))
+            found.append("an input was changed: " + ", ".join(changed))
         return found
 
     def go(self):
@@ -260,7 +264,7 @@ class Bench:
             if found:
                 broken += 1
                 print(f"{folder}: {shlex.join(words)!a}\n  " + "\n  ".join(found), flush=True)
-                if "an input was changed" in found:
+                if "an input was changed" in "".join(found):
                     self.digests = self.digest_of_pool()
             else:
                 shutil.rmtree(folder, ignore_errors=True)

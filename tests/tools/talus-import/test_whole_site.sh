@@ -108,7 +108,7 @@ says "inputs.gpkg: is older than contours.gpkg"
 # what is written in the site file stands beside what is in files
 expect 0 talus-import site.toml -o written.gpkg --set source.polygon_file= --set \
   'source.polygon=[[500096,5200248],[500144,5200248],[500144,5200296],[500096,5200296]]'
-says "site.toml: layer source, 1 polygon of 2304 m2 in all"
+says "command line: layer source, 1 polygon of 2304 m2 in all"
 prints "source: 1 polygon"
 
 # an elevation model stays where it is; its system is that of the site
