@@ -11,6 +11,9 @@ namespace {
 using std::size_t;
 
 constexpr int most_rounds = 1000;
+/// Of lifts alone. What still overlaps leans on one another in a circle, which lifts would raise
+/// for ever.
+constexpr int lifting_rounds = 60;
 /// A pair whose normal rises by more than this (60 degrees from the vertical) lies on each other.
 constexpr double least_rise = 0.5;
 
@@ -45,6 +48,13 @@ void add_ways(const BlockOverlap& overlap, const std::vector<double>& risen,
   const Vec2 half = overlap.depth / 2 / from_lower.squaredNorm() * from_lower;
   ways[upper].head<2>() += half;
   ways[lower].head<2>() -= half;
+}
+
+// Moves both along the normal, by half.
+void part_along_normal(const BlockOverlap& overlap, std::vector<Vec3>& ways) {
+  const Vec3 half = overlap.depth / 2 * overlap.normal;
+  ways[static_cast<size_t>(overlap.block_a)] += half;
+  ways[static_cast<size_t>(overlap.block_b)] -= half;
 }
 
 }  // namespace
@@ -92,7 +102,10 @@ Settled settle(BlockSet& blocks, const Trn& trn, bool among_blocks, double toler
       poses = poses_of(blocks);
       place_hulls(hulls, poses, {}, {}, placed);
       for (const BlockOverlap& overlap : block_overlaps(hulls, placed, tolerance))
-        add_ways(overlap, risen, ways);
+        if (result.rounds < lifting_rounds)
+          add_ways(overlap, risen, ways);
+        else
+          part_along_normal(overlap, ways);
     }
     result.done = true;
     for (size_t b = 0; b < ways.size(); ++b) {

@@ -139,6 +139,25 @@ TEST(Settle, CarriesWhatLeansOnABlockThatIsLifted) {
   EXPECT_LT((set.centroid[1] - before - Vec3(0, 0, 0.02)).norm(), 1e-6);
 }
 
+// Three beams about a middle, each with its raised end on the next one: lifts would go round.
+TEST(Settle, PartsBeamsThatLieOnOneAnotherInACircle) {
+  BlockSet set;
+  set.material_names = {"rock"};
+  for (int k = 0; k < 3; ++k) {
+    const Mat3 turn = (Eigen::AngleAxisd(2 * std::numbers::pi / 3 * k, Vec3::UnitZ()) *
+                       Eigen::AngleAxisd(-std::atan(0.1155), Vec3::UnitY()))
+                          .toRotationMatrix();
+    Body body;
+    body.parts = {moved(box({-1.5, -0.1, -0.1}, {1.5, 0.1, 0.1}), turn, Vec3::Zero(),
+                        turn * Vec3(0, -0.5, 0) + Vec3(0, 0, 1))};
+    add_body(set, body);
+  }
+  ASSERT_EQ(start_overlaps(set, {}, true, 1e-6).size(), 3u);
+  const Settled settled = settle(set, flat_ground(), true, 1e-6);
+  EXPECT_TRUE(settled.done);
+  EXPECT_LT(settled.farthest, 0.2);
+}
+
 TEST(Settle, LiftsEachBlockAloneWhereBlocksDoNotMeet) {
   BlockSet set = cubes_at({{0, 0, -0.3}, {0, 0, 0.6}});
   EXPECT_TRUE(settle(set, flat_ground(), false, 1e-6).done);
