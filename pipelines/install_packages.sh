@@ -10,7 +10,7 @@ build="g++ cmake ninja-build make ccache libgdal-dev libcgal-dev libboost-dev li
 test="libgtest-dev librapidcheck-dev clang-format-14 sqlite3 hdf5-tools procps python3-gdal
   python3-h5py python3-matplotlib python3-netcdf4 python3-pandas python3-vtk9 python3-xarray"
 # without these their tests are skipped, with a line that says so
-optional="slurm-wlm munge parallel r-base-core r-bioc-rhdf5"
+optional="slurm-wlm munge parallel"
 
 case ${1:-} in
   build) wanted=$build optional= ;;
