@@ -15,6 +15,7 @@ $(OUT)/check.html: $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/check.flags $(ST
 	$(call say,check: a look before the runs)
 	$(Q)$(BIN)talus-check site.toml --trn $(OUT)/trn.tif --bed $(OUT)/bed.tif \
 	  --blocks $(OUT)/blocks.h5 -o $(OUT)/check.html --report $(OUT)/check.json \
+	  --reports $(filter %.json,$(import_files) $(tin_files) $(trn_files) $(block_files)) \
 	  --runs $$(($(n_runs))) $(inputs_given) $(CHECK_FLAGS) $(how_runs_start) --overwrite $(DB) \
 	  || { code=$$?; touch -c -d @0 $(check_files); exit $$code; }
 	$(call made,talus-check)

@@ -7,26 +7,21 @@
 #include <stdexcept>
 #include <string>
 
-namespace talus {
+#include "base/doubt.hpp"
 
-/// Where something was found: a file, and what in it (line, layer, feature, coordinates).
-struct Where {
-  std::string file;    ///< path as the user gave it; empty when there is no file
-  int line = 0;        ///< 1-based line of a text file; 0 when it has none
-  std::string item{};  ///< e.g. "layer contours, feature 17"; empty when the file says enough
-  /// "sites/a/site.toml:14", "map.gpkg: layer contours, feature 17"; empty when nothing is known
-  [[nodiscard]] std::string text() const;
-};
+namespace talus {
 
 /// The input cannot be used (exit code 1).
 class InputError : public std::runtime_error {
  public:
   /// `finding` says what was found and what was expected; `hint` says a way out (may be empty).
   InputError(const Where& where, const std::string& finding, std::string hint = {});
-  [[nodiscard]] const std::string& hint() const { return hint_; }
+  explicit InputError(Doubt doubt);
+  [[nodiscard]] const Doubt& doubt() const { return doubt_; }
+  [[nodiscard]] const std::string& hint() const { return doubt_.hint; }
 
  private:
-  std::string hint_;
+  Doubt doubt_;
 };
 
 /// The numbers failed: a limit of the run's health was broken (exit code 3).

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/doubt.hpp"
 #include "base/progress.hpp"
 
 namespace talus {
@@ -16,8 +17,7 @@ namespace talus {
 enum class Severity {
   detail,  ///< for those who ask for more
   info,
-  warning,  ///< kept with the results
-  record,   ///< kept with the results and not said
+  record,  ///< kept with the results and not said
 };
 
 /// What was taken from a layer of a vector source.
@@ -44,6 +44,8 @@ class InputLog {
   /// GDAL, a file that is read with others beside it. Counts for the run's id as bytes do.
   virtual void content_read(const std::string& /*role*/, const std::string& /*digest*/) {}
   virtual void layer_read(const LayerRead& /*layer*/) {}
+  /// What a user should look at, kept with the results and said, a sentence a kind.
+  virtual void doubts(const std::vector<Doubt>& /*found*/) {}
   virtual void note(Severity /*severity*/, const std::string& /*words*/) {}
   /// To hand to long work; what it returns may throw to end the work.
   [[nodiscard]] virtual ProgressFunction progress() {
@@ -52,7 +54,8 @@ class InputLog {
 
   void detail(const std::string& words) { note(Severity::detail, words); }
   void info(const std::string& words) { note(Severity::info, words); }
-  void warn(const std::string& words) { note(Severity::warning, words); }
+  /// A doubt of which there are only words.
+  void warn(const std::string& words) { doubts({doubt_on({}, words)}); }
   void record(const std::string& words) { note(Severity::record, words); }
 };
 

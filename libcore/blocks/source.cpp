@@ -24,12 +24,16 @@ std::string place_text(const Vec2& local, const Vec3& origin) {
 std::vector<int> nodes_inside(const Trn& ground, const Area& area, const Where& where) {
   for (const auto& ring : area.rings)
     for (const Vec2& p : ring)
-      if (!contains(ground, p.x(), p.y()))
-        throw InputError(where,
-                         "the source area reaches outside the terrain at " +
-                             place_text(p, ground.origin) + "; " + extent_text(ground),
-                         "move the source or make the terrain larger; if it lies far away, check "
-                         "the order (x east, y north) and the coordinate system of its points");
+      if (!contains(ground, p.x(), p.y())) {
+        Doubt doubt = doubt_on(
+            where,
+            "the source area reaches outside the terrain at " + place_text(p, ground.origin) +
+                "; " + extent_text(ground),
+            "move the source or make the terrain larger; if it lies far away, check the order (x "
+            "east, y north) and the coordinate system of its points");
+        doubt.at = {{p.x() + ground.origin.x(), p.y() + ground.origin.y(), Doubt::none}};
+        throw InputError(std::move(doubt));
+      }
   const PreparedArea prepared(area);
   std::vector<int> nodes;
   for (int r = 0; r < ground.n_rows; ++r)

@@ -525,8 +525,17 @@ void check_degrees(const Guesses& guesses, const CrsExtent& place, const Where& 
                    guess->hint);
 }
 
+// On the whole of the extent, where that is on the map.
+Doubt on_extent(const CrsExtent& place, const Where& where, const std::string& found) {
+  Doubt doubt = doubt_on(where, found);
+  if (!place.work_wkt.empty() && !same_crs(place.crs_wkt, place.work_wkt)) return doubt;
+  const MapWindow& e = place.extent;
+  doubt.at = {{e.x_min, e.y_min, Doubt::none}, {e.x_max, e.y_max, Doubt::none}};
+  return doubt;
+}
+
 void check_area(const Systems& systems, const std::vector<Vec2>& places, const Guesses& guesses,
-                const CrsExtent& place, const Where& where, std::vector<std::string>& warnings) {
+                const CrsExtent& place, const Where& where, std::vector<Doubt>& doubts) {
   const Verdict verdict = systems.verdict(places);
   if (verdict == Verdict::inside) return;
   const auto guess = guesses.best();
@@ -534,11 +543,11 @@ void check_area(const Systems& systems, const std::vector<Vec2>& places, const G
                               (guess ? "; " + guess->words : std::string());
   if (verdict == Verdict::far)
     throw InputError(where, finding, guess ? guess->hint : way_out(place, where));
-  warnings.push_back(where.text() + ": " + finding + ": is it the right CRS?");
+  doubts.push_back(on_extent(place, where, finding + ": is it the right CRS?"));
 }
 
 void check_axes(const Ground& ground, const std::vector<Vec2>& places, const CrsExtent& place,
-                const Where& where, std::vector<std::string>& warnings) {
+                const Where& where, std::vector<Doubt>& doubts) {
   Axes worst;
   double worst_stretch = 0, askew = 0;
   for (const Vec2& lon_lat : places) {
@@ -569,9 +578,10 @@ void check_axes(const Ground& ground, const std::vector<Vec2>& places, const Crs
                          percent(stretch_limit),
                      way_to_zone(place, where, places.front()));
   if (askew > askew_deg)
-    warnings.push_back(where.text() + ": north of the map is " + text(askew, 3) +
-                       " degrees off north in " + crs_name(ground.wkt()) +
-                       "; directions of joints count from north of the map");
+    doubts.push_back(on_extent(place, where,
+                               "north of the map is " + text(askew, 3) + " degrees off north in " +
+                                   crs_name(ground.wkt()) +
+                                   "; directions of joints count from north of the map"));
 }
 
 }  // namespace
@@ -605,22 +615,20 @@ DegreeWindow degrees_of(const std::string& crs_wkt, const MapWindow& window) {
   return found;
 }
 
-std::vector<std::string> check_place(const CrsExtent& place, const Where& where) {
-  std::vector<std::string> warnings;
-  if (place.crs_wkt.empty()) return warnings;
+void check_place(const CrsExtent& place, const Where& where, std::vector<Doubt>& doubts) {
+  if (place.crs_wkt.empty()) return;
   const GdalErrors errors;
   const bool is_taken_on = !place.work_wkt.empty() && !same_crs(place.crs_wkt, place.work_wkt);
   const Ground own(place.crs_wkt, is_taken_on);
   const std::optional<Ground> target =
       is_taken_on ? std::make_optional<Ground>(place.work_wkt) : std::nullopt;
   const Systems systems{own, target ? *target : own};
-  if (!systems.own.is_on_earth() || !systems.work.is_on_earth()) return warnings;
+  if (!systems.own.is_on_earth() || !systems.work.is_on_earth()) return;
   const Guesses guesses(place, where, systems);
   check_degrees(guesses, place, where);
   const std::vector<Vec2> places = places_of(systems.own, place.extent);
-  check_area(systems, places, guesses, place, where, warnings);
-  if (!systems.work.is_geographic()) check_axes(systems.work, places, place, where, warnings);
-  return warnings;
+  check_area(systems, places, guesses, place, where, doubts);
+  if (!systems.work.is_geographic()) check_axes(systems.work, places, place, where, doubts);
 }
 
 std::string reason_to_replace(const std::string& own, const std::string& given,

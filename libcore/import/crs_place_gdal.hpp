@@ -62,9 +62,9 @@ struct CrsExtent {
 /// Throws InputError at `where` when the coordinates lie far outside the area that their system, or
 /// the one computed in, is made for, when x does not run to the east and y to the north, or when a
 /// metre on the map is not within 1 % of one on the ground. The finding says what they would fit:
-/// x and y exchanged, degrees, feet, millimetres, zone numbers before the eastings ... Returns
-/// sentences to warn of: places somewhat outside, a grid north far from north.
-std::vector<std::string> check_place(const CrsExtent& place, const Where& where);
+/// x and y exchanged, degrees, feet, millimetres, zone numbers before the eastings ... In
+/// doubt are places somewhat outside, and a grid north far from north.
+void check_place(const CrsExtent& place, const Where& where, std::vector<Doubt>& doubts);
 
 /// Why a user may give a file another system than it names: its coordinates cannot be in that one,
 /// or that has no known datum and the other the same projection. Goes on "the CRS is EPSG:25832,

@@ -81,8 +81,7 @@ void check_places(RawInputs& raw) {
     }
     const Where where =
         layer.written != nullptr ? layer.where() : Where{parse_source_path(layer.path()).source};
-    for (const std::string& warning : check_place(place, where))
-      raw.reading.warnings.push_back(warning);
+    check_place(place, where, raw.reading.doubts);
   }
 }
 

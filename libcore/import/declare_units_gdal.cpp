@@ -31,7 +31,7 @@ double plan_unit_of(const RawLayer& layer, const std::string& crs, ImportReading
   const std::string drawing = layer.source.dataset->GetDescription();
   const double by_user_m = layer.source.ref.unit_m;
   if (const std::string doubt = doubt_on_unit(drawing, by_user_m); !doubt.empty())
-    reading.warnings.push_back(layer.path() + ": " + doubt);
+    reading.doubts.push_back(doubt_on({layer.path()}, doubt));
   return scale_of_drawing(drawing, by_user_m, length_unit_m(crs), layer.where(),
                           way_to_metres(layer, drawing_unit(drawing)));
 }

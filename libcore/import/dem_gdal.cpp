@@ -258,8 +258,7 @@ void DemFile::check_place_of(const MapWindow& edges, const std::string& work_crs
   CrsExtent place{crs_, edges, work_crs};
   place.has_crs_option = has_options;
   place.is_raster = true;
-  for (std::string& warning : check_place(place, {path_}))
-    reading_.warnings.push_back(std::move(warning));
+  check_place(place, {path_}, reading_.doubts);
 }
 
 // Reprojects in plan, unless it is there already.
@@ -268,7 +267,7 @@ void DemFile::take_to(const std::string& target, bool accept_ballpark, const Map
   if (same_crs(crs_, target)) return;
   check_place_of(edges, target, true);
   const CrsOperation operation = plan_operation(crs_, target, edges, {path_}, accept_ballpark,
-                                                reading_.notes, reading_.warnings);
+                                                reading_.notes, reading_.doubts);
   ringed_ = with_unknown_ring(*source_, name_);
   if (!ringed_) throw InputError({path_}, "cannot be reprojected");
   warped_ = reprojected(*source_, *ringed_, path_, operation);

@@ -37,8 +37,8 @@ struct DemOptions : SystemsByUser {
 
 /// What was done on the way in.
 struct DemReading {
-  std::vector<std::string> notes;     ///< sentences: which operation took it to another system
-  std::vector<std::string> warnings;  ///< a place beside its CRS, a better operation without grid
+  std::vector<std::string> notes;  ///< sentences: which operation took it to another system
+  std::vector<Doubt> doubts;
 };
 
 /// An open elevation raster. Reads only what is asked for, so that it may be larger than memory.

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/doubt.hpp"
+
 namespace talus {
 
 /// An answer that the import gave, and what it rests on.
@@ -51,7 +53,7 @@ struct ImportReading {
   std::vector<LayerReading> layers;
   std::vector<std::string> notes;
   std::vector<std::string> operations;  ///< how places and heights were taken over
-  std::vector<std::string> warnings;    ///< places beside their CRS, better operations without grid
+  std::vector<Doubt> doubts;
 };
 
 }  // namespace talus

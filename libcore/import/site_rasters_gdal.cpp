@@ -28,13 +28,13 @@ Dataset open_classes(const std::string& path, const Trn& trn) {
 
 // Classes that lie beside the terrain would all read as unknown.
 void check_ground_place(GDALDataset& dataset, const std::array<double, 6>& g,
-                        const std::string& path, const Trn& trn) {
+                        const std::string& path, const Trn& trn, std::vector<Doubt>& doubts) {
   const std::string own = wkt_of(dataset.GetSpatialRef());
   CrsExtent place{
       own.empty() ? trn.crs_wkt : own,
       {g[0], g[3] + dataset.GetRasterYSize() * g[5], g[0] + dataset.GetRasterXSize() * g[1], g[3]}};
   place.is_raster = true;
-  (void)check_place(place, {path});
+  check_place(place, {path}, doubts);
 }
 
 /// One row of pixels at a time, as the terrain's rows come to them.
@@ -89,10 +89,11 @@ void check_raster_system(const std::string& raster, const std::string& terrain, 
               path, "in_system.tif"));
 }
 
-std::vector<std::int32_t> read_cell_classes(const std::string& path, const Trn& trn) {
+std::vector<std::int32_t> read_cell_classes(const std::string& path, const Trn& trn,
+                                            std::vector<Doubt>& doubts) {
   const Dataset dataset = open_classes(path, trn);
   const std::array<double, 6> g = north_up_place(*dataset, path, CellKind::classes);
-  check_ground_place(*dataset, g, path, trn);
+  check_ground_place(*dataset, g, path, trn, doubts);
   PixelRows rows{path, *dataset->GetRasterBand(1), -1, {}, {}};
   const int n_rows = trn.n_rows - 1, n_cols = trn.n_cols - 1;
   std::vector<std::int32_t> classes(static_cast<size_t>(n_rows) * static_cast<size_t>(n_cols),

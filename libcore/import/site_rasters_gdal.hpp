@@ -26,7 +26,8 @@ void check_raster_system(const std::string& raster, const std::string& terrain, 
 ///
 /// Throws InputError when the file is no raster, has not exactly one band, no place on the map, is
 /// rotated, is in another CRS (check_raster_system), or holds a value that is not a whole number.
-[[nodiscard]] std::vector<std::int32_t> read_cell_classes(const std::string& path, const Trn& trn);
+[[nodiscard]] std::vector<std::int32_t> read_cell_classes(const std::string& path, const Trn& trn,
+                                                          std::vector<Doubt>& doubts);
 
 /// What a raster `role` ("dem", "forest.upper.nrtrees_raster") holds: its system, cells and unknown
 /// value, and how large its values are. Of more than four million cells some rows are looked at.

@@ -36,11 +36,11 @@ std::string with_heights_said(const std::string& crs, const SystemsByUser& said,
 
 CrsOperation plan_operation(const std::string& from, const std::string& to, const MapWindow& window,
                             const Where& where, bool accept_ballpark,
-                            std::vector<std::string>& notes, std::vector<std::string>& warnings) {
+                            std::vector<std::string>& notes, std::vector<Doubt>& doubts) {
   CrsOperation operation = find_operation(from, to, window, where, accept_ballpark);
   notes.push_back(where.file + ": " + sentence_on(operation));
-  if (const std::string doubt = doubt_on(operation); !doubt.empty())
-    warnings.push_back(where.file + ": " + doubt);
+  if (const std::string found = doubt_on(operation); !found.empty())
+    doubts.push_back(doubt_on({where.file}, found));
   return operation;
 }
 

@@ -34,12 +34,12 @@ struct FileInSystem {
 [[nodiscard]] std::string with_heights_said(const std::string& crs, const SystemsByUser& said,
                                             const std::string& path);
 
-/// The operation in plan for what lies in `window`, with a sentence for `notes` and one of doubt
-/// for `warnings`. Throws InputError as find_operation().
+/// The operation in plan for what lies in `window`, with a sentence for `notes`. Throws InputError
+/// as find_operation().
 [[nodiscard]] CrsOperation plan_operation(const std::string& from, const std::string& to,
                                           const MapWindow& window, const Where& where,
                                           bool accept_ballpark, std::vector<std::string>& notes,
-                                          std::vector<std::string>& warnings);
+                                          std::vector<Doubt>& doubts);
 
 /// The operation that takes heights, which are in `crs`, to the system asked for; null where none
 /// is asked for or needed. Throws InputError where it is not known what they are in.

@@ -17,7 +17,7 @@ void take_plan(RawLayer& layer, RawInputs& raw) {
   const CrsOperation operation =
       plan_operation(layer.crs, raw.frame, window_of(points, layer.crs), layer.where(),
                      raw.request.accept_ballpark, layer.is_of_site() ? of_site : reading.operations,
-                     reading.warnings);
+                     reading.doubts);
   if (!carry_out(operation, points))
     throw InputError(
         layer.where(),

@@ -136,7 +136,7 @@ void add_face(const OGRGeometry& geometry, double unit_m, FaceCollector& faces,
 double unit_of_faces(const LayerRef& choice, TinFile& file) {
   const std::string drawing = file_of(choice.path);
   if (const std::string doubt = doubt_on_unit(drawing, choice.unit_m); !doubt.empty())
-    file.warnings.push_back(drawing + ": " + doubt);
+    file.doubts.push_back(doubt_on({drawing}, doubt));
   const DrawingUnit unit = drawing_unit(drawing);
   return scale_of_drawing(drawing, choice.unit_m, 1, {drawing},
                           "--unit-m " + (unit.metres > 0 ? text(unit.metres) : "METRES") +
@@ -320,12 +320,14 @@ TinFile read_landxml(const std::string& path, const std::string& layer, double u
 // --- OBJ -----------------------------------------------------------------------------------------
 
 // Some programs write y as the height, which the file does not say.
-std::string doubt_on_height(const Polyhedron& surface, const std::string& path) {
+void doubt_height(const Polyhedron& surface, const std::string& path, std::vector<Doubt>& doubts) {
   Vec3 seen = Vec3::Zero();
   for (int f = 0; f < n_faces(surface); ++f) seen += face_area_vector(surface, f).cwiseAbs();
-  if (seen.y() <= seen.z()) return {};
-  return path + ": more of it is seen along y than from above (" + text(seen.y(), 3) + " and " +
-         text(seen.z(), 3) + " m2): is y the height? Then export it with z up";
+  if (seen.y() <= seen.z()) return;
+  doubts.push_back(doubt_on({path},
+                            "more of it is seen along y than from above (" + text(seen.y(), 3) +
+                                " and " + text(seen.z(), 3) + " m2): is y the height?",
+                            "export it with z up"));
 }
 
 // A mesh names neither its unit nor its system. Polygons are cut into fans.
@@ -345,8 +347,7 @@ TinFile read_obj(const std::string& path, double user_unit_m) {
   if (faces.n_triangles() == 0) throw InputError({path}, "no face has an area in plan");
   TinFile file;
   file.notes.push_back(path + ": " + counted(faces.n_triangles(), "triangle") + ", z up");
-  if (const std::string doubt = doubt_on_height(surface, path); !doubt.empty())
-    file.warnings.push_back(doubt);
+  doubt_height(surface, path, file.doubts);
   note_upright(faces, file, path);
   file.tin = faces.take();
   return file;
@@ -415,8 +416,7 @@ std::string crs_of_tin(const Tin& tin, const SystemsByUser& said, const LayerRef
   CrsExtent place{crs, data};
   place.way_to_other_crs = way_out;
   place.crs_said_in = said.crs_given ? "--crs" : "the file";
-  for (std::string& warning : check_place(place, {path}))
-    reading.warnings.push_back(std::move(warning));
+  check_place(place, {path}, reading.doubts);
   return with_heights_said(crs, said, path);
 }
 

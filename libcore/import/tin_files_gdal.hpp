@@ -19,9 +19,9 @@ namespace talus {
 
 struct TinFile {
   Tin tin;
-  std::vector<std::string> notes;     ///< what was taken and passed over
-  std::vector<std::string> warnings;  ///< a header that says inches
-  LayerReading taken;                 ///< of a drawing; without a file: it is none
+  std::vector<std::string> notes;  ///< what was taken and passed over
+  std::vector<Doubt> doubts;       ///< a header that says inches
+  LayerReading taken;              ///< of a drawing; without a file: it is none
 };
 
 /// Faces of a drawing: 3DFACE and meshes of its only layer with faces, or of those that are chosen;

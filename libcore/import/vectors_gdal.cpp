@@ -31,7 +31,7 @@ VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt) 
   request.frame = crs_wkt;
   RawInputs raw = read_inputs(request);
   VectorShapes found = take_shapes(raw.layers.front());
-  found.warnings = std::move(raw.reading.warnings);
+  found.doubts = std::move(raw.reading.doubts);
   return found;
 }
 

@@ -36,7 +36,7 @@ struct VectorShapes : LayerReading {
   /// Of points: the fields asked for, as text; empty where a layer does not have one or it is not
   /// set.                                                                     (n_shapes x n_fields)
   std::vector<std::vector<std::string>> attributes;
-  std::vector<std::string> warnings;  ///< places beside their CRS, a better operation
+  std::vector<Doubt> doubts;  ///< places beside their CRS, a better operation
 };
 
 /// Throws InputError: source cannot be opened, no such layer or several that may be meant, nothing

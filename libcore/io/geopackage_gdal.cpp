@@ -55,7 +55,7 @@ std::unique_ptr<OGRGeometry> multi_polygon_of(const VectorFeature& feature) {
 
 std::unique_ptr<OGRGeometry> geometry_of(const VectorFeature& feature, GeometryType wanted) {
   const OGRwkbGeometryType type = ogr_type(wanted), flat = wkbFlatten(type);
-  if (type == wkbNone) return nullptr;
+  if (feature.points.empty() && feature.polygons.empty()) return nullptr;
   if (type == wkbMultiPolygon) return multi_polygon_of(feature);
   if (flat == wkbPoint) return std::make_unique<OGRPoint>(point_of(feature, 0, type));
   auto points = std::make_unique<OGRMultiPoint>();

@@ -36,6 +36,7 @@ enum class GeometryType {
 };
 
 /// Points of one feature: a point, several, a line, or the rings of polygons; map coordinates [m].
+/// None: it is written without a place.
 struct VectorFeature {
   std::vector<Vec3> points;     ///< points or a line
   std::vector<double> measure;  ///< M of each point of a line; may be empty         (n_points)

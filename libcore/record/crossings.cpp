@@ -160,11 +160,14 @@ std::vector<Vec3> posts_on_ground(const Trn& trn, const std::vector<Vec2>& corne
     const double z = elevation_at(trn, at.x(), at.y());
     if (std::isnan(z)) {
       const Vec2 place = at + trn.origin.head<2>();
-      throw InputError(where,
-                       "leaves the known terrain at (" + text(place.x(), 10) + ", " +
-                           text(place.y(), 10) + "); " + extent_text(trn),
-                       "shorten the line or make the terrain larger; if it lies far away, check "
-                       "the order (x east, y north) and the coordinate system of its points");
+      Doubt doubt = doubt_on(
+          where,
+          "leaves the known terrain at (" + text(place.x(), 10) + ", " + text(place.y(), 10) +
+              "); " + extent_text(trn),
+          "shorten the line or make the terrain larger; if it lies far away, check the order (x "
+          "east, y north) and the coordinate system of its points");
+      doubt.at = {{place.x(), place.y(), Doubt::none}};
+      throw InputError(std::move(doubt));
     }
     posts.emplace_back(at.x(), at.y(), z);
   };

@@ -30,6 +30,13 @@ struct DrawnBox {
   }
 };
 
+DrawnBox box_of(const Trn& ground) {
+  DrawnBox box;
+  box.add(node_point(ground, 0, 0).head<2>());
+  box.add(node_point(ground, ground.n_rows - 1, ground.n_cols - 1).head<2>());
+  return box;
+}
+
 // Along the outlines of an area, so that a long side is found where it passes.
 std::vector<Vec2> points_along(const NamedArea& area, double spacing) {
   std::vector<Vec2> points;
@@ -235,6 +242,22 @@ std::string label(const std::string& css_class, const std::vector<Vec2>& points,
          "\">" + xml_escaped(words) + "</text>\n";
 }
 
+// A number in a circle at the place, or at a corner of the extent.
+std::string mark(const DoubtMark& doubt, const Drawing& draw, double width) {
+  const Vec2 a = draw.at(doubt.at.front()), b = draw.at(doubt.at.back());
+  const Vec2 low = a.cwiseMin(b);
+  const double unit = width / 100;
+  std::string out = "<g class=\"doubt\"><title>" + xml_escaped(doubt.title) + "</title>";
+  if (doubt.at.size() == 2)
+    out += "<rect x=\"" + number(low.x()) + "\" y=\"" + number(low.y()) + "\" width=\"" +
+           number(std::abs(a.x() - b.x())) + "\" height=\"" + number(std::abs(a.y() - b.y())) +
+           "\"/>";
+  return out + "<circle cx=\"" + number(low.x()) + "\" cy=\"" + number(low.y()) + "\" r=\"" +
+         number(1.5 * unit) + "\"/><text font-size=\"" + number(2 * unit) +
+         "\" text-anchor=\"middle\" dy=\"0.35em\" x=\"" + number(low.x()) + "\" y=\"" +
+         number(low.y()) + "\">" + std::to_string(doubt.number) + "</text></g>\n";
+}
+
 const char* class_of(BlockOutlook outlook) {
   switch (outlook) {
     case BlockOutlook::goes:
@@ -385,6 +408,82 @@ std::string check_map_svg(const CheckView& view, const Trn& ground,
   }
   for (const NamedArea& object : view.objects)
     out += label("object-name", points_along(object, cell), object.name, draw, width, height);
+  for (const DoubtMark& doubt : view.doubts) out += mark(doubt, draw, width);
+  return out + scale_and_north({0, 0}, {width, height}) + "</svg>\n";
+}
+
+Trn thinned(const Trn& ground, int most) {
+  const int stride = std::max(1, (std::max(ground.n_rows, ground.n_cols) + most - 1) / most);
+  Trn thin = ground;
+  thin.n_rows = (ground.n_rows - 1) / stride + 1;
+  thin.n_cols = (ground.n_cols - 1) / stride + 1;
+  thin.cell_size = stride * ground.cell_size;
+  thin.elevation.clear();
+  for (int r = 0; r < thin.n_rows; ++r)
+    for (int c = 0; c < thin.n_cols; ++c)
+      thin.elevation.push_back(ground.elevation[node_index(ground, stride * r, stride * c)]);
+  return thin;
+}
+
+bool is_far(const ViewedInput& input, const Trn& ground) {
+  const DrawnBox box = box_of(ground);
+  const Vec2 reach = Vec2::Constant(2 * (box.high - box.low).maxCoeff());
+  return ((input.low - box.low).array() < -reach.array()).any() ||
+         ((input.high - box.high).array() > reach.array()).any();
+}
+
+std::string inputs_map_svg(const CheckView& view, const std::vector<ViewedInput>& inputs,
+                           const Trn& ground, std::string_view hillshade_png) {
+  const DrawnBox of_ground = box_of(ground);
+  DrawnBox box = of_ground;
+  for (const ViewedInput& input : inputs) {
+    if (is_far(input, ground)) continue;
+    box.add(input.low);
+    box.add(input.high);
+  }
+  const Vec2 margin = Vec2::Constant(0.03 * (box.high - box.low).maxCoeff());
+  box.add(box.low - margin);
+  box.add(box.high + margin);
+  Trn corner = ground;  // the drawing begins at the north-west of all
+  corner.node0 = Vec2(box.low.x(), box.high.y());
+  const Drawing draw(corner);
+  const double width = box.high.x() - box.low.x(), height = box.high.y() - box.low.y();
+  const double unit = width / 100, cell = ground.cell_size;
+  const Vec2 north_west = draw.at(ground.node0);
+  std::string out = "<svg class=\"plan check\" viewBox=\"0 0 " + number(width) + " " +
+                    number(height) + "\" role=\"img\" aria-label=\"map of the inputs\">\n" +
+                    "<image x=\"" + number(north_west.x() - cell / 2) + "\" y=\"" +
+                    number(north_west.y() - cell / 2) + "\" width=\"" +
+                    number(ground.n_cols * cell) + "\" height=\"" + number(ground.n_rows * cell) +
+                    "\" preserveAspectRatio=\"none\" href=\"" +
+                    data_address("image/png", hillshade_png) + "\"/>\n";
+  if (const double interval = contour_interval(ground); interval > 0)
+    out += shape("contour",
+                 contours(ground, draw, interval, false) + contours(ground, draw, interval, true),
+                 "contours of the terrain every " + text(interval) + " m");
+  for (const NamedArea& object : view.objects)
+    out += shape("object", rings_of(object, draw), object.title);
+  for (const auto& ring : view.source) out += shape("source", draw.path(ring, true), "source");
+  for (const ViewedFence& fence : view.fences) {
+    std::vector<Vec2> plan;
+    for (const Vec3& p : fence.line.points) plan.emplace_back(p.head<2>());
+    out += shape("fence", draw.path(plan, false), "fence " + fence.line.name);
+  }
+  std::vector<Vec2> named;
+  for (const ViewedInput& input : inputs) {
+    if (is_far(input, ground)) continue;
+    const std::vector<Vec2> ring = {
+        input.low, {input.high.x(), input.low.y()}, input.high, {input.low.x(), input.high.y()}};
+    out += shape("input", draw.path(ring, true), input.title);
+    Vec2 at = draw.at({input.low.x(), input.high.y()}) + Vec2(0.5 * unit, 2 * unit);
+    const auto is_near = [&](const Vec2& other) { return (at - other).norm() < 2.2 * unit; };
+    while (std::any_of(named.begin(), named.end(), is_near)) at.y() += 2.2 * unit;
+    named.push_back(at);
+    out += "<text class=\"input-name\" font-size=\"" + number(1.8 * unit) + "\" stroke-width=\"" +
+           number(0.5 * unit) + "\" x=\"" + number(at.x()) + "\" y=\"" + number(at.y()) + "\">" +
+           xml_escaped(input.name) + "</text>\n";
+  }
+  for (const DoubtMark& doubt : view.doubts) out += mark(doubt, draw, width);
   return out + scale_and_north({0, 0}, {width, height}) + "</svg>\n";
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "record/crossings.hpp"
+#include "report/doubts_html.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
@@ -49,6 +50,7 @@ struct CheckView {
   std::vector<Vec2> section;  ///< line of the section
   std::vector<NamedArea> objects;
   std::vector<NamedArea> surfaces;  ///< that the mass could leave on
+  std::vector<DoubtMark> doubts;
 };
 
 /// Elevation interval of contours that makes about twenty of them between two heights: 1, 2, 5 or
@@ -67,6 +69,23 @@ struct CheckView {
 /// `ground`: what part_for() gave; `hillshade_png`: a pixel a node of it.
 [[nodiscard]] std::string check_map_svg(const CheckView& view, const Trn& ground,
                                         std::string_view hillshade_png);
+
+/// A layer or raster that was read: its name, what is in it, and its extent in plan.
+struct ViewedInput {
+  std::string name, title;
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+};
+
+/// Every nth node, so that there are `most` along a side at most.
+[[nodiscard]] Trn thinned(const Trn& ground, int most);
+
+/// The whole terrain with the extent of each input, also of those that lie outside, the shapes and
+/// doubts of the view. `hillshade_png`: a pixel a node of `ground`.
+[[nodiscard]] std::string inputs_map_svg(const CheckView& view,
+                                         const std::vector<ViewedInput>& inputs, const Trn& ground,
+                                         std::string_view hillshade_png);
+/// Inputs that lie so far off the terrain that the map leaves them out.
+[[nodiscard]] bool is_far(const ViewedInput& input, const Trn& ground);
 
 /// Ground and bed along the section, heights and lengths at one scale.
 [[nodiscard]] std::string section_svg(const CheckView& view, const Trn& ground, const Trn& bed);

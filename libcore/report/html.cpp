@@ -24,6 +24,10 @@ std::string html_fact(const std::string& value, const std::string& what, const s
          "</b><span>" + what + "</span></div>\n";
 }
 
+std::string html_verdict(const std::string& kind, const std::string& content) {
+  return "<div class=\"verdict " + kind + "\">" + content + "</div>\n";
+}
+
 std::string html_marked(const std::string& section, const std::string& banner) {
   const std::size_t heading = section.find("</h2>\n");
   if (banner.empty() || heading == std::string::npos) return section;

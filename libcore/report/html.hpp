@@ -18,6 +18,8 @@ namespace talus {
 /// A value in large print, and what it is; `kind` is a class of the style sheet.
 [[nodiscard]] std::string html_fact(const std::string& value, const std::string& what,
                                     const std::string& kind = {});
+/// A statement with a mark; `kind`: pass, warn or fail.
+[[nodiscard]] std::string html_verdict(const std::string& kind, const std::string& content);
 /// A section with a banner below its heading; unchanged where there is nothing to say.
 [[nodiscard]] std::string html_marked(const std::string& section, const std::string& banner);
 

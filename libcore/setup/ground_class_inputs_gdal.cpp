@@ -50,7 +50,9 @@ std::vector<std::uint8_t> raster_classes(InputLog& log, const Site& site, const 
   }
   const std::string path = resolved(site, site.terrain.ground_raster);
   read_data(log, "ground_raster", path);
-  const std::vector<std::int32_t> values = read_cell_classes(path, trn);
+  std::vector<Doubt> doubts;
+  const std::vector<std::int32_t> values = read_cell_classes(path, trn, doubts);
+  log.doubts(doubts);
   log.content_read("ground_raster", digest_of(values));
   return classes_of_cells(values, class_of, elsewhere, path);
 }

@@ -65,8 +65,8 @@ void say_shapes(InputLog& log, const VectorShapes& found) {
   if (!found.operation.empty()) log.record(found.file + ": " + found.operation);
   for (const std::string& remark : found.remarks) log.info(found.file + ": " + remark);
   if (found.n_passed_over > 0)
-    log.warn(found.file + ": layer " + found.layer + " also holds " + found.passed_over +
-             ", passed over");
+    log.doubts({doubt_on({found.file, 0, "layer " + found.layer},
+                         "also holds " + found.passed_over + ", passed over")});
 }
 
 VectorShapes read_layer(InputLog& log, const std::string& role, const VectorQuery& query,
@@ -74,7 +74,7 @@ VectorShapes read_layer(InputLog& log, const std::string& role, const VectorQuer
   VectorShapes found = read_vectors(query, crs_wkt);
   found.role = role;
   say_shapes(log, found);
-  for (const std::string& warning : found.warnings) log.warn(warning);
+  log.doubts(found.doubts);
   log.layer_read(facts_on(found, role));
   return found;
 }

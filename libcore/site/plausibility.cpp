@@ -21,16 +21,25 @@ class Doubts {
              const std::string& hint) {
     if (!(value > limit.warn)) return;
     const bool refused = value >= limit.refuse;
-    list.push_back({key, finding, hint, value, refused ? limit.refuse : limit.warn, refused});
+    add(value, refused, key, finding, hint).high = refused ? limit.refuse : limit.warn;
   }
   // The same for a value that should stay above.
   void below(double value, const Upper& limit, const std::string& key, const std::string& finding,
              const std::string& hint) {
     if (!(value < limit.warn)) return;
     const bool refused = value < limit.refuse;
-    list.push_back({key, finding, hint, value, refused ? limit.refuse : limit.warn, refused});
+    add(value, refused, key, finding, hint).low = refused ? limit.refuse : limit.warn;
   }
   std::vector<Doubt> list;
+
+ private:
+  Doubt& add(double value, bool refused, const std::string& key, const std::string& finding,
+             const std::string& hint) {
+    Doubt& doubt = list.emplace_back();
+    doubt.what = key, doubt.found = finding, doubt.hint = hint, doubt.value = value;
+    doubt.state = refused ? DoubtState::refused : DoubtState::in_doubt;
+    return doubt;
+  }
 };
 
 constexpr double never_high = std::numeric_limits<double>::infinity(), never_low = -never_high;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "base/doubt.hpp"
+
 namespace talus {
 
 /// Steps at the foot below this many spacings are low for the blocks.
@@ -36,15 +38,7 @@ struct PlausibilityFacts {
   double left_share = none;       ///< of the fall lines that leave the terrain [-]
 };
 
-struct Doubt {
-  std::string key;      ///< of the site file, that would change it
-  std::string finding;  ///< what was found, with the usual range
-  std::string hint;     ///< what to do
-  double value = 0, limit = 0;
-  bool is_refused = false;  ///< beyond what can be meant
-};
-
-/// In a fixed order. Limits: docs/tools/talus-check.md
+/// In a fixed order, of the keys that change them. Limits: docs/tools/talus-check.md
 [[nodiscard]] std::vector<Doubt> doubts_of(const PlausibilityFacts& facts);
 
 /// What the probe says of the whole mass.

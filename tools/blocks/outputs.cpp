@@ -61,7 +61,7 @@ void write_outputs(Tool& tool, const BlocksOutputs& files, const BlocksWork& wor
                      footprint_layers(work.blocks, rings), {{"RUN_ID", tool.run_id()}});
   }
   write_pictures(tool, files, work);
-  if (!files.report.empty()) tool.write_text(files.report, json_text(report, 2) + "\n");
+  tool.report(files.report, report);
 }
 
 }  // namespace talus

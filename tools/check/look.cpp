@@ -13,6 +13,7 @@
 #include "record/object_hits.hpp"
 #include "setup/run_settings.hpp"
 #include "setup/set_up_gdal.hpp"
+#include "setup/site_places_gdal.hpp"
 #include "setup/site_scene.hpp"
 #include "setup/sliding_sets.hpp"
 #include "setup/source_cut_gdal.hpp"
@@ -309,40 +310,51 @@ double known_area(const Trn& trn) {
   return n * trn.cell_size * trn.cell_size / 2;
 }
 
+// On what stands in the middle of these points.
+void add_doubt(Look& look, const std::string& key, const std::vector<Vec2>& points,
+               const std::string& found, const std::string& hint) {
+  Doubt doubt;
+  doubt.what = key, doubt.found = found, doubt.hint = hint;
+  Vec2 sum = Vec2::Zero();
+  for (const Vec2& p : points) sum += p;
+  const Vec2 at = sum / static_cast<double>(points.size()) + look.inputs.origin.head<2>();
+  doubt.at = {{at.x(), at.y(), Doubt::none}};
+  look.doubts.push_back(std::move(doubt));
+}
+
 void doubt_objects(Look& look) {
   for (const ObjectLook& object : look.objects)
     if (object.is_in_source)
-      look.doubts.push_back({"object." + object.object.name,
-                             "it stands on the mass, and goes with it",
-                             "is it where it should be? Look at the map", 1, 0, false});
+      add_doubt(look, "object." + object.object.name, polygons_of(object.object).at(0).at(0),
+                "it stands on the mass, and goes with it",
+                "is it where it should be? Look at the map");
 }
 
 void doubt_fences(Look& look) {
   for (const FenceLook& fence : look.fences) {
     const std::string key = "fence." + fence.line.name;
+    std::vector<Vec2> posts;
+    for (const Vec3& post : fence.line.points) posts.emplace_back(post.head<2>());
     if (fence.is_in_source)
-      look.doubts.push_back({key, "a post stands in the source: the fence goes with the mass",
-                             "move the fence out of the source", 1, 0, false});
+      add_doubt(look, key, posts, "a post stands in the source: the fence goes with the mass",
+                "move the fence out of the source");
     if (!look.slides.empty() && fence.n_fall_lines == 0)
-      look.doubts.push_back(
-          {key,
-           "no fall line from the source comes to it; the nearest ends or passes " +
-               text(fence.nearest, 2) + " m away",
-           "a mass spreads beside its fall lines, and may still come: look at the "
-           "map, is it below the source?",
-           0, 1, false});
+      add_doubt(look, key, posts,
+                "no fall line from the source comes to it; the nearest ends or passes " +
+                    text(fence.nearest, 2) + " m away",
+                "a mass spreads beside its fall lines, and may still come: look at the map, is it "
+                "below the source?");
   }
 }
 
 }  // namespace
 
-Look look_at(Tool& tool, const Site& site, const CheckFiles& files) {
-  check_times(site);
-  static_cast<void>(warn_of_settings(tool, site));
-  Look look;
+void look_at(Tool& tool, const Site& site, const CheckFiles& files, Look& look) {
   look.files = files;
   look.work.site = site;
   look.work.ground = read_trn(files.trn);
+  check_times(site);
+  static_cast<void>(warn_of_settings(tool, site));
   look.inputs = read_dda_inputs(tool, site, {files.bed, files.blocks, files.settle});
   look.is_cut = look.work.is_cut();
   const Trn& bed = look.inputs.parts.trn;
@@ -355,7 +367,6 @@ Look look_at(Tool& tool, const Site& site, const CheckFiles& files) {
   look_at_paths(look);
   look_at_fences(look);
   look_at_objects(look);
-  return look;
 }
 
 bool can_be_probed(const Look& look) { return look.work.site.solver.law == "talus"; }
@@ -409,11 +420,18 @@ void find_doubts(Look& look) {
     if (look.is_probed) facts.moved_share = look.probe.moved_share;
   }
   look.doubts = doubts_of(facts);
-  if (!look.probe.fault.empty())
-    look.doubts.push_back({"solver.time_step_s", "the probe broke a limit: " + look.probe.fault,
-                           "see docs/tools/talus-dda.md, health", 1, 0, false});
+  if (!look.probe.fault.empty()) {
+    look.doubts.push_back(doubt_on({}, "the probe broke a limit: " + look.probe.fault,
+                                   "see docs/tools/talus-dda.md, health"));
+    look.doubts.back().what = "solver.time_step_s";
+  }
   doubt_fences(look);
   doubt_objects(look);
+  for (Doubt& doubt : look.doubts) {
+    doubt.where = where_of(site, doubt.what);
+    if (doubt.state == DoubtState::refused)
+      doubt.hint += "; --accept-doubts goes on with it (make CHECK_FLAGS=--accept-doubts)";
+  }
 }
 
 }  // namespace talus

@@ -85,8 +85,9 @@ struct Look {
   std::vector<Doubt> doubts;
 };
 
-/// Reads the files and looks at everything but the engine.
-[[nodiscard]] Look look_at(Tool& tool, const Site& site, const CheckFiles& files);
+/// Reads the files and looks at everything but the engine. What was found before an InputError
+/// stays.
+void look_at(Tool& tool, const Site& site, const CheckFiles& files, Look& look);
 
 /// Adds the probe: `duration` s of the run.
 void probe_look(Tool& tool, double duration, Look& look);

@@ -15,6 +15,7 @@
 #include "report/check_view.hpp"
 #include "report/html.hpp"
 #include "setup/site_places_gdal.hpp"
+#include "tools/check/inputs.hpp"
 #include "tools/check/words.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
 
@@ -26,16 +27,6 @@ std::string lines_of(const std::string& words) {
   std::string out = "<ul>\n<li>";
   for (const char c : xml_escaped(words)) c == '\n' ? out += "</li>\n<li>" : out += c;
   return out + "</li>\n</ul>\n";
-}
-
-std::string doubts_section(const Look& look) {
-  std::string out;
-  for (const Doubt& doubt : look.doubts)
-    out += "<div class=\"verdict " + std::string(doubt.is_refused ? "fail" : "warn") + "\"><b>" +
-           (doubt.is_refused ? "cannot be meant: " : "") + xml_escaped(doubt.key) +
-           "</b>: " + xml_escaped(doubt.finding) + ".<br>" + xml_escaped(doubt.hint) + "</div>\n";
-  if (out.empty()) out = "<div class=\"verdict pass\">Nothing looks other than it should.</div>\n";
-  return html_section("doubts", "Doubts", out);
 }
 
 std::string motion_section(const Look& look) {
@@ -148,8 +139,9 @@ std::vector<Vec2> section_line(const Look& look) {
   return line;
 }
 
-CheckView view_of(const Look& look) {
+CheckView view_of(const Look& look, const std::vector<Doubt>& doubts) {
   CheckView view;
+  view.doubts = marks_of(doubts, look.work.ground.origin);
   view.source = look.work.area.rings;
   for (const FenceLook& fence : look.fences) view.fences.push_back({fence.line, fence.height});
   view.cell_class = look.inputs.parts.cell_class;
@@ -158,7 +150,7 @@ CheckView view_of(const Look& look) {
   view.blocks = outlined_blocks(look);
   for (const FootStep& at : look.foot)
     view.foot.push_back({at.place, at.height, at.height > look.low_step});
-  view.section = section_line(look);
+  if (n_blocks(look.inputs.parts.blocks) > 0) view.section = section_line(look);
   for (const ObjectLook& object : look.objects)
     view.objects.push_back(
         {object.object.name, "object " + object.object.name, polygons_of(object.object)});
@@ -187,6 +179,10 @@ std::string caption_of_map(const CheckView& view, const Trn& part) {
   std::string far;
   for (const NamedArea& object : view.objects)
     if (!is_drawn(object, part)) far += (far.empty() ? "" : ", ") + xml_escaped(object.name);
+  if (!view.doubts.empty())
+    words +=
+        " <span class=\"key\"><i class=\"doubt-key\"></i>place of the doubt with this "
+        "number.</span>";
   if (!view.objects.empty())
     words += " <span class=\"key\"><i class=\"object-key\"></i>object.</span>";
   if (!far.empty()) words += " Beyond the map: " + far + ".";
@@ -208,8 +204,8 @@ std::string section_figures(const Look& look, CheckView view) {
   return out + html_figure(section_svg(view, ground, bed), "The same at the source.");
 }
 
-std::string map_section(const Look& look) {
-  CheckView view = view_of(look);
+std::string map_section(const Look& look, const std::vector<Doubt>& doubts) {
+  CheckView view = view_of(look, doubts);
   const Trn part = part_for(view, look.work.ground);
   std::string out = html_figure(check_map_svg(view, look.work.ground, hillshade_png(part)),
                                 caption_of_map(view, part));
@@ -335,20 +331,49 @@ std::string source_section(const Look& look) {
   return html_section("source", "Source", html_table({"", ""}, rows, {false, true}));
 }
 
-}  // namespace
+// Where each input lies on the whole terrain; a wrong unit, zone or file shows here.
+std::string inputs_section(const Look& look, const CheckPage& page) {
+  const Trn ground = thinned(look.work.ground, 300);
+  CheckView view = view_of(look, page.doubts);
+  const std::vector<ViewedInput> inputs = viewed_inputs(look, page.reports);
+  std::string far;
+  for (const ViewedInput& input : inputs)
+    if (is_far(input, ground)) far += (far.empty() ? "" : ", ") + xml_escaped(input.title);
+  std::string caption =
+      "All inputs over the terrain. <span class=\"key\"><i class=\"input-key\"></i>extent of an "
+      "input.</span>";
+  if (!far.empty()) caption += " Far beyond the map: " + far + ".";
+  return html_section(
+      "inputs", "Inputs",
+      html_figure(inputs_map_svg(view, inputs, ground, hillshade_png(ground)), caption));
+}
 
-std::string check_page(const Look& look, const std::string& run_id, const std::string& style) {
+std::string whole_page(const Look& look, const CheckPage& page, const std::string& sections) {
   const std::string name = xml_escaped(look.work.site.info.name);
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
          "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
          name + ": a look before the run</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n" +
-         style + "</style>\n</head>\n<body>\n<header>\n<h1>" + name +
-         "</h1>\n<p class=\"soft\">A look before the run, id <code>" + run_id +
-         "</code></p>\n</header>\n<main>\n" + doubts_section(look) + motion_section(look) +
-         map_section(look) + source_section(look) + kinematics_section(look) + locks_section(look) +
-         fence_section(look) + object_section(look) +
-         html_section("time", "Time", lines_of(time_text(look, 1, false))) +
-         "</main>\n</body>\n</html>\n";
+         page.style + "</style>\n</head>\n<body>\n<header>\n<h1>" + name +
+         "</h1>\n<p class=\"soft\">A look before the run, id <code>" + page.run_id +
+         "</code></p>\n</header>\n<main>\n" +
+         html_section("doubts", "Doubts",
+                      doubts_html(page.doubts, "Nothing looks other than it should.")) +
+         sections + "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace
+
+std::string check_page(const Look& look, const CheckPage& page) {
+  return whole_page(look, page,
+                    motion_section(look) + map_section(look, page.doubts) +
+                        inputs_section(look, page) + source_section(look) +
+                        kinematics_section(look) + locks_section(look) + fence_section(look) +
+                        object_section(look) +
+                        html_section("time", "Time", lines_of(time_text(look, 1, false))));
+}
+
+std::string refused_page(const Look& look, const CheckPage& page) {
+  return whole_page(look, page, inputs_section(look, page));
 }
 
 }  // namespace talus

@@ -8,8 +8,15 @@
 
 namespace talus {
 
-/// `style`: style sheets. The same for the same inputs.
-[[nodiscard]] std::string check_page(const Look& look, const std::string& run_id,
-                                     const std::string& style);
+struct CheckPage {
+  std::vector<Doubt> doubts;  ///< of all stages
+  std::vector<Json> reports;  ///< of the stages before
+  std::string run_id, style;  ///< style sheets
+};
+
+/// The same for the same inputs.
+[[nodiscard]] std::string check_page(const Look& look, const CheckPage& page);
+/// Of a site that cannot be looked at: the doubts, and a map of the inputs that were read.
+[[nodiscard]] std::string refused_page(const Look& look, const CheckPage& page);
 
 }  // namespace talus

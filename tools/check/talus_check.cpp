@@ -1,8 +1,6 @@
 // tools/check/talus_check.cpp
 // A look at a site before anything is computed: a picture, and what numbers say of it. Page:
 // docs/tools/talus-check.md
-#include <algorithm>
-
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "base/write_bytes.hpp"
@@ -12,6 +10,8 @@
 #include "tools/check/look.hpp"
 #include "tools/check/page.hpp"
 #include "tools/check/words.hpp"
+#include "tools/frame/doubts.hpp"
+#include "tools/frame/doubts_json.hpp"
 #include "tools/frame/hazard_recipe.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/shipped_data.hpp"
@@ -26,7 +26,8 @@ struct Options {
   std::string page, report;
   double probe_s = -1;  // chosen by the number of blocks
   std::int64_t n_runs = 0;
-  bool accept_doubts = false;
+  std::vector<std::string> reports;
+  DoubtOptions doubts;
 };
 
 void declare(Tool& tool, Options& o) {
@@ -47,7 +48,9 @@ void declare(Tool& tool, Options& o) {
   tool.flag("--independent", o.files.independent, "the runs move each block as if it were alone");
   tool.flag("--settle", o.files.settle,
             "the runs lift blocks onto the ground and move small overlaps apart");
-  tool.flag("--accept-doubts", o.accept_doubts, "go on with what cannot be meant");
+  tool.inputs("--reports", o.reports,
+              "reports of the stages before (JSON), whose doubts are shown too");
+  declare_doubts(tool, o.doubts, "go on with what cannot be meant");
   tool.footer(
       "Example:\n  talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o "
       "check.html");
@@ -59,33 +62,42 @@ void write(Tool& tool, const std::string& path, const std::string& content) {
   write_bytes(tool.stage_also_if_refused(path), {bytes, content.size()});
 }
 
-bool has_refused(const Look& look) {
-  return std::any_of(look.doubts.begin(), look.doubts.end(),
-                     [](const Doubt& doubt) { return doubt.is_refused; });
-}
-
 // As long as the probe stays a matter of seconds.
 double probe_duration(const Options& o, const Look& look) {
-  if (!can_be_probed(look) || (has_refused(look) && !o.accept_doubts)) return 0;
+  if (!can_be_probed(look) ||
+      (refusal_of(look.doubts).state == DoubtState::refused && !o.doubts.accept))
+    return 0;
   if (o.probe_s >= 0) return o.probe_s;
   constexpr double most_cpu_s = 20;
   const double second = cpu_s_of_a_packed_second(n_blocks(look.inputs.parts.blocks), probe_step_s);
   return 4 * second <= most_cpu_s ? 4 : second <= most_cpu_s ? 1 : 0;
 }
 
-void refuse_what_cannot_be_meant(const Site& site, const Look& look) {
-  std::string findings;
-  const Doubt* first = nullptr;
-  for (const Doubt& doubt : look.doubts) {
-    if (!doubt.is_refused) continue;
-    if (first == nullptr) first = &doubt;
-    findings += (findings.empty() ? "" : "; ") + doubt.finding;
+// With what the stages before found, then what this one did.
+CheckPage page_of(Tool& tool, const Options& o, const std::vector<Doubt>& last) {
+  CheckPage page;
+  for (const std::string& file : o.reports) {
+    page.reports.push_back(Json::parse(read_file(file), nullptr, false));
+    if (!page.reports.back().is_object())
+      throw InputError({file}, "is no report", "name those that talus tools write (--report)");
+    for (Doubt& doubt : doubts_of(page.reports.back())) page.doubts.push_back(std::move(doubt));
   }
-  if (first != nullptr)
-    throw InputError(where_of(site, first->key), findings,
-                     first->hint +
-                         "; --accept-doubts goes on with it (make "
-                         "CHECK_FLAGS=--accept-doubts)");
+  for (const std::vector<Doubt>& own : {tool.doubts_found(), last})
+    page.doubts.insert(page.doubts.end(), own.begin(), own.end());
+  page.run_id = tool.run_id();
+  page.style = shipped_data("report/report.css") + shipped_data("check/check.css");
+  return page;
+}
+
+// What cannot be looked at is drawn as far as it was read.
+void look_or_show(Tool& tool, const Options& o, const Site& site, Look& look) {
+  try {
+    look_at(tool, site, o.files, look);
+  } catch (const InputError& error) {
+    if (!o.page.empty() && !look.work.ground.elevation.empty())
+      write(tool, o.page, refused_page(look, page_of(tool, o, {error.doubt()})));
+    throw;
+  }
 }
 
 }  // namespace
@@ -108,19 +120,18 @@ int main(int argc, char** argv) {
       tool.read_also("recipe", *file);
       static_cast<void>(parse_recipe(read_file(*file), *file));
     }
-    Look look = look_at(tool, site, o.files);
+    Look look;
+    look_or_show(tool, o, site, look);
     find_doubts(look);
     probe_look(tool, probe_duration(o, look), look);
     if (tool.interrupted()) throw Interrupted();
     find_doubts(look);
     const Json report = check_json(look, tool.run_id());
-    if (!o.page.empty())
-      write(tool, o.page,
-            check_page(look, tool.run_id(),
-                       shipped_data("report/report.css") + shipped_data("check/check.css")));
-    if (!o.report.empty()) write(tool, o.report, json_text(report, 2) + "\n");
-    for (const Doubt& doubt : look.doubts) tool.record(doubt.key + ": " + doubt.finding);
-    if (!o.accept_doubts) refuse_what_cannot_be_meant(site, look);
+    if (o.doubts.accept) accept(look.doubts);
+    if (!o.page.empty()) write(tool, o.page, check_page(look, page_of(tool, o, look.doubts)));
+    tool.report(o.report, report, true);
+    o.doubts.crs_wkt = look.work.ground.crs_wkt;
+    static_cast<void>(judge(tool, o.doubts, look.doubts));
     tool.result(report, check_text(look, o.n_runs > 0 ? o.n_runs : site.solver.n_runs));
   });
 }

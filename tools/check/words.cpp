@@ -187,14 +187,7 @@ std::string time_text(const Look& look, std::int64_t n_runs, bool of_this_machin
 
 Json check_json(const Look& look, const std::string& run_id) {
   const Site& site = look.work.site;
-  Json doubts = Json::array(), fences = Json::array();
-  for (const Doubt& doubt : look.doubts)
-    doubts.push_back({{"key", doubt.key},
-                      {"finding", doubt.finding},
-                      {"hint", doubt.hint},
-                      {"value", number_or_null(doubt.value)},
-                      {"limit", number_or_null(doubt.limit)},
-                      {"refused", doubt.is_refused}});
+  Json fences = Json::array();
   for (const FenceLook& fence : look.fences)
     fences.push_back({{"fence", fence.line.name},
                       {"stands", fence.stands},
@@ -213,7 +206,6 @@ Json check_json(const Look& look, const std::string& run_id) {
   Json json = {{"tool", "talus-check"},
                {"site", site.info.name},
                {"run_id", run_id},
-               {"doubts", doubts},
                {"n_blocks", n_blocks(look.inputs.parts.blocks)}};
   if (look.is_cut) {
     json["source"] = source_json(look);
@@ -242,11 +234,7 @@ std::string check_text(const Look& look, std::int64_t n_runs) {
       look.is_cut ? source_text(look) : counted(n_blocks(look.inputs.parts.blocks), "block");
   words += "\n" + motion_text(look) + fences_text(look) + objects_text(look) + "\n" +
            time_text(look, n_runs, true);
-  if (look.doubts.empty()) return words + "\nno doubts";
-  for (const Doubt& doubt : look.doubts)
-    words += std::string("\n") + (doubt.is_refused ? "REFUSED: " : "doubt: ") + doubt.key + ": " +
-             doubt.finding + "\n  hint: " + doubt.hint;
-  return words;
+  return words + "\n" + counted(std::ssize(look.doubts), "doubt");
 }
 
 }  // namespace talus

@@ -158,7 +158,7 @@ void say_reading(Tool& tool, const ImportReading& reading) {
     tool.info(operation);
     tool.record(operation);
   }
-  for (const std::string& warning : reading.warnings) tool.warn(warning);
+  tool.doubts(reading.doubts);
   for (const LayerReading& layer : reading.layers) tool.layer_read(facts_on(layer, layer.role));
 }
 

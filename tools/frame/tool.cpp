@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iostream>
 #include <set>
+#include <utility>
 
 #include "base/file_paths.hpp"
 #include "base/memory.hpp"
@@ -19,6 +20,7 @@
 #include "base/text.hpp"
 #include "store/runs.hpp"
 #include "tools/frame/command_line.hpp"
+#include "tools/frame/doubts_json.hpp"
 #include "tools/frame/exit_code.hpp"
 #include "tools/frame/gone_options.hpp"
 #include "tools/frame/options.hpp"
@@ -60,6 +62,13 @@ struct CallForDescription : CLI::Success {};
 constexpr const char *info_level = "info", *warning_level = "warning", *error_level = "error",
                      *hint_level = "hint";
 
+void write_whole(const std::string& path, const std::string& content) {
+  std::ofstream file(path, std::ios::binary);
+  file << content;
+  file.close();
+  if (!file) throw InputError({path}, std::string("cannot be written: ") + std::strerror(errno));
+}
+
 // The role, in the registry, of a file that does not count by its bytes.
 constexpr const char* by_content_role = "by content";
 
@@ -85,6 +94,9 @@ struct Tool::Impl {
   bool are_outputs_checked = false;
   Json result;
   Json layers_read = Json::array();
+  std::vector<Doubt> doubts;
+  std::vector<std::pair<std::string, Json>> reports;  // where they are written for now
+  std::vector<std::function<void()>> at_end;
   std::string summary;
   bool registered = false;  // to be recorded; record.id is 0 while it has no row
   bool is_late = false;     // the registry was locked once: it is not waited for again
@@ -245,6 +257,14 @@ struct Tool::Impl {
     }
   }
 
+  void write_at_end() {
+    for (const auto& work : at_end) work();
+    for (auto& [path, json] : reports) {
+      add_doubts(doubts, json);
+      write_whole(path, json_text(json, 2) + "\n");
+    }
+  }
+
   void commit_outputs() {
     timespec now{};
     clock_gettime(CLOCK_REALTIME, &now);
@@ -260,10 +280,7 @@ struct Tool::Impl {
 
   void print_result() {
     if (options.json && !result.is_null()) {
-      Json warnings = Json::array();
-      for (const RunEvent& e : record.events)
-        if (e.level == "warning") warnings.push_back(e.text);
-      if (!warnings.empty()) result["warnings"] = warnings;
+      add_doubts(doubts, result);
       std::cout << json_text(result, 2) << '\n';
     } else if (!options.json && !options.quiet && !summary.empty()) {
       std::cout << labelled(printable(summary)) << '\n';
@@ -278,13 +295,14 @@ struct Tool::Impl {
 
   // What helps to mend an input that was refused. A failure here must not hide the first one.
   void keep_places() {
-    std::vector<StagedFile> kept;
-    for (const StagedFile& file : staged)
-      if (std::count(kept_if_refused.begin(), kept_if_refused.end(), file.path) > 0)
-        kept.push_back(file);
     timespec now{};
     clock_gettime(CLOCK_REALTIME, &now);
     try {
+      write_at_end();
+      std::vector<StagedFile> kept;
+      for (const StagedFile& file : staged)
+        if (std::count(kept_if_refused.begin(), kept_if_refused.end(), file.path) > 0)
+          kept.push_back(file);
       put_in_place(kept, now);
     } catch (const InputError& error) {
       say(error_level, error.what());
@@ -313,6 +331,8 @@ struct Tool::Impl {
     } catch (const UsageError& error) {
       return fail(usage_wrong, error.what(), error.hint());
     } catch (const InputError& error) {
+      // one of several that were refused has been told
+      if (refusal_of(doubts).state != DoubtState::refused) doubts.push_back(error.doubt());
       return fail(input_unusable, error.what(), error.hint());
     } catch (const NumericsError& error) {
       return fail(numbers_failed, error.what(), "");
@@ -333,6 +353,7 @@ struct Tool::Impl {
     body();
     progress_line.done();
     if (stop_requested()) throw Interrupted();
+    write_at_end();
     commit_outputs();
     print_result();
     for (std::size_t i = 0; i < record.checks.size(); ++i) {
@@ -427,11 +448,16 @@ std::string Tool::stage_also_if_refused(const std::string& path) {
 }
 
 void Tool::write_text(const std::string& path, const std::string& content) {
-  std::ofstream file(stage(path), std::ios::binary);
-  file << content;
-  file.close();
-  if (!file) throw InputError({path}, std::string("cannot be written: ") + std::strerror(errno));
+  write_whole(stage(path), content);
 }
+
+void Tool::report(const std::string& path, Json content, bool also_if_refused) {
+  if (path.empty()) return;
+  impl_->reports.emplace_back(also_if_refused ? stage_also_if_refused(path) : stage(path),
+                              std::move(content));
+}
+
+void Tool::at_end(std::function<void()> work) { impl_->at_end.push_back(std::move(work)); }
 
 void Tool::read_also(const std::string& role, const std::string& path) {
   impl_->add_input(role, path);
@@ -457,11 +483,26 @@ void Tool::read_by_content(const std::string& path) {
 
 bool Tool::interrupted() const { return stop_requested(); }
 
+// A sentence a group. What is refused is said as the error that follows.
+void Tool::doubts(const std::vector<Doubt>& found) {
+  impl_->doubts.insert(impl_->doubts.end(), found.begin(), found.end());
+  const CLI::Option* const layer = app().get_option_no_throw("--doubts");
+  for (const DoubtGroup& group : groups_of(found)) {
+    if (group.first->state == DoubtState::refused) continue;
+    impl_->event(warning_level, sentence_on(group));
+    if (impl_->options.quiet) continue;
+    impl_->say(warning_level, sentence_on(group));
+    std::string hint = group.first->hint;
+    if (group.n > 1 && layer != nullptr && layer->count() == 0)
+      hint += (hint.empty() ? "" : "; ") + std::string("--doubts places.gpkg writes all");
+    impl_->say_hint(hint);
+  }
+}
+
 void Tool::note(Severity severity, const std::string& text) {
-  if (severity == Severity::warning) impl_->event("warning", text);
   if (severity == Severity::record) return impl_->event("info", text);
   if (impl_->options.quiet || (severity == Severity::detail && !impl_->options.verbose)) return;
-  impl_->say(severity == Severity::warning ? warning_level : info_level, text);
+  impl_->say(info_level, text);
 }
 
 void Tool::layer_read(const LayerRead& layer) {
@@ -473,6 +514,8 @@ void Tool::layer_read(const LayerRead& layer) {
 }
 
 const Json& Tool::layers_read() const { return impl_->layers_read; }
+
+const std::vector<Doubt>& Tool::doubts_found() const { return impl_->doubts; }
 
 void Tool::metric(const std::string& name, double value, const std::string& unit) {
   impl_->record.metrics.push_back({name, value, unit});

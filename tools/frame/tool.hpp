@@ -84,22 +84,29 @@ class Tool : public InputLog {
   /// The same, but put in place also where the body refuses its input (InputError): places to look
   /// at.
   [[nodiscard]] std::string stage_also_if_refused(const std::string& path);
+  /// Stages `path`, which is written at the end with all doubts that there are by then.
+  void report(const std::string& path, Json content, bool also_if_refused = false);
+  /// Before the outputs are put in place, also where the body refuses its input.
+  void at_end(std::function<void()> work);
   /// Stages `path` and writes `content` into it. Throws InputError when it cannot be written.
   void write_text(const std::string& path, const std::string& content);
   // As InputLog: files beside the options' values (named in a site file, member of a set), layers,
-  // which become entries of `layers_read` in what --json prints, and notes: to stderr, not with -q,
-  // details with -v alone; warnings are kept in the registry and in result().
+  // which become entries of `layers_read` in what --json prints, doubts, which are kept in the
+  // registry, in reports and in result(), and notes: both to stderr, not with -q, details with -v
+  // alone. What ends the work is a doubt too.
   void read_also(const std::string& role, const std::string& path) override;
   void read_by_content(const std::string& path) override;
   void content_read(const std::string& role, const std::string& digest) override;
   void layer_read(const LayerRead& layer) override;
+  void doubts(const std::vector<Doubt>& found) override;
   void note(Severity severity, const std::string& text) override;
   /// A file that the site file names, whether or not it is read: no output may be it.
   void keep(const std::string& path);
   /// To hand to long work; throws Interrupted after SIGINT, SIGTERM or SIGHUP.
   [[nodiscard]] ProgressFunction progress() override;
-  [[nodiscard]] bool interrupted() const;         ///< one of these has come
-  [[nodiscard]] const Json& layers_read() const;  ///< of layer_read(), in order
+  [[nodiscard]] bool interrupted() const;                        ///< one of these has come
+  [[nodiscard]] const Json& layers_read() const;                 ///< of layer_read(), in order
+  [[nodiscard]] const std::vector<Doubt>& doubts_found() const;  ///< of doubts(), in order
   void metric(const std::string& name, double value, const std::string& unit);
   /// A limit of the run's health; a failed one makes the exit code 3 once the outputs are in place,
   /// and is said with `hint`, the way out.

@@ -13,6 +13,7 @@
 #include "io/data_files_gdal.hpp"
 #include "setup/site_shapes_gdal.hpp"
 #include "setup/vector_inputs_gdal.hpp"
+#include "tools/frame/doubts.hpp"
 #include "tools/frame/import_options.hpp"
 #include "tools/frame/site_options.hpp"
 
@@ -23,6 +24,7 @@ using namespace talus;  // NOLINT: a program of its own
 struct Options {
   ImportOptions ground;
   std::string dem, out, report;
+  DoubtOptions doubts;
 };
 
 // The ground stands in [terrain], and what belongs to it where no option gives it. Of an elevation
@@ -136,6 +138,7 @@ void run_tool(Tool& tool, const Site& site, Options& o) {
   const Imported inputs = import_inputs(request, reading);
   say_reading(tool, reading);
   for (const VectorShapes& shapes : inputs.shapes) say_shapes(tool, shapes);
+  o.doubts.crs_wkt = inputs.map.crs_wkt;
   reading.layers.insert(reading.layers.end(), rasters.begin(), rasters.end());
   write_canonical(tool.stage(o.out), request, inputs, reading);
   Json report = {{"tool", "talus-import"},
@@ -149,7 +152,7 @@ void run_tool(Tool& tool, const Site& site, Options& o) {
   }
   report["notes"] = reading.notes;
   report["operations"] = reading.operations;
-  if (!o.report.empty()) tool.write_text(o.report, json_text(report, 2) + "\n");
+  tool.report(o.report, report);
   tool.result(report, summary);
 }
 
@@ -162,6 +165,7 @@ int main(int argc, char** argv) {
   declare_import_options(tool, o.ground);
   tool.output("-o,--out", o.out, "layers in metres and in one system (GeoPackage)")->required();
   tool.output("--report", o.report, "every decision, and how large the numbers are (JSON)");
+  declare_doubts_layer(tool, o.doubts);
   tool.footer("Example:\n  talus-import site.toml -o inputs.gpkg --report import.json");
   return tool.run(argc, argv, [&] { run_tool(tool, site.load(), o); });
 }

@@ -74,10 +74,10 @@ std::vector<Vec3> read_line(Tool& tool, const Options& o, const Trn& trn) {
                      "give either --line \"x,y x,y ...\" or --line-file FILE");
   if (!o.line.empty()) {
     const std::vector<Vec3> points = points_of(o.line);
-    if (!trn.crs_wkt.empty() && !points.empty())
-      for (const std::string& warning :
-           check_place({trn.crs_wkt, window_of(points), trn.crs_wkt}, where_of_line(o)))
-        tool.warn(warning);
+    std::vector<Doubt> doubts;
+    if (!points.empty())
+      check_place({trn.crs_wkt, window_of(points), trn.crs_wkt}, where_of_line(o), doubts);
+    tool.doubts(doubts);
     return points;
   }
   read_members(tool, "line-file", o.line_file);

@@ -26,7 +26,8 @@ struct ReportData {
   const Site& site;
   Texts texts;                                                          ///< the words of the page
   Json tin, trn, blocks, runout, fence, places, hazard, trace, search;  ///< reports of tools
-  Trn terrain, bed;  ///< before the slide; what the blocks slide on
+  std::vector<Doubt> doubts;  ///< of the stages, from the import to the look before the runs
+  Trn terrain, bed;           ///< before the slide; what the blocks slide on
   std::string mobility_svg, stereonet_svg, sizes_svg, curves_csv;
   std::vector<std::string> search_svgs;  ///< of each fence search
   MapSheet sheet;                        ///< what the maps share

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "report/doubts_html.hpp"
 #include "report/html.hpp"
 #include "tools/report/basis.hpp"
 #include "tools/report/course.hpp"
@@ -73,6 +74,7 @@ std::string page_head(const ReportData& data, const std::string& style) {
                                   {"uncertainty", "nav.uncertainty"},
                                   {"curves", "nav.curves"},
                                   {"health", "nav.health"},
+                                  {"doubts", "nav.doubts"},
                                   {"assumed", "nav.assumed"},
                                   {"plan", "nav.plan"},
                                   {"provenance", "nav.provenance"}}) {
@@ -136,8 +138,11 @@ std::string report_page(const ReportData& data, const PageFiles& files) {
   if (const std::string drawn = uncertainty_section(data); !drawn.empty())
     main += html_marked(drawn, xml_escaped(remark));
   for (const std::string& section :
-       {curve_section(data), health_section(data), assumption_section(data), plan_section(data),
-        provenance_section(data)})
+       {curve_section(data), health_section(data),
+        html_section("doubts", data.texts.of("doubts.title"),
+                     html_note(data.texts.of("doubts.what")) +
+                         doubts_html(data.doubts, data.texts.of("doubts.none"))),
+        assumption_section(data), plan_section(data), provenance_section(data)})
     main += html_marked(section, xml_escaped(remark));
   const std::string first = remark.empty() ? fence_remark : remark;
   main = html_marked(result_section(data), xml_escaped(first)) + main;

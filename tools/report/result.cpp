@@ -58,10 +58,6 @@ std::string extreme_percentile(const Texts& texts, const Json& spread, const cha
       {{"percentile", percentile}, {"value", number_text(value_at(spread, {percentile})) + unit}});
 }
 
-std::string html_verdict(const std::string& kind, const std::string& content) {
-  return "<div class=\"verdict " + kind + "\">" + content + "</div>\n";
-}
-
 std::string trouble_tiles(const ReportData& data) {
   std::string out;
   const Texts& texts = data.texts;

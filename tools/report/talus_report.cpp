@@ -2,10 +2,12 @@
 // The results of a site as one HTML file and as a QGIS project. Page: docs/tools/talus-report.md
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "base/file_paths.hpp"
 #include "base/read_file.hpp"
@@ -26,6 +28,7 @@
 #include "report/texts.hpp"
 #include "report/zip.hpp"
 #include "tools/frame/build_info.hpp"
+#include "tools/frame/doubts_json.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/shipped_data.hpp"
@@ -181,6 +184,7 @@ void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<RunPlac
     if (data.n_in_parts > 0) tool.read_also("part", file.string());
   data.faults = faults_of(members);
   data.repeats = repeats_text(members);
+  for (const std::string& line : warnings_of(members)) data.doubts.push_back(doubt_on({}, line));
   if (const std::string words = talus::text(data.faults); !words.empty())
     tool.warn(words + ": every part of the report says so");
 }
@@ -467,6 +471,11 @@ ReportData read_data(Tool& tool, const Site& site, const std::string& texts, Res
   read_registry(tool.registry(), folder, places, progress, data);
   leave_out_of_other_work(tool.registry(), folder, data);
   warn_of_changed_inputs(tool, folder, data.steps);
+  std::vector<Doubt> of_runs = std::exchange(data.doubts, {});
+  for (const Json& report :
+       {folder.json("import.json"), data.tin, data.trn, data.blocks, folder.json("check.json")})
+    std::ranges::move(doubts_of(report), std::back_inserter(data.doubts));
+  std::ranges::move(of_runs, std::back_inserter(data.doubts));
   data.run_id = tool.run_id();
   return data;
 }

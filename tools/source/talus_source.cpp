@@ -179,7 +179,7 @@ int main(int argc, char** argv) {
                   ? "joint sets are assumed from the slope"
                   : "no plane daylights at the foot of the source: " + what_would_go(work.planes);
     }
-    if (!o.report.empty()) tool.write_text(o.report, json_text(report, 2) + "\n");
+    tool.report(o.report, report);
     tool.result(report, words);
   });
 }

@@ -1,6 +1,7 @@
-// Heights and meetings of a contour map that need a look: said, written as places, refused.
+// tools/tin/doubts.hpp
+// Heights and meetings of a contour map that need a look.
 // in:    a map, its triangulation, what the user accepts
-// out:   cleaned lines; warnings, the layer of places; InputError for what cannot be
+// out:   cleaned lines, doubts
 #pragma once
 
 #include <cstdint>
@@ -10,37 +11,36 @@
 
 #include "terrain/contours.hpp"
 #include "terrain/outliers.hpp"
-#include "tools/frame/doubts_layer.hpp"
-#include "tools/frame/tool.hpp"
+#include "tools/frame/doubts.hpp"
 
 namespace talus {
 
-struct DoubtOptions {
-  std::string layer;    ///< file of the places; empty: none
-  bool accept = false;  ///< heights that cannot be are taken all the same
+struct TinDoubtOptions : DoubtOptions {
   double tolerance_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN: from the map
 };
 
-/// Features of the lines of a map, which outlive the lines.
+/// Features of the lines of a map, which outlive the lines, and the files that they are of.
 struct LineFeatures {
   std::vector<std::int64_t> contours, breaklines;
+  std::string contour_file, breakline_file, spot_file;
 };
 
 /// Lines that meet at their ends only. Contours of different heights that meet within the tolerance
-/// are moved apart in `map`; rows and `report` say what was done. Throws InputError, after the
-/// places were written, where lines still meet.
-[[nodiscard]] CleanLines clean_or_mend(Tool& tool, const DoubtOptions& options, ContourMap& map,
-                                       std::vector<DoubtRow>& rows, Json& report);
+/// are moved apart in `map`, which the tool is told of; `report` says what was done. Throws
+/// InputError where lines still meet.
+[[nodiscard]] CleanLines clean_or_mend(Tool& tool, const TinDoubtOptions& options, ContourMap& map,
+                                       Json& report);
 
-/// Contours, breaklines and spot heights lower than any land.
-[[nodiscard]] std::vector<DoubtRow> rows_below_land(const ContourMap& map);
+/// Contours, breaklines and spot heights, or points, lower than any land.
+[[nodiscard]] std::vector<Doubt> doubts_below_land(const ContourMap& map,
+                                                   const LineFeatures& features,
+                                                   const char* of_points);
 
-[[nodiscard]] std::vector<DoubtRow> rows_of(const std::vector<Outlier>& outliers,
-                                            const LineFeatures& features, const Vec3& origin);
-
-/// Warns of rows in doubt, writes the layer, and gives the rows for the report. Throws InputError
-/// naming `source` where a row is refused and not accepted.
-[[nodiscard]] Json say_doubts(Tool& tool, const DoubtOptions& options, const std::string& source,
-                              const std::string& crs_wkt, std::vector<DoubtRow>& rows);
+/// A height at `place` that stands off those beside it, `low` to `high`.
+[[nodiscard]] Doubt height_doubt(const std::string& source, const char* what, const Vec3& place,
+                                 double low, double high, bool is_impossible);
+/// But for those below all land.
+[[nodiscard]] std::vector<Doubt> doubts_of(const std::vector<Outlier>& outliers,
+                                           const LineFeatures& features, const Vec3& origin);
 
 }  // namespace talus

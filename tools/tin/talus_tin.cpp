@@ -37,7 +37,7 @@ struct Options {
   std::string flat = "fill";
   double fill_spacing_m = 0;
   int hold_out_every = 0;
-  talus::DoubtOptions doubts;
+  talus::TinDoubtOptions doubts;
 };
 
 std::string check_every(const std::string& word) {
@@ -64,9 +64,7 @@ void declare(Tool& tool, Options& o) {
               "contours of different heights that meet are moved apart by at most this [m]; "
               "0: refused; not given: the accuracy that their bends show")
       ->check(talus::check_not_negative);
-  tool.output("--doubts", o.doubts.layer,
-              "places to look at, also of a map that is refused (GeoPackage)");
-  tool.flag("--accept-doubts", o.doubts.accept, "take heights that cannot be, and say so");
+  talus::declare_doubts(tool, o.doubts, "take heights that cannot be, and say so");
   tool.output("--report", o.report, "what was read, cleaned and mended (JSON)");
   tool.footer(
       "Example:\n  talus-tin contours.gpkg -o slope.tin.ply --report slope.tin.json\n"
@@ -83,6 +81,7 @@ void check_together(const Options& o) {
 
 ContourMap read_map(Tool& tool, Options& o, talus::ImportReading& reading) {
   ContourMap map = talus::import_map(o.request, reading);
+  o.doubts.crs_wkt = map.crs_wkt;
   if (!o.inputs.of_points) talus::check_heights(map);
   tool.content_read("map", talus::map_digest(map));
   talus::say_reading(tool, reading);
@@ -143,12 +142,15 @@ Json as_json(const talus::CleaningCounts& c) {
 // One of two measured heights of a place is taken: a bridge, or a mistake.
 void warn_of_measured(Tool& tool, const talus::CleaningCounts& c, const talus::Vec3& origin) {
   if (c.measured_apart == 0) return;
-  tool.warn("breaklines and spot heights meet at different heights in " +
-            talus::counted(static_cast<std::int64_t>(c.measured_apart), "place") + ", by up to " +
-            text(c.measured_apart_m, 3) + " m at x " +
-            text(c.measured_apart_at.x() + origin.x(), 10) + ", y " +
-            text(c.measured_apart_at.y() + origin.y(), 10) +
-            ": one of them is taken; leave out what crosses on a bridge");
+  talus::Doubt doubt;
+  doubt.what = "meeting of breaklines and spot heights";
+  doubt.at = {c.measured_apart_at + origin};
+  doubt.value = c.measured_apart_m;
+  doubt.found = "they meet at different heights in " +
+                talus::counted(static_cast<std::int64_t>(c.measured_apart), "place") +
+                ", by up to " + text(c.measured_apart_m, 3) + " m here: one of them is taken";
+  doubt.hint = "leave out what crosses on a bridge";
+  tool.doubts({doubt});
 }
 
 Json as_json(const ContourMap& map, const talus::LayerReading& taken) {
@@ -190,13 +192,27 @@ void ask_for_memory(const ContourMap& map, std::size_t n_points) {
                         "take a part of the map (--boundary), or simplify its lines");
 }
 
+// Of a file that talus-import wrote, all are layers of it.
+talus::LineFeatures features_of(const Options& o, const ContourMap& map) {
+  const auto file = [&map](const talus::LayerRef& ref) {
+    return ref.path.empty() ? map.source : ref.path;
+  };
+  return {map.contours.feature, map.breaklines.feature, map.source, file(o.inputs.breaklines),
+          file(o.inputs.spots)};
+}
+
+void judge_heights(Tool& tool, const Options& o, std::vector<talus::Doubt> doubts, Json& report) {
+  const std::string accepted = talus::judge(tool, o.doubts, std::move(doubts));
+  if (!accepted.empty()) report["accepted_places"] = accepted;
+}
+
 // Triangles of the cleaned lines, mended as asked for. Frees what it no longer needs as it goes.
 talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Json& report) {
   ask_for_memory(map, map.contours.points.size() + map.breaklines.points.size() + map.spots.size());
   const double interval = talus::contour_interval(map);
-  std::vector<talus::DoubtRow> rows = talus::rows_below_land(map);
-  talus::CleanLines clean = talus::clean_or_mend(tool, o.doubts, map, rows, report);
-  const talus::LineFeatures features{map.contours.feature, map.breaklines.feature};
+  const talus::LineFeatures features = features_of(o, map);
+  std::vector<talus::Doubt> doubts = talus::doubts_below_land(map, features, "spot height");
+  talus::CleanLines clean = talus::clean_or_mend(tool, o.doubts, map, report);
   const int n_lines =
       map.contours.n_lines() + map.breaklines.n_lines() + static_cast<int>(map.spots.size());
   talus::forget_lines(map);
@@ -208,13 +224,11 @@ talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Jso
   clean.segments = {};
   talus::TriangleMesh mesh;
   refresh_inside(map, triangulation, o, o.flat == "keep", mesh);
-  const std::vector<talus::DoubtRow> off = talus::rows_of(
+  const std::vector<talus::Doubt> off = talus::doubts_of(
       talus::find_outliers(mesh, {std::move(clean.line), measured.first, n_lines}, interval),
       features, map.origin);
-  rows.insert(rows.end(), off.begin(), off.end());
-  report["in_doubt"] = talus::say_doubts(tool, o.doubts, map.source, map.crs_wkt, rows);
-  if (o.doubts.accept) report["doubts_accepted"] = true;
-  if (o.doubts.accept) report["accepted_places"] = talus::accepted_places(rows);
+  doubts.insert(doubts.end(), off.begin(), off.end());
+  judge_heights(tool, o, std::move(doubts), report);
   const std::vector<std::uint8_t> flat = find_flat_triangles(mesh, measured);
   const talus::AreaShare before = area_of(mesh, flat);
   report["flat"] = {{"mode", o.flat}, {"share_before", before.share()}};
@@ -286,17 +300,12 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
   talus::ImportReading reading;
   ContourMap map = read_map(tool, o, reading);
   ask_for_memory(map, map.spots.size());
-  std::vector<talus::DoubtRow> rows = talus::rows_below_land(map);
-  for (talus::DoubtRow& row : rows) row.what = "point";
+  std::vector<talus::Doubt> doubts = talus::doubts_below_land(map, features_of(o, map), "point");
   talus::PointMesh found = talus::mesh_of_points(std::move(map.spots), map.source);
-  for (const talus::PointDoubt& doubt : found.doubts) {
-    talus::DoubtRow row;
-    row.what = "point";
-    row.place = doubt.place + map.origin;
-    row.expected_low = doubt.low + map.origin.z(), row.expected_high = doubt.high + map.origin.z();
-    row.outcome = doubt.is_impossible ? "refused" : "in doubt";
-    rows.push_back(std::move(row));
-  }
+  for (const talus::PointDoubt& off : found.doubts)
+    doubts.push_back(talus::height_doubt(map.source, "point", off.place + map.origin,
+                                         off.low + map.origin.z(), off.high + map.origin.z(),
+                                         off.is_impossible));
   Json report = {{"tool", "talus-tin"},
                  {"source", o.inputs.contours.path},
                  {"run_id", tool.run_id()},
@@ -308,9 +317,7 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
                    {"n_repeated", found.n_repeated},
                    {"repeated_differ_m", found.repeated_differ_m}}},
                  {"layers_read", tool.layers_read()}};
-  report["in_doubt"] = talus::say_doubts(tool, o.doubts, map.source, map.crs_wkt, rows);
-  if (o.doubts.accept) report["doubts_accepted"] = true;
-  if (o.doubts.accept) report["accepted_places"] = talus::accepted_places(rows);
+  judge_heights(tool, o, std::move(doubts), report);
   if (found.repeated_differ_m > talus::same_height_m)
     tool.warn("of points at one place the mean height is taken; they differ by up to " +
               text(found.repeated_differ_m, 2) + " m");
@@ -354,7 +361,7 @@ int main(int argc, char** argv) {
     talus::Tin tin;
     const Json report = o.inputs.of_points ? build_of_points(tool, o, tin) : build(tool, o, tin);
     talus::write_tin(tool.stage(o.out), tin);
-    if (!o.report.empty()) tool.write_text(o.report, talus::json_text(report, 2) + "\n");
+    tool.report(o.report, report);
     tool.result(report, o.inputs.of_points ? summary_of_points(report) : summary_of(report));
   });
 }

@@ -23,7 +23,7 @@
 #include "terrain/lone_levels.hpp"
 #include "terrain/trn_quality.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/doubts_layer.hpp"
+#include "tools/frame/doubts.hpp"
 #include "tools/frame/import_options.hpp"
 #include "tools/frame/options.hpp"
 
@@ -48,8 +48,7 @@ struct Options {
   talus::LayerRef reference_points, faces;
   double cell_size_m = 0;
   MapWindow window = everywhere;
-  std::string doubts;
-  bool accept_doubts = false;
+  talus::DoubtOptions doubts;
 };
 
 // --- command line ------------------------------------------------------------------------------
@@ -91,9 +90,7 @@ void declare(Tool& tool, Options& o) {
   tool.option("--elevation-field", o.reference_points.elevation_field,
               "field with the elevation of --reference-points, or Z; empty: found by itself");
   tool.output("--report", o.report, "errors, slopes, coverage (JSON)");
-  tool.output("--doubts", o.doubts,
-              "places to look at, also of ground that is refused (GeoPackage)");
-  tool.flag("--accept-doubts", o.accept_doubts, "take ground that cannot be, and say so");
+  talus::declare_doubts(tool, o.doubts, "take ground that cannot be, and say so");
   tool.output("--hillshade", o.hillshade, "picture of the terrain (PNG)");
   tool.footer(
       "Example:\n  talus-trn slope.ply -o slope.tif --cell-size-m 5 --report slope.json\n"
@@ -160,35 +157,36 @@ void check_frame(const GridFrame& frame, const MapWindow& data, const Options& o
 
 // A surface that folds over, or has a second layer, has two heights in one place; a terrain has
 // one.
-void judge_layers(Tool& tool, const Options& o, const std::string& finding, Ground& ground) {
-  if (!o.accept_doubts)
-    throw InputError(
-        {o.source}, finding + "; expected one height in each place",
-        "write the ground alone to the file; --accept-doubts takes one of the heights");
-  tool.warn(finding + ": one of the heights is taken");
-  ground.accepted = finding;
+void judge_layers(Tool& tool, const Options& o, const std::string& finding, const talus::Vec3& at,
+                  Ground& ground) {
+  talus::Doubt doubt;
+  doubt.where.file = o.source;
+  doubt.what = "second layer";
+  doubt.at = {at};
+  doubt.found = finding;
+  doubt.expected = "one height in each place";
+  doubt.hint = "write the ground alone to the file; --accept-doubts takes one of the heights";
+  doubt.state = talus::DoubtState::refused;
+  ground.accepted = talus::judge(tool, o.doubts, {doubt});
 }
 
 void check_folds(Tool& tool, const Options& o, const talus::TinFile& file, Ground& ground) {
   if (file.tin.is_judged) return;
   const talus::FoldedEdges folded = talus::find_folded_edges(file.tin);
   if (folded.n == 0) return;
-  const talus::Vec3 place = folded.first + file.tin.origin;
   judge_layers(tool, o,
-               "the surface folds over or has two layers at " + talus::counted(folded.n, "edge") +
-                   ", the first at x " + text(place.x(), 10) + ", y " + text(place.y(), 10),
-               ground);
+               "the surface folds over or has two layers at " + talus::counted(folded.n, "edge"),
+               folded.first + file.tin.origin, ground);
 }
 
 void check_two_heights(Tool& tool, const Options& o, const talus::TwoHeights& two,
                        const GridFrame& frame, Ground& ground) {
   if (two.n == 0 || !ground.accepted.empty()) return;
   judge_layers(tool, o,
-               "the surface has two layers at " + talus::counted(two.n, "node") +
-                   ", the first at x " + text(frame.x(two.col), 10) + ", y " +
-                   text(frame.y(two.row), 10) + ": " + text(std::min(two.z, two.other), 8) +
-                   " and " + text(std::max(two.z, two.other), 8) + " m",
-               ground);
+               "the surface has two layers at " + talus::counted(two.n, "node") + ", here " +
+                   text(std::min(two.z, two.other), 8) + " and " +
+                   text(std::max(two.z, two.other), 8) + " m",
+               {frame.x(two.col), frame.y(two.row), std::max(two.z, two.other)}, ground);
 }
 
 talus::LayerRef faces_of(const Options& o) {
@@ -209,7 +207,7 @@ Ground ground_of_tin(Tool& tool, const Options& o) {
             o.crs.t_vertical);
   talus::TinFile file = talus::read_tin_file(faces_of(o));
   for (const std::string& note : file.notes) tool.info(note);
-  for (const std::string& warning : file.warnings) tool.warn(warning);
+  tool.doubts(file.doubts);
   if (!file.taken.file.empty()) tool.layer_read(talus::facts_on(file.taken, "source"));
   const talus::Tin& tin = file.tin;
   Ground ground;
@@ -221,7 +219,7 @@ Ground ground_of_tin(Tool& tool, const Options& o) {
   const std::string crs =
       talus::crs_of_tin(tin, talus::systems_by_user(o.crs), faces_of(o), reading);
   for (const std::string& note : reading.notes) tool.info(note);
-  for (const std::string& warning : reading.warnings) tool.warn(warning);
+  tool.doubts(reading.doubts);
   const double natural_size = talus::natural_cell_size(tin);
   if (natural_size <= 0)
     throw InputError({o.source}, "no triangle has an area in plan, expected a surface");
@@ -246,7 +244,7 @@ void say(Tool& tool, const talus::DemReading& reading) {
     tool.info(note);
     tool.record(note);
   }
-  for (const std::string& warning : reading.warnings) tool.warn(warning);
+  tool.doubts(reading.doubts);
 }
 
 bool has_node_below_land(const Trn& trn) {
@@ -257,7 +255,7 @@ bool has_node_below_land(const Trn& trn) {
 Ground ground_of_dem(Tool& tool, const Options& o) {
   talus::DemOptions options;
   static_cast<talus::SystemsByUser&>(options) = talus::systems_by_user(o.crs);
-  options.accepts_doubts = o.accept_doubts;
+  options.accepts_doubts = o.doubts.accept;
   options.window = o.window;
   if (o.faces.unit_m != 0)
     throw talus::UsageError({"", 0, o.source}, "--unit-m is for faces (DXF, OBJ, LandXML)",
@@ -333,7 +331,6 @@ talus::ErrorStatistics errors_against_points(Tool& tool, const Trn& trn,
   talus::say_reading(tool, reading);
   notes = reading.notes;
   notes.insert(notes.end(), reading.operations.begin(), reading.operations.end());
-  notes.insert(notes.end(), reading.warnings.begin(), reading.warnings.end());
   talus::ErrorCollector errors;
   for (const talus::Vec3& point : truth)
     errors.add(trn, point.x() - trn.origin.x(), point.y() - trn.origin.y(), point.z());
@@ -428,114 +425,28 @@ void add_errors(Tool& tool, const talus::ErrorStatistics& errors, const std::str
 
 // --- what to look at -----------------------------------------------------------------------------
 
-const char* name_of(talus::GroundDoubtKind kind) {
-  switch (kind) {
-    case talus::GroundDoubtKind::below_land:
-      return "below all land";
-    case talus::GroundDoubtKind::level:
-      return "level area";
-    case talus::GroundDoubtKind::rim:
-      return "rim";
-    case talus::GroundDoubtKind::seam:
-      return "seam";
-    default:
-      return "step";
-  }
-}
-
-talus::DoubtRow row_of(const talus::GroundDoubt& doubt, const Trn& trn) {
-  talus::DoubtRow row;
-  row.what = name_of(doubt.kind);
-  row.place = talus::node_point(trn, doubt.row, doubt.col) + trn.origin;
-  row.expected_low = row.expected_high = doubt.expected + trn.origin.z();
-  return row;
-}
-
-std::string place_of(const talus::DoubtRow& row) {
-  return text(row.place.z(), 6) + " m at x " + text(row.place.x(), 10) + ", y " +
-         text(row.place.y(), 10);
-}
-
-// What a kind of doubt means, in one sentence with the first place.
-std::string sentence_on(talus::GroundDoubtKind kind, std::int64_t n, const talus::DoubtRow& first,
-                        const Trn& trn) {
-  const std::string apart = text(talus::doubtful_step(trn.cell_size), 4);
-  switch (kind) {
-    case talus::GroundDoubtKind::below_land:
-      return talus::counted(n, "node") + " lower than any land (" + text(talus::lowest_land) +
-             " m), the first " + place_of(first);
-    case talus::GroundDoubtKind::level:
-      return talus::counted(n, "level area") + " more than " + apart +
-             " m off most of what is beside, the first " + place_of(first) +
-             ": is it undeclared nodata?";
-    case talus::GroundDoubtKind::rim:
-      return talus::counted(n, "node") + " at the rim of what is known more than " + apart +
-             " m off the next, the first " + place_of(first) + ": is it blended with nodata?";
-    case talus::GroundDoubtKind::seam:
-      return talus::counted(n, "seam") + ", a step of one height along a straight line of nodes, " +
-             "the first " + text(std::abs(first.expected_low - first.place.z()), 3) +
-             " m through " + place_of(first) +
-             ": do two tiles, sources or height systems meet there?";
-    default:
-      return talus::counted(n, "step") + " of more than " +
-             text(talus::impossible_step(trn.cell_size), 4) +
-             " m from one node to the next, the first from " + place_of(first) + " to " +
-             text(first.expected_low, 6) + " m: is it ground?";
-  }
-}
-
-// Areas before the steps around them: they are what was accepted.
-std::string places_to_tell(std::vector<talus::DoubtRow> rows) {
-  std::stable_partition(rows.begin(), rows.end(), [](const talus::DoubtRow& row) {
-    return row.what != name_of(talus::GroundDoubtKind::step);
-  });
-  return accepted_places(rows);
-}
-
 // Says what the ground's own neighbours do not bear out; refuses what no land is, unless the tool
 // that wrote the source has judged it.
-Json doubts_of(Tool& tool, const Options& o, Ground& ground) {
-  using talus::GroundDoubtKind;
-  const Trn& trn = ground.trn;
-  const std::vector<talus::GroundDoubt> doubts = talus::find_ground_doubts(trn);
-  const bool takes_all = o.accept_doubts || ground.was_judged;
-  std::vector<talus::DoubtRow> rows;
-  for (const talus::GroundDoubt& doubt : doubts) {
-    const bool is_refused = doubt.kind == GroundDoubtKind::below_land && !takes_all;
-    rows.push_back(row_of(doubt, trn));
-    rows.back().outcome = o.accept_doubts ? "accepted" : is_refused ? "refused" : "in doubt";
-  }
-  talus::write_doubts(tool, o.doubts, trn.crs_wkt, rows);
-  if (const std::string places = places_to_tell(rows); !places.empty())
+void judge_ground(Tool& tool, const Options& o, Ground& ground) {
+  std::vector<talus::Doubt> doubts = talus::find_ground_doubts(ground.trn, o.source);
+  if (o.doubts.accept)
+    for (talus::Doubt& doubt : doubts)
+      if (doubt.what == talus::level_area) doubt.state = talus::DoubtState::accepted;
+  if (!o.doubts.accept && ground.was_judged) talus::accept(doubts);
+  const std::string places = talus::judge(tool, o.doubts, std::move(doubts));
+  if (o.doubts.accept && !places.empty())
     ground.accepted += (ground.accepted.empty() ? "" : "; ") + places;
-  Json json = Json::object();
-  for (const GroundDoubtKind kind :
-       {GroundDoubtKind::below_land, GroundDoubtKind::level, GroundDoubtKind::rim,
-        GroundDoubtKind::step, GroundDoubtKind::seam}) {
-    std::int64_t n = 0;
-    const talus::DoubtRow* first = nullptr;
-    for (std::size_t i = 0; i < doubts.size(); ++i)
-      if (doubts[i].kind == kind && n++ == 0) first = &rows[i];
-    if (n == 0) continue;
-    const std::string sentence = sentence_on(kind, n, *first, trn);
-    json[name_of(kind)] = n;
-    if (kind == GroundDoubtKind::below_land && !takes_all)
-      throw InputError({o.source}, sentence,
-                       "declare them as nodata, or mend the units; --accept-doubts takes ground "
-                       "below the sea (make "
-                       "TRN_FLAGS=--accept-doubts)");
-    tool.warn(sentence + (o.doubts.empty() ? " (--doubts places.gpkg writes all)" : ""));
-  }
-  return json;
 }
 
 Json report_on(Tool& tool, const Options& o, Ground& ground) {
   const Trn& trn = ground.trn;
   const talus::SlopeStatistics slopes = talus::slope_statistics(trn);
-  Json report = {{"tool", "talus-trn"},      {"source", o.source},
-                 {"run_id", tool.run_id()},  {"grid", as_json(trn, slopes)},
-                 {"slope", as_json(slopes)}, {"in_doubt", doubts_of(tool, o, ground)}};
-  if (o.accept_doubts || !ground.accepted.empty()) report["doubts_accepted"] = true;
+  Json report = {{"tool", "talus-trn"},
+                 {"source", o.source},
+                 {"run_id", tool.run_id()},
+                 {"grid", as_json(trn, slopes)},
+                 {"slope", as_json(slopes)}};
+  judge_ground(tool, o, ground);
   if (!ground.accepted.empty()) report["accepted_places"] = ground.accepted;
   if (!ground.operations.empty()) report["operations"] = ground.operations;
   if (!o.reference.empty())
@@ -566,11 +477,12 @@ int main(int argc, char** argv) {
     talus::read_members(tool, "reference-points", o.reference_points.path);
     Ground ground = talus::is_tin_file(o.source) ? ground_of_tin(tool, o) : ground_of_dem(tool, o);
     talus::check_trn(ground.trn, o.source);
+    o.doubts.crs_wkt = ground.trn.crs_wkt;
     tool.content_read("terrain", talus::trn_digest(ground.trn));
     const Json report = report_on(tool, o, ground);
     talus::write_trn(tool.stage(o.out), ground.trn, {{{"RUN_ID", tool.run_id()}}, ground.accepted});
     if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), ground.trn);
-    if (!o.report.empty()) tool.write_text(o.report, talus::json_text(report, 2) + "\n");
+    tool.report(o.report, report);
     tool.result(report, summary_of(report));
   });
 }

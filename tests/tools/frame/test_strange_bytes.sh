@@ -19,7 +19,7 @@ old=$(printf 'h\366hen')
 printf hello >"$old.txt"
 expect 0 frame-probe "$old.txt" -o "out $old.txt" --json
 clean out err
-prints '"warnings"'
+prints '"doubts"'
 expect 1 frame-probe "$old.txt" -o "out $old.txt" --label "$escape[2J"
 says 'out h\xf6hen.txt: exists already'
 clean out err

@@ -17,9 +17,9 @@ expect 0 look
 prints "of blocks, "
 prints "will it move: "
 prints "at the foot it leans on a step of up to"
-prints "doubt: source.failure_surface: the mass leans on a step of up to"
+says "source.failure_surface: the mass leans on a step of up to"
 prints "fence low: 26 m long"
-prints "doubt: fence.high: no fall line from the source comes to it"
+says "fence.high, x 500023, y 5200042: no fall line from the source comes to it"
 prints "time: a run takes about"
 for part in "Will it move?" 'class="plan check"' 'class="section"' 'class="step"' "Blocks that hold others" \
   "stereonet" "fall lines that come to it"; do
@@ -42,6 +42,33 @@ expect 0 talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o
 cmp -s check.html first.html || fail "the count of runs changed the page"
 prints "40 runs about"
 
+# What the stages before doubted is numbered, in words and on the map; every input lies over the terrain,
+# also what is outside.
+cat >before.json <<'END'
+{"layers": [{"name": "contours", "file": "map.gpkg", "magnitudes": {"x_m": {"lowest": 499900, "highest": 500100}, "y_m": {"lowest": 5199950, "highest": 5200100}}}],
+ "doubts": [{"state": "accepted", "file": "map.gpkg", "what": "contour", "feature": 5, "expected": "1040 m", "hint": "mend it", "n": 3, "at": [[500020, 5200020, 0]]}]}
+END
+seen() {
+  talus-check "$1" --trn trn.tif --bed bed.tif --blocks blocks.h5 -o check.html --report check.json --overwrite --no-db \
+    --probe-s 0 --reports before.json --doubts doubts.gpkg
+}
+expect 0 seen site.toml
+for part in '<b>1</b> <b>accepted:</b> map.gpkg: 3 contours, the first at 0 m, feature 5, x 500020, y 5200020: expected 1040 m' \
+  'class="doubt"' 'map of the inputs' 'class="input"' '>contours</text>' '>fence.low</text>'; do
+  grep -qF "$part" check.html || fail "the page does not have: $part"
+done
+! grep -q '1040 m' check.json || fail "the report repeats doubts of other stages"
+[ "$(ogrinfo -so doubts.gpkg doubts | sed -n 's/Feature Count: //p')" = "$(grep -c '"state"' check.json)" ] ||
+  fail "the layer has other doubts than the report"
+# A site that cannot be looked at has a page that shows why, and where its inputs lie
+{ cat site.toml; printf '[fence.off]\nline = [[500500, 5200006], [500536, 5200006]]\n'; } >off.toml
+rm check.html
+expect 1 seen off.toml
+for part in 'map of the inputs' '>source</text>' '<b>refused:</b> off.toml'; do
+  grep -qF "$part" check.html || fail "the page of a refused site does not have: $part"
+done
+says "off.toml"
+
 # Objects are drawn and named, and so is what could leave on a plane; one on the mass is doubted.
 cat site.toml >bare.toml
 cat >>site.toml <<'EOF'
@@ -55,7 +82,7 @@ EOF
 expect 0 look
 prints "object road: "
 prints "fall lines come to it"
-prints "doubt: object.hut: it stands on the mass"
+says "object.hut, x 500022, y 5200030: it stands on the mass"
 for part in 'class="object"' '>road</text>' '>hut</text>' 'class="proposed"' '<td>house</td>'; do
   grep -qF "$part" check.html || fail "the page does not have: $part"
 done
@@ -80,7 +107,7 @@ says "are parallel"
 # Friction above the dip: it stands.
 expect 0 look --set ground.rock.friction_deg=60 --set material.rock.friction_deg=60
 prints "it stands"
-prints "this is not a rockslide"
+says "this is not a rockslide"
 if grep -q "ends after 3 s" out; then fail "a mass with a splinter that falls off ends early"; fi
 expect 0 look --set ground.rock.friction_deg=60 --set material.rock.friction_deg=60 --set source.min_block_volume_m3=10
 prints "a run in which nothing moves ends after 3 s"
@@ -102,9 +129,9 @@ expect 1 deep
 says "deep on average"
 says "of the relief over it"
 says "--accept-doubts goes on with it"
-grep -q "cannot be meant" check.html || fail "the page does not say what is refused"
+grep -q "refused:" check.html || fail "the page does not say what is refused"
 expect 0 deep --accept-doubts
-prints "REFUSED: source.depth_m"
+says "source.depth_m: the mass is"
 
 # Faults that the engine would find late, and that talus-hazard would find after all runs
 cp site.toml no_recipe.toml

@@ -31,9 +31,9 @@ refused "cannot be opened as vectors" talus-tin "$source_dir/LICENSE"
 
 # crossing and touching contours: the place and both heights
 lines "100:500000,5200000;500100,5200100" "110:500000,5200100;500100,5200000" >crossing.geojson
-refused "contour at 100 m meets contour at 110 m at x 500050, y 5200050" talus-tin crossing.geojson
+refused "contour at 100 m, feature 0, x 500050, y 5200050: meets contour at 110 m" talus-tin crossing.geojson
 lines "100:500000,5200000;500100,5200000" "110:500050,5200000;500050,5200100" >touching.geojson
-refused "meets contour at 110 m at x 500050, y 5200000" talus-tin touching.geojson
+refused "x 500050, y 5200000: meets contour at 110 m" talus-tin touching.geojson
 
 # coordinates that are no numbers: the second point's y in a shapefile of plain lines
 lines "100:500000,5200000;500100,5200000" "110:500000,5200100;500100,5200100" >plain.geojson

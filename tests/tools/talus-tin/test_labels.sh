@@ -26,7 +26,7 @@ expect 1 talus-tin 'map.dxf|layername=CONTOURS' --crs EPSG:32632 -o bad.ply
 says "have no elevation"
 sed 's/^810 m$/8100/' map.dxf >wrong.dxf
 expect 1 talus-tin 'wrong.dxf|layername=CONTOURS' --labels 'wrong.dxf|layername=LABELS' --crs EPSG:32632 -o bad.ply
-says "contour at 8100 m"
+says "the first at 8100 m, feature 3"
 nothing_left bad.ply
 # texts of a layer of points, in a field of another name
 ogr2ogr -q -f GPKG texts.gpkg map.dxf -sql "SELECT Text AS words FROM entities WHERE Layer = 'LABELS'" -nln texts

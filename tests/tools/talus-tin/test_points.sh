@@ -31,16 +31,16 @@ talus-trn part.ply -o part.tif --cell-size-m 5 --no-db -q
 # what a point cannot be, and what may be: refused, warned of, written as places
 sed '400s/;[0-9.]*;GR/;0;GR/' survey.csv >zero.csv
 expect 1 talus-tin zero.csv --points -o bad.ply --crs EPSG:32632 --doubts zero.gpkg
-says "1 height cannot be; the first: point at 0 m"
+says "zero.csv: point at 0 m"
 nothing_left bad.ply
 [ "$(ogrinfo -so zero.gpkg doubts | grep 'Feature Count')" = "Feature Count: 1" ] || fail "one place expected"
 expect 0 talus-tin zero.csv --points -o zero.ply --crs EPSG:32632 --accept-doubts
 awk -F';' -v OFS=';' 'NR == 400 { $4 += 100 } 1' survey.csv >spike.csv
 expect 0 talus-tin spike.csv --points -o spike.ply --crs EPSG:32632
-says "the points beside it stand at"
+says "m, as beside it"
 (cat survey.xyz; sed -n '5s/$/9/p' survey.xyz | awk '{ print $1, $2, $3 + 4 }') >twice.xyz
 expect 1 talus-tin twice.xyz --points -o bad.ply --crs EPSG:32632
-says "1 height cannot be"
+says "m, as beside it"
 (cat survey.xyz; echo 503000 5200100 850) >far.xyz
 expect 0 talus-tin far.xyz --points -o far.ply --crs EPSG:32632
 says "warning: triangles span gaps of up to"

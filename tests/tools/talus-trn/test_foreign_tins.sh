@@ -40,7 +40,7 @@ cmp ground.bin faces.dxf.bin || fail "the layer of the ground is another terrain
 expect 1 talus-trn 'roof.dxf|layername=*' -o bad.tif --crs EPSG:25832
 says "the surface folds over or has two layers at 1 edge"
 expect 0 talus-trn 'roof.dxf|layername=TIN,roof' -o roof.tif --crs EPSG:25832 --accept-doubts
-says "warning: the surface folds over"
+says "warning: roof.dxf|layername=TIN,roof: second layer"
 # a drawing in feet is refused; the hint's option scales plan and heights
 { printf '0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n2\n0\nENDSEC\n'; cat faces.dxf; } >feet.dxf
 expect 1 talus-trn feet.dxf -o bad.tif --crs none

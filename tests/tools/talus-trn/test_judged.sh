@@ -93,7 +93,7 @@ with open('wall.xml', 'w') as f:
     f.write('</Faces></Definition></Surface></Surfaces></LandXML>')
 PY
 expect 0 talus-trn wall.xml -o wall.tif --crs EPSG:32632 --cell-size-m 10 --no-db
-says "warning: 2 level areas"
+says "warning: wall.xml: 2 level areas"
 expect 0 talus-blocks site.toml --trn wall.tif -o wall.h5 --trn-out wall_bed.tif --no-db
 expect 0 talus-dda site.toml --trn wall_bed.tif --blocks wall.h5 -o wall_run.h5 --no-db
 

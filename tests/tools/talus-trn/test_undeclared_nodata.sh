@@ -49,7 +49,7 @@ grid 'r < 6 || c < 8' 0
 expect 1 talus-trn grid.tif -o bad.tif --no-db
 says "(talus-trn --accept-doubts takes it as ground, make TRN_FLAGS=--accept-doubts)"
 expect 0 talus-trn grid.tif -o accepted.tif --no-db --accept-doubts --report accepted.json
-grep -q '"doubts_accepted": true' accepted.json || fail "the report does not say it"
+grep -q '"accepted_places": "level area' accepted.json || fail "the report does not say it"
 gdalinfo accepted.tif | grep -q 'DOUBTS_ACCEPTED=level area at 0 m, x 650002.5, y 5200202.5' || fail "the terrain does not say it"
 expect 0 talus-trn accepted.tif -o again.tif --no-db
 ! gdalinfo good.tif | grep -q DOUBTS || fail "a sound terrain says it"
@@ -59,18 +59,19 @@ grid 0 0
 awk 'NR > 5 { $1 = 500 + 7 * (NR % 9) } 1' grid.asc >rim.asc
 gdal_translate -q -ot Float32 -a_srs EPSG:25832 rim.asc rim.tif
 expect 0 talus-trn rim.tif -o rim.trn.tif --no-db --doubts rim.gpkg --report rim.json
-says "warning: 41 nodes at the rim of what is known more than 25 m off the next"
-grep -q '"rim": 41' rim.json || fail "$(grep -A3 in_doubt rim.json)"
-[ "$(ogrinfo -so rim.gpkg doubts | grep 'Feature Count')" = "Feature Count: 41" ] || fail "41 places expected"
+says "warning: rim.tif: 41 rim nodes, the first at"
+grep -q '"rim node": 41' rim.json || fail "$(grep -A3 n_doubts rim.json)"
+[ "$(ogrinfo -so -where "what = 'rim node'" rim.gpkg doubts | grep 'Feature Count')" = "Feature Count: 41" ] || fail "41 places expected"
 grid 'r > 10 && r < 14 && c > 10 && c < 14' 1000
 expect 0 talus-trn grid.tif -o level.tif --no-db
-says "warning: 1 level area more than 25 m off most of what is beside, the first 1000 m"
+says "warning: grid.tif: level area at 1000 m"
 grid 'r > 10 && c > 10' -510
 expect 1 talus-trn grid.tif -o bad.tif --no-db
 awk 'NR > 5 { for (c = 1; c <= NF; ++c) $c -= 1600 } 1' rim.asc >deep.asc
 gdal_translate -q -ot Float32 -a_srs EPSG:25832 deep.asc deep.tif
 expect 1 talus-trn deep.tif -o bad.tif --no-db --doubts deep.gpkg
-says "nodes lower than any land (-500 m), the first"
+says "sunken nodes, the first at"
+says "lower than any land; expected -500 m or more"
 nothing_left bad.tif
 [ -f deep.gpkg ] || fail "no places of what was refused"
 expect 0 talus-trn deep.tif -o deep.trn.tif --no-db --accept-doubts

@@ -44,7 +44,7 @@ TEST_F(Canonical, WhatIsWrittenIsReadBackToTheBit) {
   ASSERT_EQ(back.boundary.size(), 1U);
   EXPECT_EQ(back.boundary[0].points, map.boundary[0].points);
   EXPECT_TRUE(read.operations.empty());
-  EXPECT_TRUE(read.warnings.empty());
+  EXPECT_TRUE(read.doubts.empty());
 }
 
 // A program that only looks at a GeoPackage may change its bytes.

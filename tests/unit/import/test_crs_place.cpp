@@ -22,7 +22,7 @@ MapWindow window_at(double x, double y) { return {x, y, x + 200, y + 200}; }
 
 struct Outcome {
   std::string refusal, hint;
-  std::vector<std::string> warnings;
+  std::vector<talus::Doubt> doubts;
 
   [[nodiscard]] bool says(const char* words) const {
     return refusal.find(words) != std::string::npos;
@@ -32,7 +32,7 @@ struct Outcome {
 Outcome outcome_of(const CrsExtent& place) {
   Outcome outcome;
   try {
-    outcome.warnings = check_place(place, {"map.gpkg"});
+    check_place(place, {"map.gpkg"}, outcome.doubts);
   } catch (const InputError& error) {
     outcome.refusal = error.what();
     outcome.hint = error.hint();
@@ -62,7 +62,7 @@ TEST(CrsPlace, MapsWhereTheyBelongAreTakenWithoutAWord) {
         Case{"EPSG:31467", 3550000, 5300000}, Case{"EPSG:3035", 4321000, 3210000}}) {
     const Outcome outcome = outcome_at(c.crs, c.x, c.y);
     EXPECT_EQ(outcome.refusal, "") << c.crs;
-    EXPECT_TRUE(outcome.warnings.empty()) << c.crs << ": " << outcome.warnings.front();
+    EXPECT_TRUE(outcome.doubts.empty()) << c.crs << ": " << sentence_on(outcome.doubts.front());
   }
 }
 
@@ -192,8 +192,8 @@ TEST(CrsPlace, OtherSignsAreNamed) {
 TEST(CrsPlace, BesideTheAreaIsWarnedOfAndFarFromItRefused) {
   const Outcome beside = outcome_at("EPSG:25832", 820000, 5200000);  // 13.2 degrees east
   EXPECT_EQ(beside.refusal, "");
-  ASSERT_EQ(beside.warnings.size(), 1u);
-  EXPECT_NE(beside.warnings[0].find("lie outside the area"), std::string::npos);
+  ASSERT_EQ(beside.doubts.size(), 1u);
+  EXPECT_NE(beside.doubts[0].found.find("lie outside the area"), std::string::npos);
   EXPECT_TRUE(outcome_at("EPSG:31287", 650000, 5200000).says("lie outside the area"));
   EXPECT_TRUE(outcome_at("EPSG:2056", 650000, 5200000).says("lie outside the area"));
   EXPECT_TRUE(outcome_at("EPSG:4326", 11, 47, "EPSG:2193").says("lie outside the area"));
@@ -203,7 +203,7 @@ TEST(CrsPlace, BesideTheAreaIsWarnedOfAndFarFromItRefused) {
 TEST(CrsPlace, AWideExtentInOneZoneIsWarnedOf) {
   const Outcome bergen = outcome_at("EPSG:25833", -31540, 6735100);  // 6.7 degrees beside
   EXPECT_EQ(bergen.refusal, "");
-  EXPECT_EQ(bergen.warnings.size(), 2u) << "beside the area, and north askew by 8 degrees";
+  EXPECT_EQ(bergen.doubts.size(), 2u) << "beside the area, and north askew by 8 degrees";
   EXPECT_EQ(outcome_at("EPSG:32719", -250000, 6000000).refusal, "");  // 8 degrees beside, in Chile
   EXPECT_TRUE(outcome_at("EPSG:25833", -600000, 6735100).says("lie outside the area"));  // 1.5 %
   EXPECT_TRUE(outcome_at("EPSG:32633", 500000, -1500000).says("lie outside the area"));
@@ -219,7 +219,7 @@ TEST(CrsPlace, TheOtherHemisphereOfAZoneIsReprojected) {
     EXPECT_EQ(named.hint, "--t-srs EPSG:32719 reprojects");
     const Outcome taken = outcome_at(crs, 350000, -1650000, "EPSG:32719");
     EXPECT_EQ(taken.refusal, "") << crs;
-    EXPECT_TRUE(taken.warnings.empty()) << crs;
+    EXPECT_TRUE(taken.doubts.empty()) << crs;
   }
   EXPECT_EQ(outcome_at("EPSG:32733", 400000, 11500000).hint, "--t-srs EPSG:32633 reprojects");
 }
@@ -241,8 +241,8 @@ TEST(CrsPlace, NorthOfTheMapFarOffNorthIsWarnedOf) {
   const Outcome outcome =
       outcome_at("EPSG:3035", 5500000, 4500000);  // 21 degrees east of its middle
   EXPECT_EQ(outcome.refusal, "");
-  ASSERT_EQ(outcome.warnings.size(), 1u);
-  EXPECT_NE(outcome.warnings[0].find("degrees off north"), std::string::npos);
+  ASSERT_EQ(outcome.doubts.size(), 1u);
+  EXPECT_NE(outcome.doubts[0].found.find("degrees off north"), std::string::npos);
 }
 
 TEST(CrsPlace, LocalMetresHaveNoPlace) {

@@ -28,6 +28,8 @@ class ClassRaster : public testing::Test {
     return path;
   }
 
+  std::vector<talus::Doubt> doubts;
+
   // 4 x 6 cells of 5 m, the north-west corner at (248000, 351000).
   static Trn terrain() {
     return talus::make_trn({5, 7, 5, {248000, 351000}}, talus::crs_from_user("EPSG:31287", "--crs"),
@@ -44,7 +46,7 @@ TEST_F(ClassRaster, GivesTheValueUnderEachCellsCentre) {
   const double nan = std::nan("");
   const std::string path =
       write(10, {248015, 350995}, 1, 2, {7, nan});  // pixel centres: rows 0-1, columns 2-3 and 4-5
-  const std::vector<std::int32_t> classes = talus::read_cell_classes(path, terrain());
+  const std::vector<std::int32_t> classes = talus::read_cell_classes(path, terrain(), doubts);
   ASSERT_EQ(classes.size(), 24u);
   for (int row = 0; row < 4; ++row)
     for (int col = 0; col < 6; ++col)
@@ -59,9 +61,10 @@ TEST_F(ClassRaster, FitsATerrainInTheSamePlan) {
   Trn ground = terrain();
   ground.crs_wkt = talus::crs_from_user("EPSG:31287+5773", "--crs");
   const std::string path = write(10, {248005, 350995}, 1, 1, {1});
-  EXPECT_EQ(talus::read_cell_classes(path, ground)[0], 1);
+  EXPECT_EQ(talus::read_cell_classes(path, ground, doubts)[0], 1);
   try {
-    (void)talus::read_cell_classes(write(10, {248005, 350995}, 1, 1, {1}, "EPSG:32632"), ground);
+    (void)talus::read_cell_classes(write(10, {248005, 350995}, 1, 1, {1}, "EPSG:32632"), ground,
+                                   doubts);
     FAIL() << "accepted";
   } catch (const talus::InputError& error) {
     EXPECT_NE(error.hint().find(
@@ -73,11 +76,13 @@ TEST_F(ClassRaster, FitsATerrainInTheSamePlan) {
 
 TEST_F(ClassRaster, RefusesOtherSystemsAndFractions) {
   EXPECT_THROW((void)talus::read_cell_classes(write(10, {248005, 350995}, 1, 1, {1}, "EPSG:32632"),
-                                              terrain()),
+                                              terrain(), doubts),
                talus::InputError);
-  EXPECT_THROW((void)talus::read_cell_classes(write(10, {248005, 350995}, 1, 1, {1.5}), terrain()),
+  EXPECT_THROW(
+      (void)talus::read_cell_classes(write(10, {248005, 350995}, 1, 1, {1.5}), terrain(), doubts),
+      talus::InputError);
+  EXPECT_THROW((void)talus::read_cell_classes("/no/such/file.tif", terrain(), doubts),
                talus::InputError);
-  EXPECT_THROW((void)talus::read_cell_classes("/no/such/file.tif", terrain()), talus::InputError);
 }
 
 }  // namespace

@@ -91,14 +91,14 @@ TEST(TinFiles, AnObjIsATin) {
   EXPECT_EQ(file.tin.triangles.size(), 2U);
   EXPECT_NEAR(volume_above(file.tin, 10), 50 * 100 * 10, 1e-6);
   EXPECT_EQ(file.notes[0], path + ": 2 triangles, z up");
-  EXPECT_TRUE(file.warnings.empty());
+  EXPECT_TRUE(file.doubts.empty());
   LayerRef choice = choice_of(path);
   choice.unit_m = 0.1;
   EXPECT_NEAR(volume_above(read_tin_file(choice).tin, 1), 50 * 100 * 10 * 1e-3, 1e-9);
   const TinFile upright =
       read_tin_file(choice_of(write("y_up.obj", "v 0 10 0\nv 50 10 0\nv 50 30 -100\nf 1 2 3\n")));
-  ASSERT_EQ(upright.warnings.size(), 1U);
-  EXPECT_NE(upright.warnings[0].find("is y the height"), std::string::npos);
+  ASSERT_EQ(upright.doubts.size(), 1U);
+  EXPECT_NE(upright.doubts[0].found.find("is y the height"), std::string::npos);
 }
 
 TEST(TinFiles, TwoLayersOfASurfaceAreFound) {

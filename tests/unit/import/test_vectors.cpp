@@ -86,7 +86,7 @@ TEST(ReadVectors, AreasThatAreCutAt180DegreesAreOne) {
   const VectorShapes found = read_vectors(query, crs_from_user("EPSG:3460", "--crs"));
   ASSERT_EQ(found.shapes.size(), 1U);
   EXPECT_NEAR(found.area_m2, 96.0 * 110.6, 0.01 * 96 * 110.6);  // 0.0009 by 0.001 degrees
-  EXPECT_TRUE(found.warnings.empty()) << found.warnings.front();
+  EXPECT_TRUE(found.doubts.empty()) << found.doubts.front().found;
 }
 
 TEST(ReadVectors, RingsComeWithoutTheirLastPoint) {

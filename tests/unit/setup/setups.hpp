@@ -27,6 +27,7 @@ struct CollectedLog : InputLog {
   std::vector<std::pair<std::string, std::string>> files, contents;  ///< role; path, digest
   std::vector<LayerRead> layers;
   std::vector<std::pair<Severity, std::string>> notes;
+  std::vector<Doubt> found;
 
   void read_also(const std::string& role, const std::string& path) override {
     files.emplace_back(role, path);
@@ -35,6 +36,9 @@ struct CollectedLog : InputLog {
     contents.emplace_back(role, digest);
   }
   void layer_read(const LayerRead& layer) override { layers.push_back(layer); }
+  void doubts(const std::vector<Doubt>& some) override {
+    found.insert(found.end(), some.begin(), some.end());
+  }
   void note(Severity severity, const std::string& words) override {
     notes.emplace_back(severity, words);
   }
@@ -45,7 +49,9 @@ struct CollectedLog : InputLog {
     });
   }
   [[nodiscard]] bool has_warning(const std::string& part) const {
-    return has(Severity::warning, part);
+    return std::any_of(found.begin(), found.end(), [&](const Doubt& doubt) {
+      return sentence_on(doubt).find(part) != std::string::npos;
+    });
   }
   /// Of what was read of a role; "" where nothing was.
   [[nodiscard]] std::string digest_of(const std::string& role) const {

@@ -67,16 +67,16 @@ TEST(Plausibility, EachLimitHasItsDoubtAndItsKey) {
     const std::vector<Doubt> doubts = with(field, odd);
     ASSERT_FALSE(doubts.empty()) << key << " " << odd;
     EXPECT_TRUE(std::any_of(doubts.begin(), doubts.end(), [&wanted = key](const Doubt& doubt) {
-      return doubt.key == wanted;
+      return doubt.what == wanted;
     })) << key;
     for (const Doubt& doubt : doubts) {
-      EXPECT_FALSE(doubt.is_refused) << doubt.finding;
-      EXPECT_FALSE(doubt.finding.empty() || doubt.hint.empty());
+      EXPECT_EQ(doubt.state, DoubtState::in_doubt) << doubt.found;
+      EXPECT_FALSE(doubt.found.empty() || doubt.hint.empty());
     }
     if (absurd == 0) continue;
     const std::vector<Doubt> refused = with(field, absurd);
     EXPECT_TRUE(std::any_of(refused.begin(), refused.end(),
-                            [&](const Doubt& doubt) { return doubt.is_refused; }))
+                            [](const Doubt& doubt) { return doubt.state == DoubtState::refused; }))
         << key << " " << absurd;
   }
 }
@@ -87,9 +87,9 @@ TEST(Plausibility, DepthBeyondTheReliefIsRefused) {
   facts.mean_depth = facts.max_depth = 800;
   const std::vector<Doubt> doubts = doubts_of(facts);
   ASSERT_GE(doubts.size(), 2u);
-  EXPECT_TRUE(doubts[0].is_refused);
-  EXPECT_TRUE(doubts[1].is_refused);
-  EXPECT_NE(doubts[1].finding.find("800 m deep"), std::string::npos);
+  EXPECT_EQ(doubts[0].state, DoubtState::refused);
+  EXPECT_EQ(doubts[1].state, DoubtState::refused);
+  EXPECT_NE(doubts[1].found.find("800 m deep"), std::string::npos);
 }
 
 // A hint does not name what the site file says already.
@@ -102,7 +102,7 @@ TEST(Plausibility, HintsKnowTheFailureSurface) {
   facts = sound();
   facts.mean_depth = 800;
   facts.depth_key = "source.plane_point_m";
-  EXPECT_EQ(doubts_of(facts).at(0).key, "source.plane_point_m");
+  EXPECT_EQ(doubts_of(facts).at(0).what, "source.plane_point_m");
 }
 
 TEST(Plausibility, OutlookHasThreeClasses) {
@@ -110,7 +110,7 @@ TEST(Plausibility, OutlookHasThreeClasses) {
   EXPECT_EQ(outlook_of(0.1), Outlook::goes_in_part);
   EXPECT_EQ(outlook_of(0.9), Outlook::goes_in_part);
   EXPECT_EQ(outlook_of(0.95), Outlook::goes);
-  EXPECT_NE(with(&PlausibilityFacts::moved_share, 0.05)[0].finding.find("not a rockslide"),
+  EXPECT_NE(with(&PlausibilityFacts::moved_share, 0.05)[0].found.find("not a rockslide"),
             std::string::npos);
 }
 

@@ -21,35 +21,37 @@ Trn slope() {
 
 double& node(Trn& trn, int row, int col) { return trn.elevation[node_index(trn, row, col)]; }
 
-int count(const std::vector<GroundDoubt>& doubts, GroundDoubtKind kind) {
+std::vector<Doubt> doubts_of(const Trn& trn) { return find_ground_doubts(trn, "g.tif"); }
+
+int count(const std::vector<Doubt>& doubts, const std::string& what) {
   return static_cast<int>(std::count_if(doubts.begin(), doubts.end(),
-                                        [kind](const GroundDoubt& d) { return d.kind == kind; }));
+                                        [&what](const Doubt& d) { return d.what == what; }));
 }
 
 TEST(GroundDoubts, SlopesCliffsAndPondsAreNone) {
-  EXPECT_TRUE(find_ground_doubts(slope()).empty());
+  EXPECT_TRUE(doubts_of(slope()).empty());
   Trn cliff = slope();
   for (int r = 0; r < 10; ++r)
     for (int c = 0; c < 12; ++c) node(cliff, r, c) += 24;
-  EXPECT_TRUE(find_ground_doubts(cliff).empty());
+  EXPECT_TRUE(doubts_of(cliff).empty());
   Trn pond = slope();
   for (int r = 8; r < 12; ++r)
     for (int c = 8; c < 12; ++c) node(pond, r, c) = 1020;
-  EXPECT_TRUE(find_ground_doubts(pond).empty());
+  EXPECT_TRUE(doubts_of(pond).empty());
 }
 
 TEST(GroundDoubts, ARimBlendedWithNodataIsNamed) {
   Trn trn = slope();
   for (int r = 0; r < 21; ++r) node(trn, r, 0) = 0.4 * node(trn, r, 1) + 3 * r;
-  const auto doubts = find_ground_doubts(trn);
-  EXPECT_EQ(count(doubts, GroundDoubtKind::rim), 21);
-  EXPECT_EQ(doubts[3].col, 0);
-  EXPECT_EQ(doubts[3].expected, node(trn, 3, 1));
+  const auto doubts = doubts_of(trn);
+  EXPECT_EQ(count(doubts, "rim node"), 21);
+  EXPECT_EQ(doubts[3].at.at(0), node_point(trn, 3, 0));
+  EXPECT_EQ(doubts[3].low, node(trn, 3, 1));
   // also beside a gap inside, and 30 m off
   trn = slope();
   node(trn, 10, 10) = std::nan("");
   node(trn, 10, 11) -= 30;
-  EXPECT_EQ(count(find_ground_doubts(trn), GroundDoubtKind::rim), 1);
+  EXPECT_EQ(count(doubts_of(trn), "rim node"), 1);
 }
 
 TEST(GroundDoubts, LevelAreasAreNamedBelowWhatIsRefused) {
@@ -58,34 +60,33 @@ TEST(GroundDoubts, LevelAreasAreNamedBelowWhatIsRefused) {
     for (double& z : trn.elevation) z -= value == 999 ? 100 : 0;
     for (int r = 8; r < 11; ++r)
       for (int c = 8; c < 11; ++c) node(trn, r, c) = value;
-    const auto doubts = find_ground_doubts(trn);
-    ASSERT_EQ(count(doubts, GroundDoubtKind::level), 1) << value;
-    EXPECT_EQ(doubts[0].n_nodes, 9);
-    EXPECT_EQ(doubts[0].row, 8);
-    EXPECT_EQ(doubts[0].col, 8);
+    const auto doubts = doubts_of(trn);
+    ASSERT_EQ(count(doubts, level_area), 1) << value;
+    EXPECT_EQ(doubts[0].found.rfind("9 nodes of one height", 0), 0U) << doubts[0].found;
+    EXPECT_EQ(doubts[0].at.at(0), node_point(trn, 8, 8));
   }
 }
 
 TEST(GroundDoubts, StepsAndDepthsBelowAllLandAreNamed) {
   Trn trn = slope();
   node(trn, 10, 10) += 260;
-  EXPECT_EQ(count(find_ground_doubts(trn), GroundDoubtKind::step), 3);  // by their first nodes
+  EXPECT_EQ(count(doubts_of(trn), "step"), 3);  // by their first nodes
   trn = slope();
   trn.origin.z() = -1510;
-  EXPECT_EQ(count(find_ground_doubts(trn), GroundDoubtKind::below_land), 4 * 21);  // -510 m
+  EXPECT_EQ(count(doubts_of(trn), "sunken node"), 4 * 21);  // -510 m
   trn.origin.z() = -1500;
-  EXPECT_TRUE(find_ground_doubts(trn).empty());
+  EXPECT_TRUE(doubts_of(trn).empty());
 }
 
 TEST(GroundDoubts, AStepAlongALineOfNodesIsASeam) {
   Trn trn = slope();
   for (int r = 0; r < 10; ++r)
     for (int c = 0; c < 21; ++c) node(trn, r, c) += 7;
-  const std::vector<GroundDoubt> doubts = find_ground_doubts(trn);
+  const std::vector<Doubt> doubts = doubts_of(trn);
   ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_EQ(doubts[0].kind, GroundDoubtKind::seam);
-  EXPECT_EQ(doubts[0].row, 9);
-  EXPECT_NEAR(doubts[0].expected - node(trn, 9, doubts[0].col), -7, 1e-9);
+  EXPECT_EQ(doubts[0].what, "seam");
+  EXPECT_EQ(doubts[0].at.at(0).y(), node_point(trn, 9, 0).y());
+  EXPECT_NEAR(doubts[0].low - doubts[0].value, -7, 1e-9);
 }
 
 }  // namespace
