@@ -6,6 +6,8 @@
 
 namespace talus {
 
+inline constexpr double foot_m = 0.3048;
+
 /// Whether a file says no unit: an empty text, or a word like "unspecified".
 [[nodiscard]] bool is_no_unit(const std::string& word);
 

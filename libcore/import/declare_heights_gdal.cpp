@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/length_units.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "import/raw_inputs_gdal.hpp"
+#include "import/readings.hpp"
 #include "terrain/elevation.hpp"
 
 namespace talus {
@@ -51,16 +53,29 @@ void check_same_elevation(const RawLayer& layer) {
   const std::string& name = field.name();
   const std::string option = field_option(layer.source);
   const bool is_called_z = lower(name) == "z";
+  const auto [low, high] = std::minmax_element(field.values().begin(), field.values().end());
+  const HeightRange of_z = heights_of(lines);
   for (std::size_t l = 0; l < field.values().size(); ++l) {
     const double z = lines.points[lines.begin[l]].z(), value = field.values()[l];
     if (!std::isfinite(z) || !differ(z, value) || !is_level(lines, l)) continue;
-    throw InputError(where_of_layer(layer.source),
-                     "feature " + std::to_string(lines.feature[l]) + " has Z " + text(z, 8) +
-                         " and " + (is_called_z ? "a field Z of " : name + " ") + text(value, 8) +
-                         ", expected the same height: mixed units?",
-                     "choose with " + option + (is_called_z ? "geometry.Z or " : "Z or ") + option +
-                         (is_called_z ? "field." : "") + name +
-                         "; for feet add --elevation-unit-m 0.3048");
+    const auto reading = [&](const char* of, double lowest, double highest, double unit_m,
+                             const std::string& choice) {
+      const bool is_feet = unit_m != 1;
+      return Reading{std::string(of) + (is_feet ? ", as feet," : ""),
+                     rise_words(lowest * unit_m, highest * unit_m, 0),
+                     option + choice + (is_feet ? " --elevation-unit-m " + text(unit_m) : "")};
+    };
+    const auto unit_of = [](double own, double other) {
+      return std::abs(own * foot_m / other - 1) < 0.01 ? foot_m : 1;
+    };
+    throw InputError(choice_of(
+        where_of_layer(layer.source),
+        "feature " + std::to_string(lines.feature[l]) + " has Z " + text(z, 8) + " and " +
+            (is_called_z ? "a field Z of " : name + " ") + text(value, 8) +
+            ", expected the same height: mixed units?",
+        {reading("by Z", of_z.low, of_z.high, unit_of(z, value), is_called_z ? "geometry.Z" : "Z"),
+         reading("by the field", *low, *high, unit_of(value, z),
+                 (is_called_z ? "field." : "") + name)}));
   }
 }
 

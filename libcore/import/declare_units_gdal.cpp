@@ -3,26 +3,37 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/length_units.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "import/crs_place_gdal.hpp"
 #include "import/drawing_unit_gdal.hpp"
 #include "import/raw_inputs_gdal.hpp"
+#include "import/readings.hpp"
 #include "import/systems_gdal.hpp"
 #include "io/crs_gdal.hpp"
 
 namespace talus {
 namespace {
 
-std::string way_to_metres(const RawLayer& layer, const DrawingUnit& unit) {
+// The ways to take a drawing in the unit of its header, and in metres whatever that says.
+DrawingWays ways_of(const RawLayer& layer, const DrawingUnit& unit) {
   const std::string metres = unit.metres > 0 ? text(unit.metres) : "METRES";
-  if (layer.is_of_site())
-    return "bring it to metres: ogr2ogr -f GPKG -nln metres metres.gpkg " +
+  if (!layer.is_of_site()) {
+    const std::string option = option_words(layer.source.role, "--unit-m");
+    return {option + metres + ", for plan and heights", option + "1"};
+  }
+  const auto scaled = [&layer](const std::string& factor) {
+    return "ogr2ogr -f GPKG -nln metres metres.gpkg " +
            command_words(parse_source_path(layer.path()).source) + " -dialect sqlite -sql " +
-           shell_word("SELECT ScaleCoords(geometry, " + metres + ") AS geometry, * FROM \"" +
+           shell_word("SELECT ScaleCoords(geometry, " + factor + ") AS geometry, * FROM \"" +
                       layer.source.layer->GetName() + "\"");
-  const std::string option = option_words(layer.source.role, "--unit-m");
-  return option + metres + " scales plan and heights; " + option +
-         "1 if it is in metres whatever its header says";
+  };
+  return {scaled(metres), scaled("1")};
 }
 
 // Metres in one unit of the coordinates as they stand in the source; 1 also where the CRS has the
@@ -33,7 +44,7 @@ double plan_unit_of(const RawLayer& layer, const std::string& crs, ImportReading
   if (const std::string doubt = doubt_on_unit(drawing, by_user_m); !doubt.empty())
     reading.doubts.push_back(doubt_on({layer.path()}, doubt));
   return scale_of_drawing(drawing, by_user_m, length_unit_m(crs), layer.where(),
-                          way_to_metres(layer, drawing_unit(drawing)));
+                          window_of(layer.lines.points), ways_of(layer, drawing_unit(drawing)));
 }
 
 // What the user says of the unit of heights; 0: nothing. A system that the user names for the
@@ -44,30 +55,42 @@ double height_unit_by_user(const RawLayer& layer, const InputsRequest& request, 
   return is_ground && !request.vertical_crs.empty() && height_crs(layer.crs).empty() ? 1 : 0;
 }
 
+double width_m(const RawLayer& layer, const std::string& crs) {
+  const MapWindow w = window_of(layer.lines.points);
+  const double unit_m = length_unit_m(crs);
+  return std::isnan(unit_m) ? 0 : std::max(w.x_max - w.x_min, w.y_max - w.y_min) * unit_m;
+}
+
 // Metres in one unit of the heights that were read: what the user says, or their system of heights,
 // which stands in `crs`.
 double height_unit_of(const RawLayer& layer, const std::string& crs, double by_user_m,
                       ImportReading& reading) {
-  const bool has_option = layer.role != InputRole::reference;
-  const std::string way_out =
-      has_option ? "--elevation-unit-m " + text(length_unit_m(crs), 12) +
-                       " where they are in the unit of the plan, --elevation-unit-m 1 where they "
-                       "are metres"
-                 : "name the system of heights with the CRS in the file, e.g. NAVD88 in US survey "
-                   "feet: ogr2ogr -a_srs " +
-                       crs_code(crs) + "+6360 named.gpkg " + command_words(layer.path()) +
-                       "; in metres: " + crs_code(crs) + "+5703";
   if (by_user_m > 0) return by_user_m;
-  const double unit_m = height_unit_m(crs, {layer.path()}, way_out);
-  if (unit_m == 1 && is_in_feet(layer.taken.elevation_from))
+  const bool has_option = layer.role != InputRole::reference;
+  const std::string option = "--elevation-unit-m ";
+  const auto way_to = [&](double unit_m, const std::string& code) {
+    return has_option
+               ? option + text(unit_m, 12)
+               : "name the system of heights with the CRS in the file: ogr2ogr -a_srs " +
+                     crs_code(crs) + "+" + code + " named.gpkg " + command_words(layer.path());
+  };
+  const HeightRange z = heights_of(layer.lines);
+  const double width = width_m(layer, crs), plan_m = length_unit_m(crs);
+  const std::optional<double> unit_m = height_unit_m(crs);
+  if (!unit_m)
+    throw InputError(choice_of_height_unit({layer.path()}, plan_m, z.low, z.high, width,
+                                           way_to(plan_m, "6360"), way_to(1, "5703")));
+  if (unit_m == 1.0 && is_in_feet(layer.taken.elevation_from))
     throw InputError(
-        where_of_layer(layer.source),
-        "the " + layer.taken.elevation_from + " is in feet by its name, expected metres",
-        has_option ? "--elevation-unit-m 0.3048 (or 0.3048006096 for US survey feet)" : way_out);
-  if (unit_m != 1)
+        choice_of(where_of_layer(layer.source),
+                  "the " + layer.taken.elevation_from + " is in feet by its name, expected metres",
+                  {{"as feet", rise_words(z.low * foot_m, z.high * foot_m, width),
+                    way_to(foot_m, "6360") + (has_option ? " (US survey feet: 0.3048006096)" : "")},
+                   {"as metres", rise_words(z.low, z.high, width), way_to(1, "5703")}}));
+  if (unit_m != 1.0)
     reading.notes.push_back(layer.path() + ": heights in " + crs_name(height_crs(crs)) +
                             ", taken to metres");
-  return unit_m;
+  return *unit_m;
 }
 
 // What the user says of heights whose file does not; a system of heights holds for its own unit.

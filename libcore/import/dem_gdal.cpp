@@ -6,6 +6,7 @@
 #include <gdal_utils.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -17,6 +18,7 @@
 #include "base/memory.hpp"
 #include "base/text.hpp"
 #include "import/crs_place_gdal.hpp"
+#include "import/readings.hpp"
 #include "import/systems_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
@@ -52,6 +54,29 @@ std::string said_unit(GDALRasterBand& band) {
   return unit == nullptr || is_no_unit(unit) ? std::string() : unit;
 }
 
+struct HeightSample {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  void add(double z) { low = std::min(low, z), high = std::max(high, z); }
+};
+
+// Of some 256 x 256 cells, as they stand in the file.
+HeightSample sample_of(GDALDataset& dataset) {
+  constexpr int most = 256;
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  const int n_cols = std::min(most, band.GetXSize()), n_rows = std::min(most, band.GetYSize());
+  std::vector<double> values(static_cast<std::size_t>(n_rows) * static_cast<std::size_t>(n_cols));
+  const GdalErrors errors;
+  HeightSample sample;
+  if (band.RasterIO(GF_Read, 0, 0, band.GetXSize(), band.GetYSize(), values.data(), n_cols, n_rows,
+                    GDT_Float64, 0, 0, nullptr) != CE_None)
+    return {};
+  int has_nodata = 0;
+  const double nodata = band.GetNoDataValue(&has_nodata);
+  for (const double z : values)
+    if (std::isfinite(z) && !is_usual_nodata(z) && (has_nodata == 0 || z != nodata)) sample.add(z);
+  return sample;
+}
+
 void check_band(GDALDataset& dataset, const std::string& path, bool has_heights) {
   check_one_band(dataset, path);
   GDALRasterBand& band = *dataset.GetRasterBand(1);
@@ -67,21 +92,29 @@ void check_band(GDALDataset& dataset, const std::string& path, bool has_heights)
   const std::string unit = said_unit(band);
   const double metres = metres_in(unit);
   if (unit.empty() || metres == 1) return;
-  throw InputError({path}, "the elevations are in \"" + unit + "\", expected metres",
-                   metres > 0 ? metres_command(metres, wkt_of(dataset.GetSpatialRef()), path)
-                              : "if they are metres: " + metres_command(1, "", path));
+  const HeightSample z = sample_of(dataset);
+  std::vector<Reading> readings = {
+      {"as metres", rise_words(z.low, z.high, 0), metres_command(1, "", path)}};
+  if (metres > 0)
+    readings.insert(readings.begin(),
+                    {"as \"" + unit + "\"", rise_words(z.low * metres, z.high * metres, 0),
+                     metres_command(metres, wkt_of(dataset.GetSpatialRef()), path)});
+  throw InputError(
+      choice_of({path}, "the elevations are in \"" + unit + "\", expected metres", readings));
 }
 
 // Heights are in metres by the unit of the band (check_band), by the user's word, or by
 // height_unit_m of the CRS; another unit that the CRS says is refused with it (check_crs).
-void check_unit_of_heights(GDALDataset& dataset, const std::string& crs, const std::string& path,
-                           const DemOptions& options) {
+void check_unit_of_heights(GDALDataset& dataset, const std::string& crs, const MapWindow& edges,
+                           const std::string& path, const DemOptions& options) {
   if (!said_unit(*dataset.GetRasterBand(1)).empty() || !options.vertical_crs.empty()) return;
-  (void)height_unit_m(
-      crs, {path},
-      "where they are in metres: --vertical-crs EPSG:5703 (NAVD88), or the code of their system; "
-      "where they are in the units of the plan: " +
-          metres_command(length_unit_m(crs), crs, path));
+  if (height_unit_m(crs)) return;
+  const HeightSample z = sample_of(dataset);
+  const double unit_m = length_unit_m(crs);
+  const double width = unit_m * std::max(edges.x_max - edges.x_min, edges.y_max - edges.y_min);
+  throw InputError(
+      choice_of_height_unit({path}, unit_m, z.low, z.high, width, metres_command(unit_m, crs, path),
+                            "--vertical-crs EPSG:5703 (NAVD88), or the code of their system"));
 }
 
 // The lattice of the cell centres; refuses what no TRN can stand on.
@@ -216,7 +249,7 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
                reading_.notes),
       options, path);
   if (!options.t_srs.empty()) {
-    check_unit_of_heights(*dataset, crs_, path, options);
+    check_unit_of_heights(*dataset, crs_, edges, path, options);
     if (crs_.empty())
       throw InputError({path}, "there is no CRS to reproject from", "name it with --crs EPSG:code");
     take_to(options.t_srs, options.accept_ballpark, edges);
@@ -310,20 +343,19 @@ void DemFile::check_most_values(const double* raw, std::size_t n) const {
     const char* name;
     double metres;
   };
-  std::string readings, ways;
-  for (const Unit& unit : {Unit{"feet", 0.3048}, Unit{"decimetres", 0.1}, Unit{"centimetres", 0.01},
-                           Unit{"millimetres", 0.001}}) {
+  std::vector<Reading> readings;
+  for (const Unit& unit : {Unit{"as feet", foot_m}, Unit{"as decimetres", 0.1},
+                           Unit{"as centimetres", 0.01}, Unit{"as millimetres", 0.001}}) {
     if (high * unit.metres > highest_elevation) continue;
-    readings += std::string(readings.empty() ? "; as " : ", as ") + unit.name + " they would be " +
-                text(low * unit.metres, 8) + " to " + text(high * unit.metres, 8) + " m";
-    ways += (ways.empty() ? "if they are " : "; if they are ") + std::string(unit.name) + ": " +
-            metres_command(unit.metres, crs_, path_);
+    readings.push_back({unit.name,
+                        "they would be " + text(low * unit.metres, 8) + " to " +
+                            text(high * unit.metres, 8) + " m",
+                        metres_command(unit.metres, crs_, path_)});
     if (unit.metres < 0.3) break;
   }
-  throw InputError({path_},
-                   "the elevations are " + text(low, 8) + " to " + text(high, 8) +
-                       ", expected metres" + readings,
-                   ways);
+  throw InputError(choice_of(
+      {path_}, "the elevations are " + text(low, 8) + " to " + text(high, 8) + ", expected metres",
+      readings));
 }
 
 void DemFile::check_value(double raw, const Where& place) const {

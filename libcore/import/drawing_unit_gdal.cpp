@@ -3,10 +3,13 @@
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
 #include "base/text.hpp"
+#include "import/readings.hpp"
 
 namespace talus {
 namespace {
@@ -85,15 +88,24 @@ std::string doubt_on_unit(const std::string& path, double user_unit_m) {
 }
 
 double scale_of_drawing(const std::string& path, double user_unit_m, double plan_unit_m,
-                        const Where& where, const std::string& way_out) {
+                        const Where& where, const MapWindow& extent, const DrawingWays& ways) {
   if (user_unit_m > 0) return user_unit_m;
   const DrawingUnit unit = drawing_unit(path);
   if (unit.code == 0 || unit.code == inches || std::abs(unit.metres - 1) < 1e-9) return 1;
   if (unit.metres > 0 && std::abs(unit.metres / plan_unit_m - 1) < 1e-5) return 1;
-  throw InputError(where,
-                   "the drawing is in " + unit.name + " ($INSUNITS " + std::to_string(unit.code) +
-                       " in its header), expected metres",
-                   way_out);
+  const double width = std::max(extent.x_max - extent.x_min, extent.y_max - extent.y_min);
+  const auto size = [&](double metres) {
+    if (width > 0) return "it is " + length_words(width * metres) + " wide";
+    return "it lies at x " + text(extent.x_min * metres, 10) + ", y " +
+           text(extent.y_min * metres, 10);
+  };
+  throw InputError(
+      choice_of(where,
+                "the drawing is in " + unit.name + " ($INSUNITS " + std::to_string(unit.code) +
+                    " in its header), expected metres",
+                {{"as " + unit.name, unit.metres > 0 ? size(unit.metres) : "its size is not known",
+                  ways.as_said},
+                 {"as metres", size(1), ways.as_metres}}));
 }
 
 }  // namespace talus

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "terrain/grid_frame.hpp"
 
 namespace talus {
 
@@ -24,11 +25,16 @@ struct DrawingUnit {
 /// drawing, and no map is drawn in inches, so it is taken to say nothing. Empty: no doubt.
 [[nodiscard]] std::string doubt_on_unit(const std::string& path, double user_unit_m);
 
+/// Options or commands: to the unit of the header, and to metres whatever that says.
+struct DrawingWays {
+  std::string as_said, as_metres;
+};
+
 /// Metres in one unit of a drawing: what the user says (not 0), else 1. Throws InputError at
 /// `where` when the user says nothing and the header says another unit than that of the plan: a
-/// metre, or `plan_unit_m` of the CRS. `way_out` names the option, or the command, that scales.
+/// metre, or `plan_unit_m` of the CRS. `extent`: of the coordinates as they stand in the file.
 [[nodiscard]] double scale_of_drawing(const std::string& path, double user_unit_m,
                                       double plan_unit_m, const Where& where,
-                                      const std::string& way_out);
+                                      const MapWindow& extent, const DrawingWays& ways);
 
 }  // namespace talus

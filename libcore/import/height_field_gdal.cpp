@@ -11,6 +11,7 @@
 
 #include "base/text.hpp"
 #include "base/words.hpp"
+#include "import/readings.hpp"
 
 namespace talus {
 namespace {
@@ -160,8 +161,8 @@ void HeightField::add_rival(const OGRFeature& feature, int index) {
   if (!feature.IsFieldSetAndNotNull(index) || !parse_double(feature.GetFieldAsString(index), value))
     return;
   const std::string name = feature.GetFieldDefnRef(index)->GetNameRef();
-  Rival& rival = rivals_.try_emplace(name, Rival{value, false, ""}).first->second;
-  rival.varies = rival.varies || value != rival.first;
+  Rival& rival = rivals_.try_emplace(name, Rival{value, value, ""}).first->second;
+  rival.low = std::min(rival.low, value), rival.high = std::max(rival.high, value);
   if (rival.contradiction.empty() && differ(values_.back(), value))
     rival.contradiction = "feature " + std::to_string(feature.GetFID()) + " has " + name_ + " " +
                           text(values_.back(), 8) + " and " + name + " " + text(value, 8) +
@@ -184,9 +185,12 @@ const std::vector<double>& HeightField::heights(const OpenLayer& source) const {
                          "\") for metres) and name it with " + option);
   }
   for (const auto& [name, rival] : rivals_) {
-    if (by_user_ || rival.contradiction.empty() || !rival.varies) continue;
-    throw InputError(where_of_layer(source), rival.contradiction,
-                     "choose with " + option + name_ + " or " + option + name);
+    if (by_user_ || rival.contradiction.empty() || rival.low == rival.high) continue;
+    const auto [low, high] = std::minmax_element(values_.begin(), values_.end());
+    throw InputError(
+        choice_of(where_of_layer(source), rival.contradiction,
+                  {{"by " + name_, rise_words(*low, *high, 0), option + name_},
+                   {"by " + name, rise_words(rival.low, rival.high, 0), option + name}}));
   }
   return values_;
 }

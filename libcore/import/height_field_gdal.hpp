@@ -36,8 +36,7 @@ class HeightField {
 
  private:
   struct Rival {
-    double first = 0;
-    bool varies = false;
+    double low = 0, high = 0;
     std::string contradiction;
   };
   [[nodiscard]] static std::optional<HeightField> by_name(const OpenLayer& source);

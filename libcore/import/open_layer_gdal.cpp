@@ -122,10 +122,19 @@ void choose_by_shape(OpenLayer& source) {
   if (source.layers.empty() && shape == LayerShape::polygon) take_if(holds_closed_line);
   if (source.layers.size() == 1) return;
   std::vector<std::string> fitting;
-  for (OGRLayer* layer : source.layers) fitting.emplace_back(layer->GetName());
+  std::string sizes;
+  for (OGRLayer* layer : source.layers) {
+    fitting.emplace_back(layer->GetName());
+    sizes += (sizes.empty() ? ". " : ", ") + fitting.back() + ": " +
+             counted(layer->GetFeatureCount(), "feature");
+    OGREnvelope e;
+    if (layer->GetExtent(&e) == OGRERR_NONE)
+      sizes += " over " + text(e.MaxX - e.MinX, 4) + " by " + text(e.MaxY - e.MinY, 4);
+  }
   throw InputError({source.ref.path},
                    std::to_string(fitting.size()) + " layers hold " + plural(shape) +
-                       ", expected one; the layers are: " + list_of(layer_names(*source.dataset)),
+                       ", expected one; the layers are: " + list_of(layer_names(*source.dataset)) +
+                       sizes,
                    hint_to_choose(fitting));
 }
 

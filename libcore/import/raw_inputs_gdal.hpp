@@ -90,9 +90,11 @@ void check_places(RawInputs& raw);
 /// Throws InputError where no operation is known.
 void take_to_frame(RawInputs& raw);
 
-/// Throws InputError for heights that cannot be, and for most heights of a layer far off those of
-/// the contours: mixed units.
-void check_elevation(const Vec3& place, const std::string& path, const char* hint);
+/// Throws InputError for heights that cannot be, with what they would be in other units; `option`
+/// says one, empty: none does.
+void check_elevations(const std::vector<Vec3>& points, const Vec3& origin, const Where& where,
+                      const std::string& option);
+/// Throws InputError where most heights of a layer are far off those of the contours: mixed units.
 void check_neighbours(RawInputs& raw);
 
 /// Areas, and where the request wants them magnitudes.

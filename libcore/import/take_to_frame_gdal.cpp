@@ -66,10 +66,7 @@ void take_to_frame(RawInputs& raw) {
     if (!layer.has_heights()) continue;
     if (&layer != raw.ground()) check_heights_alike(layer, raw);
     for (Vec3& point : layer.lines.points) point.z() *= layer.taken.unit_m;
-    for (const Vec3& point : layer.lines.points)
-      check_elevation(point, layer.path(),
-                      "feet need --elevation-unit-m 0.3048, decimetres 0.1; choose another field "
-                      "where this one holds no elevations");
+    check_elevations(layer.lines.points, Vec3::Zero(), {layer.path()}, "--elevation-unit-m ");
     take_heights(layer, raw);
   }
   const std::string& vertical = raw.request.t_vertical;

@@ -133,15 +133,18 @@ void add_face(const OGRGeometry& geometry, double unit_m, FaceCollector& faces,
     add_face(*part, unit_m, faces, counts, where);
 }
 
-double unit_of_faces(const LayerRef& choice, TinFile& file) {
+double unit_of_faces(const LayerRef& choice, const OpenLayer& source, TinFile& file) {
   const std::string drawing = file_of(choice.path);
   if (const std::string doubt = doubt_on_unit(drawing, choice.unit_m); !doubt.empty())
     file.doubts.push_back(doubt_on({drawing}, doubt));
   const DrawingUnit unit = drawing_unit(drawing);
-  return scale_of_drawing(drawing, choice.unit_m, 1, {drawing},
-                          "--unit-m " + (unit.metres > 0 ? text(unit.metres) : "METRES") +
-                              " scales plan and heights; --unit-m 1 if it is in metres whatever "
-                              "its header says");
+  OGREnvelope e;
+  if (source.layer->GetExtent(&e) != OGRERR_NONE) e = {};
+  const std::string option = "--unit-m ";
+  return scale_of_drawing(
+      drawing, choice.unit_m, 1, {drawing}, {e.MinX, e.MinY, e.MaxX, e.MaxY},
+      {option + (unit.metres > 0 ? text(unit.metres) : "METRES") + ", for plan and heights",
+       option + "1"});
 }
 
 std::string sentence_on(const DrawingCounts& counts) {
@@ -156,8 +159,8 @@ std::string sentence_on(const DrawingCounts& counts) {
 
 TinFile read_drawing(const LayerRef& choice) {
   TinFile file;
-  const double unit_m = unit_of_faces(choice, file);
   OpenLayer source = open_layer(choice, faces_role);
+  const double unit_m = unit_of_faces(choice, source, file);
   FaceCollector faces;
   DrawingCounts counts;
   for_each_part(source, [&](const OGRGeometry& part, const OGRFeature& feature) {
@@ -386,8 +389,7 @@ TinFile read_any(const LayerRef& choice) {
 
 TinFile read_tin_file(const LayerRef& choice) {
   TinFile file = read_any(choice);
-  for (const Vec3& point : file.tin.points)
-    check_elevation(point + file.tin.origin, file_of(choice.path), "");
+  check_elevations(file.tin.points, file.tin.origin, {file_of(choice.path)}, "");
   return file;
 }
 

@@ -168,16 +168,11 @@ std::string height_crs(const std::string& crs_wkt) {
   return as_wkt(parsed_crs(copied(wkt)));
 }
 
-double height_unit_m(const std::string& crs_wkt, const Where& where, const std::string& way_out) {
+std::optional<double> height_unit_m(const std::string& crs_wkt) {
   const std::string heights = height_crs(crs_wkt);
   const double unit_m = length_unit_m(heights.empty() ? crs_wkt : heights);
   if (std::isnan(unit_m) || std::abs(unit_m - 1) < 1e-9) return 1;
-  if (heights.empty())
-    throw InputError(where,
-                     "the plan is in units of " + text(unit_m, 10) +
-                         " m, and nothing says what unit the heights are in",
-                     way_out);
-  return unit_m;
+  return heights.empty() ? std::nullopt : std::make_optional(unit_m);
 }
 
 bool same_heights(const std::string& a, const std::string& b) {

@@ -2,6 +2,7 @@
 // Coordinate reference systems: names, parts and comparison of plans and heights.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,11 +49,10 @@ namespace talus {
 [[nodiscard]] std::string height_crs(const std::string& crs_wkt);
 
 /// Metres in one unit of heights that are in `crs_wkt`, where nobody says it of them: that of the
-/// system of heights, else a metre. Throws InputError with `way_out` where there is none and the
-/// plan is in another unit (feet): its heights may be in either, and a plan that is reprojected
-/// alone would leave slopes 3.28 times too steep.
-[[nodiscard]] double height_unit_m(const std::string& crs_wkt, const Where& where,
-                                   const std::string& way_out);
+/// system of heights, else a metre. Nothing where there is none and the plan is in another unit
+/// (feet): its heights may be in either, and a plan that is reprojected alone would leave slopes
+/// 3.28 times too steep.
+[[nodiscard]] std::optional<double> height_unit_m(const std::string& crs_wkt);
 
 /// Whether the heights may be compared: false when both say their system and it is not the same.
 [[nodiscard]] bool same_heights(const std::string& a, const std::string& b);

@@ -3,7 +3,7 @@
 make_site
 expect 0 blocks --report here.json
 here=$(value here.json prism_volume_m3)
-run_hint() { sed -n 's/^ *hint: \(bring it to metres: \)\{0,1\}//p' err >hint.sh && sh -e hint.sh >/dev/null; }
+run_hint() { sed -n 's/; as metres: .*//; s/^ *hint: \(as feet: \)\{0,1\}//p' err >hint.sh && sh -e hint.sh >/dev/null; }
 # refused POLYGON_FILE FINDING
 refused() {
   sed "s/^polygon = .*/polygon_file = \"$1\"/" site.toml >other.toml

@@ -20,10 +20,11 @@ awk -v e="$(value far_trn.json largest_m)" 'BEGIN { exit !(e ^ 2 < 0.09) }' || f
 
 point 500000 5200000 453 >feet_spot.geojson
 expect 1 talus-tin map.geojson -o bad.ply --spots feet_spot.geojson
-says "mixed units?"
+says "1 of 1 heights lie far from the contours"
+says "as feet the heights go from 138.0744 to 138.0744 m"
 point 500100 5200000 109 >off.geojson
 expect 1 talus-tin map.geojson -o bad.ply --spots off.geojson
-says "contour at 100 m meets spot height at 109 m at x 500100, y 5200000"
+says "meeting spot height at 109 m, x 500100, y 5200000: meets contour at 100 m"
 
 # a ridge line crosses contours; where it is near enough it takes their height
 lines "0:500000,5200000;500100,5200000" | sed 's/\[500000,5200000\]/[500000,5200000,149]/; s/\[500100,5200000\]/[500100,5200000,100]/' >ridge.geojson

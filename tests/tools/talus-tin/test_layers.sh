@@ -181,7 +181,7 @@ is_truth unnamed.gpkg --elevation-field OTHER
 # a field called Z beside another Z: refused with both names, each of which works
 sed 's/"ELEV":1\([0-3]\)0/"Z":2\100/' map.geojson >z.geojson
 refused "has Z 100 and a field Z of 2000, expected the same height" z.geojson
-says "choose with --elevation-field geometry.Z or --elevation-field field.Z"
+says "by Z: --elevation-field geometry.Z; by the field: --elevation-field field.Z"
 refused "has Z 100 and a field Z of 2000, expected the same height" z.geojson --elevation-field Z
 is_truth z.geojson --elevation-field geometry.Z
 expect 0 talus-tin z.geojson -o field.ply --elevation-field field.Z --report field.json
@@ -190,7 +190,8 @@ expect 0 talus-tin z.geojson -o field.ply --elevation-field field.Z --report fie
 # two fields with usual names that say different heights; one that is the same everywhere says none
 ogr2ogr -q -dim XY -sql "SELECT ELEV, ELEV * 3.28 AS HEIGHT, 0 AS ALT FROM map" rivals.gpkg map.geojson
 refused "has ELEV 100 and HEIGHT 328, expected the same height" rivals.gpkg
-says "choose with --elevation-field ELEV or --elevation-field HEIGHT"
+says "by ELEV the heights go from 100 to 130 m; by HEIGHT the heights go from 328 to 426.4 m"
+says "hint: by ELEV: --elevation-field ELEV; by HEIGHT: --elevation-field HEIGHT"
 is_truth rivals.gpkg --elevation-field ELEV
 ogr2ogr -q -dim XY -sql "SELECT ELEV, ELEV * 3.28 AS ELEV_FT, 0 AS ALT FROM map" feet.gpkg map.geojson
 is_truth feet.gpkg

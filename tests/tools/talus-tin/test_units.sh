@@ -25,7 +25,7 @@ unit() {
   drawing "$1" "$2" >unit.dxf
   expect 1 talus-tin unit.dxf -o bad.ply --crs EPSG:25832 --no-db
   says "the drawing is in $3 (\$INSUNITS $1 in its header), expected metres"
-  says "hint: --unit-m $4 scales plan and heights"
+  says "hint: as $3: --unit-m $4, for plan and heights; as metres: --unit-m 1"
   nothing_left bad.ply
   expect 0 talus-tin unit.dxf -o unit.ply --crs EPSG:25832 --unit-m "$4" --report unit.json --overwrite --no-db
   for key in n_triangles lowest_m highest_m; do
@@ -71,7 +71,9 @@ says "the header says inches (\$INSUNITS 1), which GDAL and QGIS write whatever 
 drawing 2 1 1300000 1000000 >oregon.dxf
 expect 1 talus-tin oregon.dxf -o bad.ply --crs EPSG:2994 --t-srs EPSG:32610 --no-db
 says "oregon.dxf: the plan is in units of 0.3048 m, and nothing says what unit the heights are in"
-says "hint: --elevation-unit-m 0.3048 where they are in the unit of the plan, --elevation-unit-m 1 where they are metres"
+says "in that unit the heights go from 30.48 to 39.624 m, 9.144 m over"
+says "in metres the heights go from 100 to 130 m, 30 m over"
+says "hint: in that unit: --elevation-unit-m 0.3048; in metres: --elevation-unit-m 1"
 
 # the same plan in other formats, for contours, points, breaklines and spot heights
 command -v gdaltransform >/dev/null || skip "needs gdal-bin"
@@ -88,7 +90,7 @@ highest() {
 cone 26912 1 450000 4400000 >utah.geojson
 ogr2ogr -q -t_srs EPSG:3566 utah.gpkg utah.geojson
 nothing_said utah.gpkg --t-srs EPSG:26912
-says "hint: --elevation-unit-m 0.304800609601 where"
+says "hint: in that unit: --elevation-unit-m 0.304800609601;"
 expect 0 talus-tin utah.gpkg -o m.ply --t-srs EPSG:26912 --elevation-unit-m 1 --report m.json --no-db
 highest m.json 130
 expect 0 talus-tin utah.gpkg -o ft.ply --t-srs EPSG:26912 --elevation-unit-m 0.304800609601 --report ft.json --no-db
@@ -132,7 +134,7 @@ awk -v z="$(gdallocationinfo -valonly -geoloc peak.tif 450000 4400000)" 'BEGIN {
 # breaklines and spot heights in a drawing of their own
 printf '0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n2\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nPOINT\n8\nS\n10\n2132545.931758530\n20\n17060367.454068241\n30\n452.755905511811\n0\nENDSEC\n0\nEOF\n' >spot.dxf
 expect 1 talus-tin metres.dxf -o bad.ply --crs EPSG:25832 --spots spot.dxf --no-db
-says "hint: --unit-m spots=0.3048"
+says "hint: as feet: --unit-m spots=0.3048"
 expect 0 talus-tin metres.dxf -o spot.ply --crs EPSG:25832 --spots spot.dxf --unit-m spots=0.3048 --report spot.json --no-db
 [ "$(value spot.json n_spots)" = 1 ] || fail "no spot height"
 expect 0 talus-trn spot.ply -o spot.tif --cell-size-m 1 --no-db

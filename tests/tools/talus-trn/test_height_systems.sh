@@ -57,7 +57,7 @@ rmse_is 0
 ogr2ogr -q plan.gpkg points.csv -oo GEOM_POSSIBLE_NAMES=wkt -nlt POINTZ -s_srs EPSG:26912 -t_srs EPSG:3566
 expect 1 talus-trn utah.tif -o bad.tif --reference-points plan.gpkg --no-db
 says "plan.gpkg: the plan is in units of 0.3048006096 m, and nothing says what unit the heights are in"
-sed -n 's/.*feet: \(ogr2ogr .*\); in metres: .*/\1/p' err >hint.sh
+sed -n 's/.*in the file: \(ogr2ogr .*\); in metres: .*/\1/p' err >hint.sh
 sh -e hint.sh
 expect 0 talus-trn utah.tif -o held.tif --reference-points named.gpkg --report report.json --overwrite --no-db
 rmse_is 0
@@ -69,7 +69,7 @@ rmse_is 2397.726  # feet taken for metres, as the system says
 gdal_translate -q -ot Float64 -a_srs EPSG:32632+6360 plane.asc feet.tif
 expect 1 talus-trn feet.tif -o bad.tif --no-db
 says 'the elevations are in "US survey foot", expected metres'
-$(sed -n 's/^ *hint: //p' err) -q
+$(sed -n 's/^ *hint: as "US survey foot": \(.*\); as metres: .*/\1/p' err) -q
 expect 0 talus-trn metres.tif -o metres_trn.tif --no-db
 is_near "$(height metres_trn.tif)" "$(awk -v z="$(height feet.tif)" 'BEGIN { printf "%.9f", z * 1200 / 3937 }')" 1e-6
 rm metres.tif

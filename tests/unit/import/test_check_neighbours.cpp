@@ -18,11 +18,17 @@ struct CheckNeighbours : ImportTest {
 // Contours of 100 to 110 m: nine tenths of a range beyond them is a summit, more is another unit.
 TEST_F(CheckNeighbours, HeightsFarFromTheContoursAreInOtherUnits) {
   EXPECT_EQ(spots_at(119), "");
-  EXPECT_NE(spots_at(344).find("1 of 1 heights lie far from the contours"), std::string::npos);
+  EXPECT_NE(spots_at(344).find("1 of 1 heights lie far from the contours, which go from 100 to 110 "
+                               "m: as feet the heights go from 104.8512 to 104.8512 m; as they are "
+                               "the heights go from 344 to 344 m"),
+            std::string::npos)
+      << spots_at(344);
 }
 
 TEST_F(CheckNeighbours, HeightsAboveEverySummitAreNone) {
-  EXPECT_NE(spots_at(20000).find("expected at most 9000 m"), std::string::npos);
+  const std::string said = spots_at(20000);
+  EXPECT_NE(said.find("expected at most 9000 m"), std::string::npos);
+  EXPECT_NE(said.find("as feet the heights go from 6096 to 6096 m"), std::string::npos) << said;
 }
 
 }  // namespace
