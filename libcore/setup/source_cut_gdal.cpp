@@ -337,10 +337,10 @@ void plan_sets(InputLog& log, BlocksWork& work) {
     log.info(path + ": " + counted(static_cast<std::int64_t>(list.poles.size()), "orientation") +
              " from " + list.taken_from);
     if (list.is_computed && north_turn(work.site, section).declination_deg != 0)
-      log.warn(path +
-               ": declination turns orientations that were computed from points, which "
-               "know no compass; set declination_deg = 0 in [joints." +
-               section.name + "]");
+      log.doubts({doubt_on({path},
+                           "declination turns orientations that were computed from points, which "
+                           "know no compass",
+                           "set declination_deg = 0 in [joints." + section.name + "]")});
     measured.back() = std::move(list.poles);
   }
   say_turns(log, work.site);

@@ -34,7 +34,8 @@ void plan_spacing(const Site& site, const JointSettings& section, JointSet& set)
   if (section.spacing == "uniform") {
     set.spacing = Spacing::uniform;
     if (std::isnan(section.spacing_min_m) || std::isnan(section.spacing_max_m))
-      missing(site, section, "spacing_min_m or spacing_max_m", "spacing = \"uniform\" needs both");
+      missing(site, section, "spacing_min_m or spacing_max_m",
+              "spacing = \"uniform\" has ends: add spacing_min_m and spacing_max_m");
     if (section.spacing_min_m > section.spacing_max_m)
       throw InputError(where_of(site, path + ".spacing_min_m"),
                        "spacing_min_m is " + text(section.spacing_min_m) +
@@ -51,7 +52,8 @@ void plan_spacing(const Site& site, const JointSettings& section, JointSet& set)
   if (section.spacing != "lognormal") return;
   set.spacing = Spacing::lognormal;
   if (std::isnan(section.spacing_std_m))
-    missing(site, section, "spacing_std_m", "spacing = \"lognormal\" needs it [m]");
+    missing(site, section, "spacing_std_m",
+            "spacing = \"lognormal\" has a scatter: add spacing_std_m");
   // Beyond it most joints lie closer than any rock is jointed, and a few gaps hold all of the mean.
   constexpr double most_means = 10;
   if (section.spacing_std_m > most_means * section.spacing_m)
@@ -159,27 +161,31 @@ std::vector<PlannedSet> plan_joint_sets(const Site& site,
 SourceOptions plan_source(const Site& site, const Vec3& origin) {
   const SourceSettings& source = site.source;
   SourceOptions options;
-  const auto need = [&](bool is_given, const char* key) {
-    if (!is_given)
+  // All that lack at once: each would be a step more for the user.
+  const auto need = [&](const std::vector<std::pair<bool, const char*>>& keys) {
+    std::string missing;
+    for (const auto& [is_given, key] : keys)
+      if (!is_given) missing += (missing.empty() ? "" : ", ") + std::string(key);
+    if (!missing.empty())
       throw InputError(where_of(site, "source.failure_surface"),
-                       "failure_surface = \"" + source.failure_surface + "\" needs " + key,
-                       std::string("add ") + key + (key[0] == '[' ? "" : " to [source]"));
+                       "failure_surface = \"" + source.failure_surface + "\" needs " + missing,
+                       "add " + missing + (missing[0] == '[' ? "" : " to [source]"));
   };
   if (source.failure_surface == "plane") {
     options.kind = FailureSurface::plane;
-    need(!std::isnan(source.plane_dip_deg), "plane_dip_deg");
-    need(!std::isnan(source.plane_dip_direction_deg), "plane_dip_direction_deg");
-    need(source.plane_point_m.size() == 3, "plane_point_m");
+    need({{!std::isnan(source.plane_dip_deg), "plane_dip_deg"},
+          {!std::isnan(source.plane_dip_direction_deg), "plane_dip_direction_deg"},
+          {source.plane_point_m.size() == 3, "plane_point_m"}});
     options.plane_dip = source.plane_dip_deg * degree;
     options.plane_dip_direction = source.plane_dip_direction_deg * degree;
     options.plane_point =
         Vec3(source.plane_point_m[0], source.plane_point_m[1], source.plane_point_m[2]) - origin;
   } else if (source.failure_surface == "daylighting") {
     options.kind = FailureSurface::plane;
-    if (site.joints.empty()) need(false, "[joints.*]");
+    need({{!site.joints.empty(), "[joints.*]"}});
   } else if (source.failure_surface == "raster" || source.failure_surface == "thickness") {
     options.kind = FailureSurface::raster;
-    need(!source.raster.empty(), "raster");
+    need({{!source.raster.empty(), "raster"}});
   } else if (source.failure_surface == "slbl") {
     options.kind = FailureSurface::slbl;
     options.slbl_curvature = source.slbl_curvature_m;  // or by its sag, once the slope is known
@@ -187,7 +193,7 @@ SourceOptions plan_source(const Site& site, const Vec3& origin) {
   } else {
     options.kind = source.failure_surface == "vertical_depth" ? FailureSurface::vertical_depth
                                                               : FailureSurface::normal_depth;
-    need(!std::isnan(source.depth_m), "depth_m");
+    need({{!std::isnan(source.depth_m), "depth_m"}});
     options.depth = source.depth_m;
   }
   return options;

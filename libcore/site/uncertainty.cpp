@@ -82,7 +82,7 @@ void check_orientation(const Site& site, const QuantitySettings& q, const std::s
     refuse(site, q, "keys", "there is no section [joints." + name + "]", nearest_key(site, path));
   if (!is_fisher(q))
     refuse(site, q, "keys", path + " is an orientation, expected distribution = \"fisher\"",
-           "or name dip_deg or dip_direction_deg");
+           "distribution = \"fisher\" with n_measured, or name dip_deg or dip_direction_deg");
   if (std::isnan(joints->dip_deg) || std::isnan(joints->dip_direction_deg))
     refuse(site, q, "keys",
            path + " needs dip_deg and dip_direction_deg of [joints." + name +
@@ -107,7 +107,7 @@ NumberKey checked_key(const Site& site, const QuantitySettings& q, const std::st
   const bool is_whole = key->kind == NumberKey::whole_number;
   if (is_whole && (q.distribution != "discrete" || q.apply != "set"))
     refuse(site, q, "keys", path + " holds a whole number, expected distribution = \"discrete\"",
-           "give values = [...], set");
+           "distribution = \"discrete\", values = [...] and apply = \"set\"");
   if (std::isnan(key->value) && q.apply != "set")
     refuse(site, q, "apply",
            path + " is not given, so nothing can be " +
@@ -151,11 +151,15 @@ std::string text_of(const Span& span) {
                                : text(span.low) + " to " + text(span.high);
 }
 
-void need(const Site& site, const QuantitySettings& q, bool is_given, const char* key) {
-  if (!is_given)
-    refuse(site, q, "distribution",
-           "distribution = \"" + q.distribution + "\" needs " + std::string(key),
-           std::string("add ") + key);
+// All that lack at once.
+void need(const Site& site, const QuantitySettings& q,
+          const std::vector<std::pair<bool, const char*>>& keys) {
+  std::string missing;
+  for (const auto& [is_given, key] : keys)
+    if (!is_given) missing += (missing.empty() ? "" : ", ") + std::string(key);
+  if (!missing.empty())
+    refuse(site, q, "distribution", "distribution = \"" + q.distribution + "\" needs " + missing,
+           "add " + missing);
 }
 
 // Parameters that the distribution does not have must not look as if they counted.
@@ -187,7 +191,7 @@ double mean_of(const Site& site, const QuantitySettings& q) {
              std::isnan(own) ? "mean is not given, and " + path + " has no value"
                              : "mean is not given, and its keys have different values: " +
                                    text(first) + " and " + text(own),
-             "give mean, or apply = \"add\" or \"factor\"");
+             std::isnan(own) ? "give mean" : "give mean, or apply = \"add\" or \"factor\"");
   return first;
 }
 
@@ -199,14 +203,15 @@ DistributionKind kind_of(const std::string& name) {
 }
 
 void read_ends(const Site& site, const QuantitySettings& q, Distribution& d) {
-  need(site, q, !std::isnan(q.min), "min");
-  need(site, q, !std::isnan(q.max), "max");
+  need(site, q,
+       {{!std::isnan(q.min), "min"},
+        {!std::isnan(q.max), "max"},
+        {d.kind != DistributionKind::triangular || !std::isnan(q.mode), "mode"}});
   d.min = q.min, d.max = q.max;
   if (!(q.min < q.max))
     refuse(site, q, "max", "max is " + text(q.max) + ", expected above min, " + text(q.min),
            "exchange them, or widen the range");
   if (d.kind != DistributionKind::triangular) return;
-  need(site, q, !std::isnan(q.mode), "mode");
   d.mode = q.mode;
   if (q.mode < q.min || q.mode > q.max)
     refuse(site, q, "mode",
@@ -216,7 +221,7 @@ void read_ends(const Site& site, const QuantitySettings& q, Distribution& d) {
 }
 
 void read_values(const Site& site, const QuantitySettings& q, Distribution& d) {
-  need(site, q, !q.values.empty(), "values");
+  need(site, q, {{!q.values.empty(), "values"}});
   std::vector<double> weights = q.weights;
   if (weights.empty()) weights.assign(q.values.size(), 1);
   if (weights.size() != q.values.size())
@@ -296,7 +301,7 @@ Distribution distribution_of(const Site& site, const QuantitySettings& q) {
     check_span(site, q, d, span);
     return d;
   }
-  need(site, q, !std::isnan(q.std), "std");
+  need(site, q, {{!std::isnan(q.std), "std"}});
   d.mean = mean_of(site, q), d.std = q.std;
   if (d.kind == DistributionKind::lognormal && !(d.mean > 0))
     refuse(site, q, "mean", "the mean of a lognormal is " + text(d.mean) + ", expected above 0",
@@ -389,7 +394,7 @@ void check_quantity(const Site& site, const QuantitySettings& q) {
            "name what is drawn: keys = [\"ground.slope.friction_deg\"]");
   if (q.distribution.empty())
     refuse(site, q, "distribution", "distribution is missing",
-           "normal, lognormal, uniform, triangular, discrete or fisher");
+           "distribution = \"uniform\", or normal, lognormal, triangular, discrete, fisher");
   refuse_others(site, q);
   for (const std::string& path : q.keys) {
     if (is_orientation(path)) {

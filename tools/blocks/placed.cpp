@@ -268,8 +268,10 @@ void check_frequency(const PlacedContext& context, const PlacedSettings& section
     throw InputError(where, "has both frequency_per_a and frequency_per_m2_a",
                      "give the one of each release point, or the one of area");
   if (!std::isnan(section.frequency_per_m2_a) && !section.release_grid)
-    throw InputError(where, "has frequency_per_m2_a, and its bodies do not stand for an area",
-                     "frequency_per_m2_a needs release_grid = true; points have frequency_per_a");
+    throw InputError(
+        where, "has frequency_per_m2_a, and its bodies do not stand for an area",
+        "release all over the source, with release_grid = true and release_spacing_m; points "
+        "have frequency_per_a");
   for (const PlacedSettings& other : context.site.blocks)
     if (has_frequency(other) != has_frequency(section))
       throw InputError(where,

@@ -406,13 +406,13 @@ def faces(path, plane, factor=1, header=''):
         for k, (x, y, z) in enumerate((vertices[[*face, face[2]]] * factor).tolist())) for face in triangles), header)
 
 
-@row(TRN, 'scales plan and heights', '--unit-m 0.001', options='--crs EPSG:25832 --cell-size-m 5')
+@row(TRN, 'as millimetres it is', '--unit-m 0.001', options='--crs EPSG:25832 --cell-size-m 5')
 def faces_in_millimetres(plane):
     faces('faces.dxf', plane, 1000, '9\n$INSUNITS\n70\n4\n')
     return 'faces.dxf'
 
 
-@row(TRN, 'whatever its header says', '--unit-m 1', options='--crs EPSG:25832 --cell-size-m 5')
+@row(TRN, 'as metres it is', '--unit-m 1', options='--crs EPSG:25832 --cell-size-m 5')
 def faces_said_in_millimetres(plane):
     faces('faces.dxf', plane, 1, '9\n$INSUNITS\n70\n4\n')
     return 'faces.dxf'
@@ -514,8 +514,8 @@ def unknown_height(plane):
     return 'map.gpkg'
 
 
-@row(TIN, 'expected the same height: mixed units', '--elevation-field Z', '--elevation-field ELEV',
-     fill={'ELEV': 'ELEV --elevation-unit-m 0.3048'})
+@row(TIN, 'expected the same height: mixed units', '--elevation-field Z',
+     '--elevation-field ELEV --elevation-unit-m 0.3048')
 def z_beside_field(plane):
     rows = [(line(points, z), {'ELEV': z / FEET}) for z, points in plane.contours()]
     shapes('map.gpkg', rows, fields=[('ELEV', ogr.OFTReal)])
@@ -779,6 +779,9 @@ def ask(tool):
     code, out, err = call([BLOCKS, *given, '-o', 'b.h5', *kept])
     if code == 0 and tool == DDA:
         code, out, err = call([DDA, *given, '--blocks', 'b.h5', '-o', 'r.h5', *kept])
+    if code == 0 and tool == CHECK:
+        call([BLOCKS, *given, '-o', 'b.h5', '--trn-out', 'bed.tif', *kept])
+        code, out, err = call([CHECK, *given, '--bed', 'bed.tif', '--blocks', 'b.h5', '--probe-s', '0', *kept])
     SAID.append(err)
     return code, out + err, err
 
@@ -905,6 +908,163 @@ def site_in_utf16(_plane):
     return (BLOCK + END).encode('utf-16-be')
 
 
+# --- keys of the site ----------------------------------------------------------------------------
+
+KEYS = []
+
+
+def key_row(tool, finding, section, *ways, out=(), truth='', options=()):
+    """A maker of the text of a site file. A way is one of the hint: lines of keys, which go into the section in place
+    of those of the same name and of the keys of `out`. Only the first words of each line, up to the value, must be in
+    the hint where the value is the user's."""
+    def add(make):
+        KEYS.append((make, tool, finding, section, ways, out, truth, options))
+        return make
+    return add
+
+
+CHECK = 'talus-check'
+CUT = SOURCE.format(keys=AREA + FLAT)
+
+
+def cut_with(**joints):
+    """The cut source with keys of [joints.sliding] changed."""
+    text = CUT
+    for key, value in joints.items():
+        text = text.replace('[joints.sliding]', f'[joints.sliding]\n{key} = {value}')
+    return re.sub('(?m)^(spacing_m = 8\n)(?=\\[joints.rear)', '', text) if 'spacing_m' in joints else text
+
+
+def drawn(**keys):
+    """The cut source with a quantity that is drawn."""
+    lines = ''.join(f'{key} = {value}\n' for key, value in keys.items())
+    return CUT + f'friction_deg = 35\n[ground.slope]\nfriction_deg = 30\n[uncertainty.q]\n{lines}'
+
+
+@key_row(BLOCKS, 'is not given', 'joints.sliding', 'spacing_min_m = 6\nspacing_max_m = 10')
+def uniform_spacing_without_ends(_plane):
+    return cut_with(spacing='"uniform"')
+
+
+@key_row(BLOCKS, 'spacing_std_m of [joints.sliding] is not given', 'joints.sliding', 'spacing_std_m = 2')
+def lognormal_spacing_without_scatter(_plane):
+    return cut_with(spacing='"lognormal"')
+
+
+@key_row(BLOCKS, 'a failure surface that daylights', 'source', 'failure_surface = "plane"|plane_dip_deg = 15\n'
+         'plane_dip_direction_deg = 180\nplane_point_m = [650100, 5200060, {foot}]')
+def no_set_daylights(_plane):
+    return SOURCE.format(keys=AREA + 'failure_surface = "daylighting"').replace('dip_deg = 20', 'dip_deg = 5')
+
+
+@key_row(BLOCKS, 'discs, expected at most', 'joints.sliding', 'persistence = 1')
+def joints_of_small_discs(_plane):
+    return cut_with(persistence=0.5, disc_diameter_m=0.1).replace('spacing_m = 8', 'spacing_m = 4')
+
+
+@key_row(BLOCKS, 'which know no compass', 'joints.measured', 'declination_deg = 0')
+def declination_of_computed_orientations(_plane):
+    write('list.csv', 'nx,ny,nz\n' + ''.join(f'0.{k % 7},0.5,0.8\n' for k in range(1, 40)))
+    measured = '[joints.measured]\nmeasured_file = "list.csv"\ndeclination_deg = 3\nspacing_m = 8\n[joints.rear]'
+    return CUT.replace('[joints.rear]', measured)
+
+
+@key_row(DDA, 'stands in block 0 at the start', 'forest.f', 'stems_file = "stems.gpkg|subset=fid > 1"')
+def stem_in_the_source(_plane):
+    shapes('stems.gpkg', [(f'POINT ({x} {y})', {'dbh_cm': 30}) for x, y in ((650100, 5200150), (650150, 5200050))],
+           fields=[('dbh_cm', ogr.OFTReal)])
+    return BLOCK + END + '[forest.f]\nstems_file = "stems.gpkg"\n'
+
+
+@key_row(DDA, 'in no cell more than 1 %', 'forest.f', 'conifer_share = 0', out=['conif_percent_raster'])
+def conifers_as_share(_plane):
+    for name, value in (('stems.tif', 200.0), ('conifers.tif', .8)):
+        raster(name, np.full((10, 10), value), (X0, Y0 + SIDE), 20)
+    return (BLOCK + END + '[forest.f]\nnrtrees_raster = "stems.tif"\ndbh_mean_cm = 30\n'
+            'conif_percent_raster = "conifers.tif"\n')
+
+
+@key_row(DDA, 'the same fence would stand there twice', 'fence.b', 'active = false')
+def fence_twice(_plane):
+    line_ = 'line = [[650050, 5200050], [650150, 5200050]]\nheight_m = 3\nactive = true\n'
+    return BLOCK + END + '[fence.a]\n' + line_ + '[fence.b]\n' + line_
+
+
+@key_row(BLOCKS, 'its bodies do not stand for an area', 'blocks.b', 'release_grid = true\nrelease_spacing_m = 20',
+         out=['position_m'])
+def frequency_of_an_area_of_points(_plane):
+    return '[source]\n' + AREA + BLOCK + 'frequency_per_m2_a = 1e-4\n' + END
+
+
+@key_row(BLOCKS, 'keys is missing', 'uncertainty.q', 'keys = ["ground.slope.friction_deg"]')
+def quantity_of_no_key(_plane):
+    return drawn(distribution='"uniform"', min=25, max=35)
+
+
+@key_row(BLOCKS, 'distribution is missing', 'uncertainty.q', 'distribution = "uniform"|min = 25\nmax = 35')
+def quantity_of_no_distribution(_plane):
+    return drawn(keys='["ground.slope.friction_deg"]')
+
+
+@key_row(BLOCKS, 'expected distribution = "fisher"', 'uncertainty.q',
+         'distribution = "fisher"\nn_measured = 20|uncertainty: rock_masses = 20',
+         out=['min', 'max'])
+def orientation_of_uniform(_plane):
+    return drawn(keys='["joints.sliding.orientation"]', distribution='"uniform"', min=1, max=2).replace(
+        '[joints.sliding]', '[joints.sliding]\nfisher_k = 50')
+
+
+@key_row(BLOCKS, 'holds a whole number', 'uncertainty.q',
+         'distribution = "discrete"\nvalues = [1, 2]|uncertainty: rock_masses = 4', out=['min', 'max'])
+def whole_number_of_uniform(_plane):
+    return (BLOCK + 'n_per_point = 1\n' + END + '[uncertainty.q]\nkeys = ["blocks.b.n_per_point"]\n'
+            'distribution = "uniform"\nmin = 1\nmax = 2\n')
+
+
+@key_row(BLOCKS, 'is not given, so nothing can be', 'uncertainty.q', 'apply = "set"|mean = 30')
+def factor_on_nothing(_plane):
+    return drawn(keys='["joints.sliding.friction_deg"]', distribution='"normal"', apply='"factor"', std=0.1)
+
+
+@key_row(BLOCKS, 'on which a factor does nothing', 'uncertainty.q', 'apply = "add"|truncate = [0, 1]')
+def factor_on_zero(_plane):
+    return drawn(keys='["ground.slope.cohesion_pa"]', distribution='"normal"', apply='"factor"', std=0.1).replace(
+        'friction_deg = 30\n', 'friction_deg = 30\ncohesion_pa = 0\n')
+
+
+@key_row(BLOCKS, 'n_measured or fisher_k, one of them', 'uncertainty.q', 'n_measured = 20|uncertainty: rock_masses = 20')
+def fisher_of_no_scatter(_plane):
+    return drawn(keys='["joints.sliding.orientation"]', distribution='"fisher"').replace(
+        '[joints.sliding]', '[joints.sliding]\nfisher_k = 50')
+
+
+@key_row(BLOCKS, 'its keys have different values', 'uncertainty.q', 'mean = 30', 'apply = "add"', 'apply = "factor"')
+def mean_of_two_values(_plane):
+    return drawn(keys='["ground.slope.friction_deg", "material.rock.friction_deg"]', distribution='"normal"', std=0.1)
+
+
+@key_row(BLOCKS, 'lies outside of', 'uncertainty.q', 'truncate = [10, 60]')
+def scatter_beyond_the_key(_plane):
+    return drawn(keys='["ground.slope.friction_deg"]', distribution='"normal"', std=60)
+
+
+@key_row(BLOCKS, 'since it cannot be made larger later', 'uncertainty', 'n_samples = 8')
+def hypercube_of_no_size(_plane):
+    return drawn(keys='["ground.slope.friction_deg"]', distribution='"uniform"', min=25, max=35) + (
+        '[uncertainty]\nsampling = "hypercube"\n')
+
+
+@key_row(CHECK, 'points that slide from the source ask for', 'solver', 'duration_s = #')
+def short_run(_plane):
+    return CUT + '[ground.slope]\nfriction_deg = 20\n[solver]\nduration_s = 1\n'
+
+
+@key_row(CHECK, 'the face is steep', 'source', 'failure_surface = "daylighting"', out=['depth_m'])
+def depth_along_the_normal_of_a_steep_face(plane):
+    plane.z = lambda x, y: plane.z0 + 2 * (y - plane.y0) + 0 * x
+    return CUT.replace('dip_deg = 20', 'dip_deg = 50') + '[ground.slope]\nfriction_deg = 20\n'
+
+
 # --- the test ------------------------------------------------------------------------------------
 
 SAID = []
@@ -934,6 +1094,7 @@ def obey(entry, way):
 
 LITERALS = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')
 OPTION = r'(?<![\w-])--[a-z][a-z-]+ '
+KEY = r'\b[a-z_]{3,} = ["\[\da-z]|\b[a-z_]{3,} = $|\badd [a-z_]+_m\b'
 DECLARED = re.compile(r'^void declare\(.*?^}|^\s*//.*?$', re.M | re.S)
 # What no input of this table leads to, and why.
 NOT_OBEYED = {
@@ -950,6 +1111,17 @@ NOT_OBEYED = {
     '--unit-m is for faces': 'of options that do not go together',
     'with talus-tin --t-srs ': 'the contours are not there',
     'TERRAIN.tif --t-vertical': 'needs a grid of PROJ',
+    'slbl_curvature_m = ': 'says, and asks for nothing',
+    'with frames = false': 'help of a key',
+    'e.g. keys = ': 'help of a key',
+    "name = '": 'a filter of a layer',
+    'value = [': 'a value of --set',
+    'key = value': 'how TOML is written',
+    'protect = "NAME"': 'of results of runs',
+    'does not belong to distribution': 'the hint is to take a key out',
+    'frequency_per_a = ': 'a file that is written',
+    ' of its foot': 'the foot of a mass that was cut',
+    'daylight = "': 'of a mass that was cut: talus-check/test_look.sh',
 }
 
 
@@ -957,9 +1129,11 @@ def hints_in_sources(source_dir):
     """Literals that hold a command of the shell, or, where inputs are read, an option: (place, text)."""
     for folder, pattern in (('libcore', rf'\b{SHELL} '), ('libcore/io', OPTION), ('libcore/import', OPTION),
                             ('libcore/terrain', OPTION), ('tools/tin', OPTION), ('tools/trn', OPTION),
-                            ('tools', rf'\b{SHELL} '), ('libcore/blocks', r'[a-z_]+ = "[a-z]')):
+                            ('tools', rf'\b{SHELL} '), ('libcore/blocks', KEY), ('libcore/import', KEY),
+                            ('libcore/setup', KEY), ('libcore/site', KEY), ('libcore/terrain', KEY),
+                            ('libcore/record', KEY), ('tools/blocks', KEY)):
         for path in sorted((source_dir / folder).rglob('*.cpp')):
-            if path.name == 'gone_options.cpp':
+            if path.name.startswith('gone_'):
                 continue
             source = DECLARED.sub('', path.read_text(encoding='utf-8'))
             for match in LITERALS.finditer(source):
@@ -968,12 +1142,12 @@ def hints_in_sources(source_dir):
                     yield f'{path.relative_to(source_dir)}', words.strip('\n')
 
 
-def obey_in_site(entry):
+def obey_in_site(entry, z0):
     """As obey(), of a site: the name of the file changes in the site."""
     make, tool, finding, way, truth, fill = entry
-    dem('dem.tif', Plane())
+    dem('dem.tif', Plane(z0))
     call([TRN, 'dem.tif', '-o', 'trn.tif', '--no-db'])
-    text = make(Plane())
+    text = make(Plane(z0))
     head = f'[site]\nname = "t"\ncrs = "{CODE}"\n'
     write('s.toml', head + text if isinstance(text, str) else
           head.encode('utf-16-be' if b'\0' in text else 'ascii') + text)
@@ -1007,6 +1181,40 @@ def obey_in_site(entry):
     assert code == 0 and re.search(truth, said), f'after {command}, expected: {truth}; it says: {said}'
 
 
+def with_keys(site, section, lines, out):
+    """The text of the site with these lines of keys in the section, which is made if there is none."""
+    names = [line_.split(' = ')[0] for line_ in lines.split('\n')] + list(out)
+    parts = re.split(r'(?m)^(?=\[)', site)
+    header = f'[{section}]\n'
+    parts += [header] if not any(part.startswith(header) for part in parts) else []
+    return ''.join(part if not part.startswith(header) else
+                   header + lines + '\n' + re.sub(f'(?m)^({"|".join(names)}) = .*\n', '', part[len(header):])
+                   for part in parts)
+
+
+def obey_key(entry, way, z0):
+    """As obey(), of keys that a hint names. Behind | stands the second step."""
+    make, tool, finding, section, _, out, truth, options = entry
+    plane = Plane(z0)
+    site = f'[site]\nname = "t"\ncrs = "{CODE}"\n' + make(plane)
+    dem('dem.tif', plane)
+    call([TRN, 'dem.tif', '-o', 'trn.tif', '--no-db'])
+    write('s.toml', site)
+    code, said, err = ask(tool)
+    assert finding in err, f'expected: {finding}; it says: {said}'
+    for step in way.format(foot=z0 + 30).split('|'):
+        hint = hint_in(err[:err.index(finding)] + err[err.index(finding):].split('warning:')[0]) if code == 0 else hint_in(err)
+        other, _, step = step.rpartition(': ')
+        for line_ in step.split('\n'):
+            assert line_.split(' = ')[0] in hint, f'no "{line_.split(" = ")[0]}" in the hint: {hint}'
+        if '#' in step:
+            step = re.search(step.replace('#', r'[-\d.]+'), hint)[0]
+        site = with_keys(site, other or section, step, out)
+        write('s.toml', site)
+        code, said, err = ask(tool)
+    assert code == 0 and finding not in err and re.search(truth, said), f'after {way}: {said}'
+
+
 def in_folder(name, function):
     """Whether it ends well in a folder of its own."""
     folder = re.sub('[^A-Za-z0-9]+', '_', name)
@@ -1031,9 +1239,15 @@ def main(source_dir, wanted):
         for way in entry[3]:
             if not wanted or name in wanted:
                 failed += not in_folder(f'{name}, {way}', lambda e=entry, w=way: obey(e, w))
-    for entry in SITES:
-        if not wanted or entry[0].__name__ in wanted:
-            failed += not in_folder(entry[0].__name__, lambda e=entry: obey_in_site(e))
+    for z0 in (1000.0, -50.0):  # 0 m lies in the hillside
+        for entry in SITES:
+            if not wanted or entry[0].__name__ in wanted:
+                failed += not in_folder(f'{entry[0].__name__}, {z0:g} m', lambda e=entry, z=z0: obey_in_site(e, z))
+        for entry in KEYS:
+            for way in entry[4]:
+                if not wanted or entry[0].__name__ in wanted:
+                    failed += not in_folder(f'{entry[0].__name__}, {way}, {z0:g} m'.replace('\n', ', '),
+                                            lambda e=entry, w=way, z=z0: obey_key(e, w, z))
     if not wanted:
         said = '\n'.join(SAID)
         for place, words in dict.fromkeys(hints_in_sources(pathlib.Path(source_dir))):

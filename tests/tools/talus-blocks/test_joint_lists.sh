@@ -49,7 +49,8 @@ sets facets.csv 'declination_deg = 0' '[joints]' 'declination_deg = 3.5'
 cmp plain.txt.sets facets.csv.sets || fail "a section's own declination was not taken"
 sets facets.csv '[joints]' 'declination_deg = 3.5'
 says "warning: "
-says "which know no compass; set declination_deg = 0 in [joints.m]"
+says "which know no compass"
+says "hint: set declination_deg = 0 in [joints.m]"
 
 # facets of a point cloud: 100,000 are few (seconds; with a mean for each of them it were minutes)
 awk 'BEGIN { srand(1); for (i = 0; i < 100000; i++) printf "%.2f %.2f\n", (i % 2 ? 80 : 170) + 10 * rand(), 60 + 10 * rand() }' >many.txt
