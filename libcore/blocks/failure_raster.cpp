@@ -45,6 +45,19 @@ double lowest(const std::vector<double>& values) {
   return *std::min_element(values.begin(), values.end());
 }
 
+// Between the 16th and the 84th percentile.
+double spread(const std::vector<double>& values) {
+  return percentile(values, 0.84) - percentile(values, 0.16);
+}
+
+// Elevations have the relief of the ground: below it they change less than by themselves.
+bool has_relief_of_ground(const ValuesInside& values) {
+  std::vector<double> below;
+  for (std::size_t i = 0; i < values.raster.size(); ++i)
+    below.push_back(values.ground[i] - values.raster[i]);
+  return spread(below) < spread(values.raster) / 2;
+}
+
 }  // namespace
 
 void check_is_surface(const Trn& ground, const Area& area, const std::vector<double>& elevation,
@@ -65,6 +78,13 @@ void check_is_surface(const Trn& ground, const Area& area, const std::vector<dou
 void lower_by_thickness(const Trn& ground, const Area& area, const Where& where,
                         std::vector<double>& depth) {
   const ValuesInside values = values_inside(ground, area, depth);
+  if (!values.raster.empty() && has_relief_of_ground(values))
+    throw InputError(where,
+                     "its values in the source, " + text(lowest(values.raster), 6) +
+                         " m and above, rise and fall with the ground there, " +
+                         text(lowest(values.ground), 6) +
+                         " m and above: these are elevations, expected depths of the mass",
+                     "for elevations of the surface set source.failure_surface = \"raster\"");
   if (!values.raster.empty() && lowest(values.raster) < 0) {
     const Vec2 at = values.lowest_at + ground.origin.head<2>();
     throw InputError(where,
@@ -72,16 +92,6 @@ void lower_by_thickness(const Trn& ground, const Area& area, const Where& where,
                          text(at.x(), 10) + ", y " + text(at.y(), 10) + ", expected 0 or more",
                      "heights lost minus, heights gained plus? Turn the sign: gdal_calc.py -A " +
                          command_words(where.file) + " --calc=-A --outfile turned.tif");
-  }
-  if (!values.raster.empty()) {
-    const double size = std::sqrt(area_of(area)), middle = median(values.raster);
-    const double ground_middle = median(values.ground);
-    if (middle > size / 2 && std::abs(ground_middle - middle) < std::max(size, ground_middle / 2))
-      throw InputError(where,
-                       "half of its values in the source are above " + text(middle, 6) +
-                           " m, near the elevation of the ground, " + text(ground_middle, 6) +
-                           " m: these are elevations, expected depths of the mass",
-                       "for elevations of the surface set source.failure_surface = \"raster\"");
   }
   for (std::size_t i = 0; i < depth.size(); ++i) depth[i] = ground.elevation[i] - depth[i];
 }

@@ -219,7 +219,7 @@ std::vector<Vec3> local_points(InputLog& log, const Site& site, const Trn& groun
     request.frame = ground.crs_wkt;
     ImportReading reading;
     VectorShapes found = std::move(import_inputs(request, reading).shapes.front());
-    for (const std::string& warning : reading.warnings) log.warn(warning);
+    log.doubts(reading.doubts);
     if (!found.operation.empty()) {
       const std::string name = section + "." + key;
       log.content_read(name, digest_of(found));

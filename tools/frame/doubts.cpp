@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/fields.hpp"
 #include "io/geopackage_gdal.hpp"
 #include "tools/frame/options.hpp"
 
@@ -13,21 +14,23 @@ FieldValue text_or_null(const std::string& words) {
   return words.empty() ? FieldValue() : FieldValue(words);
 }
 
-// The middle of an extent.
-VectorFeature feature_of(const Doubt& doubt) {
-  VectorFeature feature;
-  if (!doubt.at.empty()) feature.points = {(doubt.at.front() + doubt.at.back()) / 2};
-  feature.values = {text_or_null(doubt.what),
-                    text_or_null(doubt.where.text()),
-                    doubt.feature < 0 ? FieldValue() : FieldValue(doubt.feature),
-                    text_or_null(doubt.found),
-                    text_or_null(doubt.expected),
-                    text_or_null(doubt.hint),
-                    doubt.value,
-                    doubt.low,
-                    doubt.high,
-                    text(doubt.state)};
-  return feature;
+const std::vector<Field<Doubt>>& doubt_fields() {
+  using D = const Doubt&;
+  static const std::vector<Field<Doubt>> fields = {
+      {"what", "", "What", [](D d) { return text_or_null(d.what); }, FieldType::text},
+      {"file", "", "File", [](D d) { return text_or_null(d.where.text()); }, FieldType::text},
+      {"feature", "", "Feature",
+       [](D d) { return d.feature < 0 ? FieldValue() : FieldValue(d.feature); },
+       FieldType::integer},
+      {"found", "", "Found", [](D d) { return text_or_null(d.found); }, FieldType::text},
+      {"expected", "", "Expected", [](D d) { return text_or_null(d.expected); }, FieldType::text},
+      {"hint", "", "Way out", [](D d) { return text_or_null(d.hint); }, FieldType::text},
+      {"value", "", "Found, as a number", [](D d) -> FieldValue { return d.value; }},
+      {"low", "", "Expected, lower bound", [](D d) -> FieldValue { return d.low; }},
+      {"high", "", "Expected, upper bound", [](D d) -> FieldValue { return d.high; }},
+      {"state", "", "State", [](D d) -> FieldValue { return std::string(text(d.state)); },
+       FieldType::text}};
+  return fields;
 }
 
 void write_layer(Tool& tool, const DoubtOptions& options) {
@@ -36,12 +39,13 @@ void write_layer(Tool& tool, const DoubtOptions& options) {
   layer.name = "doubts";
   layer.type = GeometryType::point;
   layer.description = "what to look at before the result is used";
-  layer.fields = {{"what", FieldType::text},       {"file", FieldType::text},
-                  {"feature", FieldType::integer}, {"found", FieldType::text},
-                  {"expected", FieldType::text},   {"hint", FieldType::text},
-                  {"value", FieldType::real},      {"low", FieldType::real},
-                  {"high", FieldType::real},       {"state", FieldType::text}};
-  for (const Doubt& doubt : tool.doubts_found()) layer.features.push_back(feature_of(doubt));
+  layer.fields = vector_fields(doubt_fields());
+  for (const Doubt& doubt : tool.doubts_found()) {
+    VectorFeature& feature = layer.features.emplace_back();
+    // the middle of an extent
+    if (!doubt.at.empty()) feature.points = {(doubt.at.front() + doubt.at.back()) / 2};
+    feature.values = values_of(doubt_fields(), doubt);
+  }
   write_geopackage(tool.stage_also_if_refused(options.layer), options.crs_wkt, {layer});
 }
 

@@ -837,7 +837,7 @@ def depths_called_elevations(_plane):
     return SOURCE.format(keys=AREA + 'failure_surface = "raster"\nraster = "loss.tif"')
 
 
-@site_row(BLOCKS, 'near the elevation of the ground', 'failure_surface = "raster"', '32,000 m3')
+@site_row(BLOCKS, 'rise and fall with the ground', 'failure_surface = "raster"', '32,000 m3')
 def elevations_called_depths(plane):
     raster('surface.tif', plane.cells() - 5, (X0, Y0 + SIDE), 5)
     return SOURCE.format(keys=AREA + 'failure_surface = "thickness"\nraster = "surface.tif"')
@@ -910,6 +910,8 @@ def site_in_utf16(_plane):
 
 # --- keys of the site ----------------------------------------------------------------------------
 
+# On low ground a depth of 5 m may be an elevation of 5 m as well; the tool says how deep the mass then is.
+ON_HIGH_GROUND = 'depths_called_elevations',
 KEYS = []
 
 
@@ -951,7 +953,7 @@ def lognormal_spacing_without_scatter(_plane):
     return cut_with(spacing='"lognormal"')
 
 
-@key_row(BLOCKS, 'a failure surface that daylights', 'source', 'failure_surface = "plane"|plane_dip_deg = 15\n'
+@key_row(BLOCKS, 'a failure surface that daylights', 'source', 'failure_surface = "plane" then plane_dip_deg = 15\n'
          'plane_dip_direction_deg = 180\nplane_point_m = [650100, 5200060, {foot}]')
 def no_set_daylights(_plane):
     return SOURCE.format(keys=AREA + 'failure_surface = "daylighting"').replace('dip_deg = 20', 'dip_deg = 5')
@@ -1001,13 +1003,13 @@ def quantity_of_no_key(_plane):
     return drawn(distribution='"uniform"', min=25, max=35)
 
 
-@key_row(BLOCKS, 'distribution is missing', 'uncertainty.q', 'distribution = "uniform"|min = 25\nmax = 35')
+@key_row(BLOCKS, 'distribution is missing', 'uncertainty.q', 'distribution = "uniform" then min = 25\nmax = 35')
 def quantity_of_no_distribution(_plane):
     return drawn(keys='["ground.slope.friction_deg"]')
 
 
 @key_row(BLOCKS, 'expected distribution = "fisher"', 'uncertainty.q',
-         'distribution = "fisher"\nn_measured = 20|uncertainty: rock_masses = 20',
+         'distribution = "fisher"\nn_measured = 20 then uncertainty: rock_masses = 20',
          out=['min', 'max'])
 def orientation_of_uniform(_plane):
     return drawn(keys='["joints.sliding.orientation"]', distribution='"uniform"', min=1, max=2).replace(
@@ -1015,24 +1017,24 @@ def orientation_of_uniform(_plane):
 
 
 @key_row(BLOCKS, 'holds a whole number', 'uncertainty.q',
-         'distribution = "discrete"\nvalues = [1, 2]|uncertainty: rock_masses = 4', out=['min', 'max'])
+         'distribution = "discrete"\nvalues = [1, 2] then uncertainty: rock_masses = 4', out=['min', 'max'])
 def whole_number_of_uniform(_plane):
     return (BLOCK + 'n_per_point = 1\n' + END + '[uncertainty.q]\nkeys = ["blocks.b.n_per_point"]\n'
             'distribution = "uniform"\nmin = 1\nmax = 2\n')
 
 
-@key_row(BLOCKS, 'is not given, so nothing can be', 'uncertainty.q', 'apply = "set"|mean = 30')
+@key_row(BLOCKS, 'is not given, so nothing can be', 'uncertainty.q', 'apply = "set" then mean = 30')
 def factor_on_nothing(_plane):
     return drawn(keys='["joints.sliding.friction_deg"]', distribution='"normal"', apply='"factor"', std=0.1)
 
 
-@key_row(BLOCKS, 'on which a factor does nothing', 'uncertainty.q', 'apply = "add"|truncate = [0, 1]')
+@key_row(BLOCKS, 'on which a factor does nothing', 'uncertainty.q', 'apply = "add" then truncate = [0, 1]')
 def factor_on_zero(_plane):
     return drawn(keys='["ground.slope.cohesion_pa"]', distribution='"normal"', apply='"factor"', std=0.1).replace(
         'friction_deg = 30\n', 'friction_deg = 30\ncohesion_pa = 0\n')
 
 
-@key_row(BLOCKS, 'n_measured or fisher_k, one of them', 'uncertainty.q', 'n_measured = 20|uncertainty: rock_masses = 20')
+@key_row(BLOCKS, 'n_measured or fisher_k, one of them', 'uncertainty.q', 'n_measured = 20 then uncertainty: rock_masses = 20')
 def fisher_of_no_scatter(_plane):
     return drawn(keys='["joints.sliding.orientation"]', distribution='"fisher"').replace(
         '[joints.sliding]', '[joints.sliding]\nfisher_k = 50')
@@ -1193,7 +1195,7 @@ def with_keys(site, section, lines, out):
 
 
 def obey_key(entry, way, z0):
-    """As obey(), of keys that a hint names. Behind | stands the second step."""
+    """As obey(), of keys that a hint names. Behind "then" stands the second step."""
     make, tool, finding, section, _, out, truth, options = entry
     plane = Plane(z0)
     site = f'[site]\nname = "t"\ncrs = "{CODE}"\n' + make(plane)
@@ -1202,7 +1204,7 @@ def obey_key(entry, way, z0):
     write('s.toml', site)
     code, said, err = ask(tool)
     assert finding in err, f'expected: {finding}; it says: {said}'
-    for step in way.format(foot=z0 + 30).split('|'):
+    for step in way.format(foot=z0 + 30).split(' then '):
         hint = hint_in(err[:err.index(finding)] + err[err.index(finding):].split('warning:')[0]) if code == 0 else hint_in(err)
         other, _, step = step.rpartition(': ')
         for line_ in step.split('\n'):
@@ -1241,6 +1243,8 @@ def main(source_dir, wanted):
                 failed += not in_folder(f'{name}, {way}', lambda e=entry, w=way: obey(e, w))
     for z0 in (1000.0, -50.0):  # 0 m lies in the hillside
         for entry in SITES:
+            if entry[0].__name__ in ON_HIGH_GROUND and z0 < 0:
+                continue
             if not wanted or entry[0].__name__ in wanted:
                 failed += not in_folder(f'{entry[0].__name__}, {z0:g} m', lambda e=entry, z=z0: obey_in_site(e, z))
         for entry in KEYS:

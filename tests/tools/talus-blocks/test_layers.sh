@@ -52,7 +52,7 @@ collection mixed.geojson "$line" "$area"
 rm areas.gpkg
 ogr2ogr -q areas.gpkg mixed.geojson -nln mixed -nlt GEOMETRY
 expect 0 cut
-says "layer mixed also holds 1 open line, passed over"
+says "layer mixed: also holds 1 open line, passed over"
 holds "$(value out prism_volume_m3) == $volume"
 
 # repeated, nested and adjoining polygons are the area that they cover

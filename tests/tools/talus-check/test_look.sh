@@ -45,7 +45,7 @@ prints "40 runs about"
 # What the stages before doubted is numbered, in words and on the map; every input lies over the terrain,
 # also what is outside.
 cat >before.json <<'END'
-{"layers": [{"name": "contours", "file": "map.gpkg", "magnitudes": {"x_m": {"lowest": 499900, "highest": 500100}, "y_m": {"lowest": 5199950, "highest": 5200100}}}],
+{"layers": [{"name": "contours", "file": "map.gpkg", "magnitudes": {"x_m": {"lowest": 499950, "highest": 500080}, "y_m": {"lowest": 5199970, "highest": 5200080}}}],
  "doubts": [{"state": "accepted", "file": "map.gpkg", "what": "contour", "feature": 5, "expected": "1040 m", "hint": "mend it", "n": 3, "at": [[500020, 5200020, 0]]}]}
 END
 seen() {
@@ -82,7 +82,7 @@ EOF
 expect 0 look
 prints "object road: "
 prints "fall lines come to it"
-says "object.hut, x 500022, y 5200030: it stands on the mass"
+says "object.hut, x 500024, y 5200032: it stands on the mass"
 for part in 'class="object"' '>road</text>' '>hut</text>' 'class="proposed"' '<td>house</td>'; do
   grep -qF "$part" check.html || fail "the page does not have: $part"
 done

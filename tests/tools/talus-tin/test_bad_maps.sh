@@ -56,7 +56,7 @@ refused "has Z 100 and ELEV 3000, expected the same height: mixed units?" talus-
 expect 0 talus-tin mixed.geojson -o z.ply --elevation-field Z
 ogr2ogr -q -dim XY -sql "SELECT ELEV AS ELEV_FT FROM map" feet.gpkg map.geojson
 refused "the field ELEV_FT is in feet by its name" talus-tin feet.gpkg
-says "hint: --elevation-unit-m 0.3048"
+says "hint: as feet: --elevation-unit-m 0.3048"
 expect 0 talus-tin feet.gpkg -o feet.ply --elevation-unit-m 0.3048 --report feet.json
 awk -v v="$(value feet.json interval_m)" 'BEGIN { exit !((v - 3.048) ^ 2 < 1e-18) }' ||
   fail "interval $(value feet.json interval_m), expected 3.048"

@@ -44,7 +44,7 @@ says "warning: roof.dxf|layername=TIN,roof: second layer"
 # a drawing in feet is refused; the hint's option scales plan and heights
 { printf '0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n2\n0\nENDSEC\n'; cat faces.dxf; } >feet.dxf
 expect 1 talus-trn feet.dxf -o bad.tif --crs none
-says "--unit-m 0.3048 scales plan and heights"
+says "as feet: --unit-m 0.3048, for plan and heights"
 expect 0 talus-trn feet.dxf -o feet.tif --crs none --unit-m 0.3048
 prints "304.8 to 334.8 m"  # 1000 ft, and 1 : 2 over 60 m
 expect 2 talus-trn faces.dxf.tif -o bad.tif --unit-m 2

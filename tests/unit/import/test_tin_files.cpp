@@ -76,7 +76,8 @@ TEST(TinFiles, FacesOfADrawingAreATin) {
 
 TEST(TinFiles, DrawingsInOtherUnitsOrWithoutFacesAreRefused) {
   EXPECT_EQ(refusal(write("mm.dxf", drawing(faces, "9\n$INSUNITS\n70\n4\n"))),
-            ": the drawing is in millimetres ($INSUNITS 4 in its header), expected metres");
+            ": the drawing is in millimetres ($INSUNITS 4 in its header), expected metres: as "
+            "millimetres it is 0.1 m wide; as metres it is 100 m wide");
   EXPECT_EQ(refusal(write("m.dxf", drawing(faces, "9\n$INSUNITS\n70\n6\n"))), "accepted");
   EXPECT_EQ(refusal(write("none.dxf", drawing("0\nPOINT\n8\n0\n10\n1\n20\n2\n30\n3\n"))),
             ": layer entities: holds no faces, but 1 point; expected faces");
