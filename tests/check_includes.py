@@ -16,7 +16,7 @@ import re
 import sys
 
 MODULES = ["base", "sampling", "geometry", "motion", "terrain", "blocks", "site", "contact", "solver", "scene", "step",
-           "paper", "io", "import", "record", "setup", "store", "ensemble", "run", "post", "report", "verify"]
+           "paper", "draw", "io", "import", "record", "setup", "store", "ensemble", "run", "post", "report", "verify"]
 LIBRARY_HEADERS = {
     "boost": re.compile(r"^boost/"),
     "cairo": re.compile(r"^(cairo|pango)"),

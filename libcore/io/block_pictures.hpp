@@ -1,11 +1,12 @@
 // libcore/io/block_pictures.hpp: public
-// Pictures of a block set as SVG text: the stereonet of its joints, the curve of its sizes.
+// Pictures of a block set: the stereonet of its joints, the curve of its sizes.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "base/types.hpp"
+#include "draw/chart.hpp"
 
 namespace talus {
 
@@ -31,16 +32,15 @@ struct NetLine {
 
 /// Equal-area (Schmidt) net of the lower hemisphere: poles as dots, the mean plane of each set as a
 /// great circle, and the mean direction and dip of the slope when `slope_normal` is not zero.
-[[nodiscard]] std::string stereonet_svg(const std::vector<NetSet>& sets, const Vec3& slope_normal);
+[[nodiscard]] Drawing stereonet(const std::vector<NetSet>& sets, const Vec3& slope_normal);
 
 /// The same with the zones of poles that slide (daylight envelope, friction circle, lateral limits)
 /// and topple (slip limit plane), and with the lines of pairs of sets.
-[[nodiscard]] std::string kinematic_net_svg(const std::vector<NetSet>& sets,
-                                            const Vec3& slope_normal, const NetZones& zones,
-                                            const std::vector<NetLine>& lines);
+[[nodiscard]] Drawing kinematic_net(const std::vector<NetSet>& sets, const Vec3& slope_normal,
+                                    const NetZones& zones, const std::vector<NetLine>& lines);
 
 /// Share of the volume in blocks smaller than V against V, logarithmic, with V10, V50, V90 marked.
-[[nodiscard]] std::string size_curve_svg(std::vector<double> volumes);
+[[nodiscard]] Chart size_curve(std::vector<double> volumes);
 
 /// Volume below which a share of the total volume lies [m3]: V10 for share 0.1. `sorted` ascending,
 /// not empty.

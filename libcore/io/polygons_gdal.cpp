@@ -105,4 +105,23 @@ std::vector<std::vector<std::vector<Vec2>>> buffer_of(const std::vector<Vec2>& l
   return polygons_of(*area);
 }
 
+std::vector<Ring> rim_of(const std::vector<Ring>& footprints) {
+  OGRMultiPolygon pieces;
+  for (const Ring& footprint : footprints) {
+    const OGRPolygon piece = polygon_of(footprint);
+    pieces.addGeometry(&piece);
+  }
+  constexpr double half_gap = 0.1, seen = 0.02;
+  constexpr int quadrant = 4;  // pieces of a round corner, which the way back takes off again
+  using Shape = std::unique_ptr<OGRGeometry>;
+  const Shape wide(pieces.Buffer(half_gap, quadrant));
+  const Shape narrow(wide ? wide->Buffer(-half_gap, quadrant) : nullptr);
+  const Shape rim(narrow ? narrow->SimplifyPreserveTopology(seen) : nullptr);
+  std::vector<Ring> rings;
+  if (rim)
+    for (std::vector<Ring>& polygon : polygons_of(*rim))
+      rings.insert(rings.end(), polygon.begin(), polygon.end());
+  return rings;
+}
+
 }  // namespace talus

@@ -3,14 +3,12 @@
 // on pages and in legends.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
-namespace talus {
+#include "draw/colour.hpp"
 
-using Colour = std::array<std::uint8_t, 4>;  ///< red, green, blue, alpha
+namespace talus {
 
 /// Values up to and with `upper` that no class before takes.
 struct StyleClass {

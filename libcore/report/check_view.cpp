@@ -8,8 +8,8 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "draw/ticks.hpp"
 #include "geometry/plan2d.hpp"
-#include "report/chart.hpp"
 #include "report/encode.hpp"
 #include "report/map_marks.hpp"
 

@@ -22,28 +22,6 @@ namespace talus {
 namespace {
 
 using Dataset = std::unique_ptr<GDALDataset>;
-using Bytes = std::vector<GByte>;
-
-// Pixels of `n_bands` bytes, one behind the other.
-std::string png_of(int n_rows, int n_cols, int n_bands, Bytes pixels) {
-  const GdalErrors errors;
-  GDALDriverManager& drivers = *GetGDALDriverManager();
-  const Dataset picture(
-      drivers.GetDriverByName("MEM")->Create("", n_cols, n_rows, n_bands, GDT_Byte, nullptr));
-  const std::string path = "/vsimem/talus_cells.png";
-  GDALDriver* const driver = drivers.GetDriverByName("PNG");
-  if (driver && picture &&
-      picture->RasterIO(GF_Write, 0, 0, n_cols, n_rows, pixels.data(), n_cols, n_rows, GDT_Byte,
-                        n_bands, nullptr, n_bands, static_cast<GSpacing>(n_bands) * n_cols, 1,
-                        nullptr) == CE_None)
-    Dataset(driver->CreateCopy(path.c_str(), picture.get(), FALSE, nullptr, nullptr, nullptr));
-  vsi_l_offset size = 0;
-  GByte* const bytes = VSIGetMemFileBuffer(path.c_str(), &size, TRUE);
-  if (bytes == nullptr) throw InputError({}, "a map cannot be drawn as PNG: " + errors.failure());
-  std::string png(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
-  CPLFree(bytes);
-  return png;
-}
 
 std::string deflated(const std::vector<float>& values) {
   std::size_t size = 0;
@@ -61,7 +39,7 @@ float three_digits(float value) {
 
 // The cells of a band in the view; NaN where there is no data.
 struct Window {
-  CellPicture cells;  // corner, size and numbers
+  PassageGrid grid;
   std::vector<float> value;
   bool holds_bytes = false;
 };
@@ -77,7 +55,7 @@ Window window_of(const std::string& path, int band_number, const MapView& view,
     throw InputError({path}, "cannot be read as a map: " + errors.failure(), "make the maps again");
   GDALRasterBand* const band = file->GetRasterBand(band_number);
   Window out;
-  CellPicture& cells = out.cells;
+  PassageGrid& cells = out.grid;
   cells.cell_size = place[1];
   const Vec2 corner = Vec2(place[0], place[3]) - origin;
   const auto limited = [&](double metres, int n) {
@@ -103,47 +81,6 @@ Window window_of(const std::string& path, int band_number, const MapView& view,
 
 }  // namespace
 
-std::string shading_png(const Shading& shading) {
-  register_gdal_drivers();
-  Bytes grey;
-  for (const float b : shading.brightness)  // the last bits are not seen, and cost most
-    grey.push_back(static_cast<GByte>((std::isnan(b) ? 255 : std::lround(b)) | 3));
-  return png_of(shading.n_rows, shading.n_cols, 1, std::move(grey));
-}
-
-std::vector<std::vector<Vec2>> rim_of(const std::vector<std::vector<Vec2>>& footprints) {
-  const GdalErrors errors;
-  OGRMultiPolygon pieces;
-  for (const std::vector<Vec2>& footprint : footprints) {
-    OGRLinearRing ring;
-    for (const Vec2& p : footprint) ring.addPoint(p.x(), p.y());
-    ring.closeRings();
-    OGRPolygon piece;
-    piece.addRing(&ring);
-    pieces.addGeometry(&piece);
-  }
-  constexpr double half_gap = 0.1, seen = 0.02;
-  constexpr int quadrant = 4;  // pieces of a round corner, which the way back takes off again
-  using Shape = std::unique_ptr<OGRGeometry>;
-  const Shape wide(pieces.Buffer(half_gap, quadrant));
-  const Shape narrow(wide ? wide->Buffer(-half_gap, quadrant) : nullptr);
-  const Shape rim(narrow ? narrow->SimplifyPreserveTopology(seen) : nullptr);
-  if (!rim) return {};
-  std::vector<std::vector<Vec2>> rings;
-  const auto add = [&rings](const OGRPolygon& polygon) {
-    for (const OGRLinearRing* ring : polygon) {
-      rings.emplace_back();
-      for (int i = 0; i + 1 < ring->getNumPoints(); ++i)
-        rings.back().emplace_back(ring->getX(i), ring->getY(i));
-    }
-  };
-  if (wkbFlatten(rim->getGeometryType()) == wkbPolygon)
-    add(*rim->toPolygon());
-  else if (wkbFlatten(rim->getGeometryType()) == wkbMultiPolygon)
-    for (const OGRPolygon* polygon : *rim->toMultiPolygon()) add(*polygon);
-  return rings;
-}
-
 std::optional<std::pair<Vec2, Vec2>> cells_on_pages(const std::string& path) {
   register_gdal_drivers();
   const GdalErrors errors;
@@ -162,32 +99,23 @@ CellPicture read_cell_picture(const std::string& path, const std::string& qml, c
                               const Vec2& origin) {
   const RasterStyle style = style_of(qml);
   Window window = window_of(path, style.band, view, origin);
-  CellPicture out = std::move(window.cells);
-  if (window.value.empty()) return out;
-  Bytes colours;
-  for (float& v : window.value) {
-    const Colour colour = colour_of(style, v);
-    colours.insert(colours.end(), colour.begin(), colour.end());
-    v = three_digits(v);
-  }
-  out.png = png_of(out.n_rows, out.n_cols, 4, std::move(colours));
+  CellPicture out;
+  out.cells = {window.grid, std::move(window.value), std::nanf(""), {}, style};
   if (window.holds_bytes)
     for (const StyleClass& c : style.classes)
       out.labels.emplace_back(static_cast<int>(c.upper), c.label);
   constexpr std::size_t most_values = 250'000;
-  if (window.value.size() <= most_values) out.values = deflated(window.value);
+  std::vector<float> shown;
+  for (const float v : out.cells.value) shown.push_back(three_digits(v));
+  if (!shown.empty() && shown.size() <= most_values) out.values = deflated(shown);
   return out;
 }
 
-void hatch_classes(CellPicture& picture, const std::string& classes, const std::string& certain,
-                   const std::vector<int>& weak, const MapView& view, const Vec2& origin) {
-  const Window code = window_of(classes, 1, view, origin),
-               sure = window_of(certain, 1, view, origin);
-  const auto is_code_weak = [&weak](float v) {
-    return std::any_of(weak.begin(), weak.end(), [v](int c) { return v == static_cast<float>(c); });
-  };
-  for (const float v : code.value) picture.weak.push_back(is_code_weak(v));
-  for (const float v : sure.value) picture.unsure.push_back(v == 0);
+void hatch_classes(MapCells& cells, const std::string& certain, const std::vector<int>& weak,
+                   const MapView& view, const Vec2& origin) {
+  for (StyleClass& c : cells.style.classes)
+    c.is_hatched |= std::find(weak.begin(), weak.end(), static_cast<int>(c.upper)) != weak.end();
+  for (const float v : window_of(certain, 1, view, origin).value) cells.uncertain.push_back(v == 0);
 }
 
 }  // namespace talus

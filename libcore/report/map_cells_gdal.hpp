@@ -19,21 +19,13 @@ namespace talus {
 [[nodiscard]] CellPicture read_cell_picture(const std::string& path, const std::string& qml,
                                             const MapView& view, const Vec2& origin);
 
-/// Hatches cells of a map of classes: in white those of the codes `weak`, in black those where the
-/// first band of `certain`, of the same cells, is 0. Throws InputError as read_cell_picture.
-void hatch_classes(CellPicture& picture, const std::string& classes, const std::string& certain,
-                   const std::vector<int>& weak, const MapView& view, const Vec2& origin);
+/// Hatches cells of a map of classes: those of the codes `weak`, and in black those where the first
+/// band of `certain`, of the same cells, is 0. Throws InputError as read_cell_picture.
+void hatch_classes(MapCells& cells, const std::string& certain, const std::vector<int>& weak,
+                   const MapView& view, const Vec2& origin);
 
 /// South-western and north-eastern corner of the cells that the pages of a map show, map
 /// coordinates [m]; none for a map without pages.
 [[nodiscard]] std::optional<std::pair<Vec2, Vec2>> cells_on_pages(const std::string& path);
-
-/// The rim of the footprints of blocks together, which may overlap and lie up to 0.2 m apart; rings
-/// without the last point. [m]
-[[nodiscard]] std::vector<std::vector<Vec2>> rim_of(
-    const std::vector<std::vector<Vec2>>& footprints);
-
-/// In grey.
-[[nodiscard]] std::string shading_png(const Shading& shading);
 
 }  // namespace talus

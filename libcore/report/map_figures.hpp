@@ -15,7 +15,7 @@ namespace talus {
 
 struct MapPicture {
   std::string name, qml;  ///< of maps/NAME.*
-  CellPicture cells;
+  CellPicture map;
   std::vector<int> weak = {};  ///< codes of classes that are hatched in white
 };
 

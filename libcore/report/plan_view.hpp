@@ -1,5 +1,5 @@
 // libcore/report/plan_view.hpp: public
-// A map of a run as SVG: where the mass started, which way each block took, where it came to rest.
+// A map of a run as SVG: where the mass started, the path of each block, where it came to rest.
 #pragma once
 
 #include <string>

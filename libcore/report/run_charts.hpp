@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/csv.hpp"
+#include "draw/chart.hpp"
 #include "record/run_file.hpp"
-#include "report/chart.hpp"
 #include "report/texts.hpp"
 
 namespace talus {

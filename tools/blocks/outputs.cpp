@@ -39,10 +39,10 @@ void write_pictures(Tool& tool, const BlocksOutputs& files, const BlocksWork& wo
       sets.push_back({work.sets[s].set.name,
                       pole(work.sets[s].set.dip, work.sets[s].set.dip_direction),
                       poles_of(work, s)});
-    tool.write_text(files.stereonet, stereonet_svg(sets, slope_normal(work)));
+    tool.write_text(files.stereonet, svg_of(stereonet(sets, slope_normal(work))));
   }
   if (!files.size_curve.empty())
-    tool.write_text(files.size_curve, size_curve_svg(work.blocks.volume));
+    tool.write_text(files.size_curve, chart_svg(size_curve(work.blocks.volume)));
 }
 
 }  // namespace

@@ -255,8 +255,8 @@ std::string kinematics_section(const Look& look) {
                       "factor of safety"},
                      rows) +
           html_figure(
-              html_svg(kinematic_net_svg(net, pole(look.slope.dip, look.slope.dip_direction), zones,
-                                         lines),
+              html_svg(svg_of(kinematic_net(net, pole(look.slope.dip, look.slope.dip_direction),
+                                            zones, lines)),
                        "stereonet of the joint sets and the slope"),
               "Stereonet of the mean sets and of the mean slope."));
 }

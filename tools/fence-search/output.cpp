@@ -7,7 +7,7 @@
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "io/style.hpp"
-#include "report/chart.hpp"
+#include "draw/chart.hpp"
 
 namespace talus {
 namespace {
@@ -458,7 +458,7 @@ std::string search_chart(const SearchCase& search, const SearchAnswer& answer) {
   }
   for (const ChartSeries& series : {all, curve, predicted, verified})
     if (!series.x.empty()) chart.series.push_back(series);
-  return chart_file(chart);
+  return chart_svg(chart);
 }
 
 }  // namespace talus

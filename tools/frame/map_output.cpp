@@ -7,9 +7,9 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/polygons_gdal.hpp"
 #include "io/tags_gdal.hpp"
-#include "post/maps/map_page_cairo.hpp"
-#include "post/maps/page_font_cairo.hpp"
+#include "post/maps/map_drawing.hpp"
 #include "tools/frame/options.hpp"
 
 namespace talus {
@@ -104,8 +104,8 @@ MapPage page_of(const MapFrame& frame, const RasterStyle& style, const MapTags& 
   page.title = style.heading;
   page.subtitle = "Site " + tag(tags, "SITE") + ", " + run_words(tags);
   page.words = words_of(frame, tags);
-  page.style = style;
-  page.grid = frame.grid;
+  page.cells.style = style;
+  page.cells.grid = frame.grid;
   page.origin = frame.corner - frame.grid.corner;
   return page;
 }
@@ -163,6 +163,7 @@ MapFrame map_frame(RunInputs& runs, const PassageGrid& grid, const PageOptions& 
   const PageLayout layout = layout_of(size_of(pages));
   frame.ground = map_ground(trn, layout, view_of(layout, grid, frame.drawn));
   frame.places = runs.places();
+  frame.places.source = rim_of(frame.places.source);
   if (!runs.members.empty()) frame.law = runs.members[0].info.law;
   return frame;
 }
@@ -186,13 +187,12 @@ std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path
   tool.write_text(beside(".qml"), raster_qml(style));
   if (frame.pages.words.empty()) return layer.bands[shown].name;
   MapPage page = page_of(frame, style, raster.tags);
-  page.nodata = raster.nodata_value();
-  page.value = std::move(raster.bands[shown].value);
-  page.uncertain = uncertain_cells(frame, certain);
-  if (frame.pages.has("png"))
-    tool.write_text(beside(".png"), map_page_png(page, frame.ground, frame.places));
-  if (frame.pages.has("pdf"))
-    tool.write_text(beside(".pdf"), map_page_pdf(page, frame.ground, frame.places));
+  page.cells.nodata = raster.nodata_value();
+  page.cells.value = std::move(raster.bands[shown].value);
+  page.cells.uncertain = uncertain_cells(frame, certain);
+  const Drawing drawing = page_drawing(page, frame.ground, frame.places);
+  if (frame.pages.has("png")) tool.write_text(beside(".png"), png_of(drawing));
+  if (frame.pages.has("pdf")) tool.write_text(beside(".pdf"), pdf_of(drawing));
   return layer.bands[shown].name;
 }
 

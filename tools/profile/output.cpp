@@ -8,7 +8,7 @@
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "io/style.hpp"
-#include "report/chart.hpp"
+#include "draw/chart.hpp"
 #include "tools/frame/row_json.hpp"
 
 namespace talus {
@@ -267,7 +267,7 @@ std::string ground_chart(const LineProfile& profile) {
       }));
   for (ChartSeries& series : chart.series)
     for (double& y : series.y) y += profile.origin.z();
-  return chart_file(chart);
+  return chart_svg(chart);
 }
 
 // Crossings as points, over the largest and the median of each block over each cell.
@@ -279,7 +279,7 @@ std::string quantity_chart(const LineProfile& profile, const std::string& title,
   add(chart, line_over(profile, "largest over each cell", "#3182bd", largest));
   add(chart, line_over(profile, "median over each cell", "#9ecae1", median));
   add(chart, crossing_points(profile, "#cb181d", of));
-  return chart_file(chart);
+  return chart_svg(chart);
 }
 
 std::string count_chart(const LineProfile& profile) {
@@ -290,7 +290,7 @@ std::string count_chart(const LineProfile& profile) {
     steps.y.insert(steps.y.end(), {0, bin.a_run, bin.a_run, 0});
   }
   chart.series.push_back(std::move(steps));
-  return chart_file(chart);
+  return chart_svg(chart);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ std::string map_section(const ReportData& data) {
       "<span class=\"key\">" + key("source", texts.of("maps.source")) +
           key("start", texts.of("maps.start")) + key("way", texts.of("maps.paths")) +
           key("end", texts.of("maps.end")) +
-          (data.sheet.lines.empty() ? "" : key("fence", texts.of("maps.fence"))) +
+          (data.sheet.places.lines.empty() ? "" : key("fence", texts.of("maps.fence"))) +
           (data.shown.objects.empty() ? "" : key("object", texts.of("maps.object"))) + "</span>. " +
           texts.of(data.shown.reach ? "maps.plan_without_frames" : "maps.plan",
                    {{"run", xml_escaped(data.shown_name)},

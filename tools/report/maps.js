@@ -2,8 +2,8 @@
 // The maps of the HTML report: zoom, move, the value and the place at the cursor. All maps show the
 // same part, so that they can be compared.
 // in:  svg.plan in .sheet; beside it the values of its cells as JSON (libcore/report/map_sheet.cpp):
-//      x, y, cell [m of the drawing], n_cols, n_rows, unit, labels of codes, values: floats, zlib,
-//      base64. #sheet has the map coordinates of the drawing's zero.
+//      x, y, cell [units of the drawing], n_cols, n_rows, unit, labels of codes, values: floats, zlib,
+//      base64. #sheet has the map coordinates of the drawing's zero and the metres of a unit.
 'use strict';
 
 function talusMaps() {
@@ -11,7 +11,7 @@ function talusMaps() {
   if (sheets.length === 0) return;
   const place = document.getElementById('sheet').dataset;
   const whole = sheets[0].querySelector('svg').viewBox.baseVal, width = whole.width, height = whole.height;
-  const shown = {x: 0, y: 0, width};  // of the drawing [m]
+  const shown = {x: 0, y: 0, width};  // of the drawing
 
   const show = () => {
     shown.width = Math.min(width, Math.max(width / 40, shown.width));
@@ -21,7 +21,7 @@ function talusMaps() {
     for (const sheet of sheets) {
       const svg = sheet.querySelector('svg');
       svg.setAttribute('viewBox', `${shown.x} ${shown.y} ${shown.width} ${h}`);
-      svg.setAttribute('font-size', 0.022 * shown.width);
+      svg.setAttribute('font-size', 10 * shown.width / width);
       sheet.classList.toggle('near', shown.width < width);
     }
   };
@@ -70,8 +70,8 @@ function talusMaps() {
         valuesOf(script).then((made) => { map = made; tell(e); });
       }
       const round = (value) => Math.round(value).toLocaleString('en');
-      out.textContent = (map ? wordsOf(map, x, y) + ' {{maps.at}} ' : '') + round(Number(place.west) + x) + ' E, ' +
-          round(Number(place.north) - y) + ' N';
+      out.textContent = (map ? wordsOf(map, x, y) + ' {{maps.at}} ' : '') + round(Number(place.west) + x * place.metres) + ' E, ' +
+          round(Number(place.north) - y * place.metres) + ' N';
     };
     const middle = () => ({x: shown.x + shown.width / 2, y: shown.y + shown.width * height / width / 2});
     bar.children[0].addEventListener('click', () => zoom(1.6, middle().x, middle().y));

@@ -68,25 +68,31 @@ std::string curve_table(const Texts& texts, const Json& curve) {
 
 std::string reach_cells(const ReportData& data) {
   for (const MapPicture& map : data.maps)
-    if (map.name == "reach") return cells_image(data.sheet, map.cells);
+    if (map.name == "reach") return cells_group(data.sheet, map.map.cells);
   return "";
 }
 
 // Where the proposals stand, on the map of reach.
 std::string proposal_map(const ReportData& data, const Json& proposals) {
-  std::string paths;
+  std::vector<std::pair<std::string, std::vector<Vec2>>> fences;
   for (const Json& proposal : proposals) {
     const Json lines = value_at(proposal, {"lines"});
     if (!lines.is_array()) continue;
     for (const Json& line : lines) {
-      std::vector<Vec2> posts;
+      fences.emplace_back(value_at(line, {"name"}).get<std::string>(), std::vector<Vec2>{});
       for (const Json& post : line.at("posts"))
-        posts.emplace_back(Vec2(post[0].get<double>(), post[1].get<double>()) - data.sheet.origin);
-      paths += "<path class=\"proposal\" d=\"" + sheet_path(data.sheet, posts, false) +
-               "\"><title>" + word_text(value_at(line, {"name"})) + "</title></path>\n";
+        fences.back().second.emplace_back(Vec2(post[0].get<double>(), post[1].get<double>()) -
+                                          data.sheet.origin);
     }
   }
-  if (paths.empty()) return "";
+  if (fences.empty()) return "";
+  const std::string paths =
+      sheet_group(data.sheet, "class=\"proposal\"", [&fences](Pen& pen, const MapSpot& spot) {
+        for (const auto& [name, posts] : fences) {
+          pen.line(on_map(spot, posts), {1.3, rgb(0xc8102e)});
+          pen.note(name, {on_map(spot, posts)}, false);
+        }
+      });
   const Texts& texts = data.texts;
   return html_figure(sheet_svg(data.sheet, reach_cells(data) + paths, texts.of("search.map")),
                      "<span class=\"key\"><i class=\"proposal\"></i>" +

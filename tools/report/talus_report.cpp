@@ -17,6 +17,7 @@
 #include "ensemble/made_with.hpp"
 #include "import/dem_gdal.hpp"
 #include "import/vectors_gdal.hpp"
+#include "io/polygons_gdal.hpp"
 #include "io/tags_gdal.hpp"
 #include "post/maps/map_layers.hpp"
 #include "record/part_file.hpp"
@@ -330,7 +331,7 @@ std::vector<MapPicture> picture_of(const ResultFolder& folder, const std::string
   MapPicture picture{
       fs::path(base).filename().string(), qml,
       read_cell_picture(folder.path(base + ".tif").string(), qml, sheet.ground.view, sheet.origin)};
-  if (picture.cells.png.empty()) return {};  // nothing of it is in view
+  if (picture.map.cells.value.empty()) return {};  // nothing of it is in view
   return {std::move(picture)};
 }
 
@@ -375,26 +376,22 @@ MapView view_of_maps(const ResultFolder& folder, const ReportData& data) {
 
 // As talus-hazard hatches its page.
 void hatch_class_map(const ResultFolder& folder, ReportData& data) {
-  const std::string classes = "hazard/class.tif", certain = "hazard/class_certain.tif";
+  const std::string certain = "hazard/class_certain.tif";
   for (MapPicture& map : data.hazard_maps) {
     if (map.name != "class" || !folder.has(certain)) continue;
     for (const Json& row : data.hazard.at("classes"))
       if (row.value("hatched", false)) map.weak.push_back(row.at("code").get<int>());
-    hatch_classes(map.cells, folder.path(classes).string(), folder.path(certain).string(), map.weak,
-                  data.sheet.ground.view, data.sheet.origin);
+    hatch_classes(map.map.cells, folder.path(certain).string(), map.weak, data.sheet.ground.view,
+                  data.sheet.origin);
   }
 }
 
 void read_maps(const ResultFolder& folder, ReportData& data) {
   MapSheet& sheet = data.sheet;
   sheet.ground = map_ground(data.terrain, layout_of(PageSize::a4), view_of_maps(folder, data));
-  sheet.shading_png = shading_png(sheet.ground.shading);
   sheet.origin = data.terrain.origin.head<2>();
-  MapPlaces places;
-  add_places(places, data.shown);
-  sheet.source = rim_of(places.source);
-  sheet.lines = std::move(places.lines);
-  sheet.objects = std::move(places.objects);
+  add_places(sheet.places, data.shown);
+  sheet.places.source = rim_of(sheet.places.source);
   data.maps = pictures_in(folder, "maps", sheet);
   for (const std::string& name : cases_with(folder, data.runout, "maps/", "/reach.tif"))
     data.case_maps.emplace_back(name, pictures_in(folder, "maps/" + name, sheet));

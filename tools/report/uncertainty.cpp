@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "draw/drawing.hpp"
 #include "report/html.hpp"
 #include "sampling/sensitivity.hpp"
 #include "site/uncertainty.hpp"
@@ -79,34 +80,30 @@ struct Bar {
 };
 
 // Bars from a line at 0, as far as -1 and 1 in each direction that there is.
-std::string bars_svg(const std::vector<Bar>& bars, const std::string& title) {
+Drawing bars_drawing(const std::vector<Bar>& bars, const std::string& title,
+                     const std::string& alt) {
   constexpr double row = 22, top = 26, label = 250, width = 640, right = 50;
-  double low = 0;
-  for (const Bar& bar : bars) low = std::min(low, bar.value);
-  low = low < -0.02 ? -1 : 0;
-  const double scale = (width - label - right) / (1 - low);
-  const auto x = [&](double value) { return label + (value - low) * scale; };
   const double height = top + row * static_cast<double>(bars.size()) + 6;
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + text(width) + " " +
-                    text(height) + "\" font-size=\"12\" font-family=\"sans-serif\">\n";
-  const auto words = [&](double at, double y, const char* anchor, const std::string& content) {
-    svg += "<text x=\"" + text(at, 5) + "\" y=\"" + text(y, 5) + "\" text-anchor=\"" + anchor +
-           "\" fill=\"currentColor\">" + xml_escaped(content) + "</text>\n";
+  const auto draw = [=](Pen& pen) {
+    const Letters letters{12};
+    double low = 0;
+    for (const Bar& bar : bars) low = std::min(low, bar.value);
+    low = low < -0.02 ? -1 : 0;
+    const double scale = (width - label - right) / (1 - low), zero = label - low * scale;
+    pen.words_about({0, 10}, title, letters, Anchor::begin);
+    double y = top;
+    for (const Bar& bar : bars) {
+      const double end = zero + std::clamp(bar.value, low, 1.0) * scale;
+      const double from = std::min(zero, end), to = std::max(zero, end);
+      pen.words_about({label - 8, y + row / 2}, bar.name, letters, Anchor::end);
+      pen.box({from, y + 4, std::max(1.0, to - from), row - 8},
+              rgb(bar.value < 0 ? 0xb5533c : 0x2f6f9f));
+      pen.words_about({to + 6, y + row / 2}, text(bar.value, 2), letters, Anchor::begin);
+      y += row;
+    }
+    pen.line({{zero, top}, {zero, height - 4}}, {1});
   };
-  words(0, 14, "start", title);
-  for (std::size_t i = 0; i < bars.size(); ++i) {
-    const double y = top + row * static_cast<double>(i),
-                 value = std::clamp(bars[i].value, low, 1.0);
-    const double from = std::min(x(0), x(value)), to = std::max(x(0), x(value));
-    words(label - 8, y + 14, "end", bars[i].name);
-    svg += "<rect x=\"" + text(from, 5) + "\" y=\"" + text(y + 3, 5) + "\" width=\"" +
-           text(std::max(1.0, to - from), 5) + "\" height=\"" + text(row - 8) + "\" fill=\"" +
-           (value < 0 ? "#b5533c" : "#2f6f9f") + "\"/>\n";
-    words(to + 6, y + 14, "start", text(bars[i].value, 2));
-  }
-  svg += "<line x1=\"" + text(x(0), 5) + "\" x2=\"" + text(x(0), 5) + "\" y1=\"" + text(top) +
-         "\" y2=\"" + text(height - 4, 5) + "\" stroke=\"currentColor\"/>\n";
-  return svg + "</svg>\n";
+  return {width, height, alt, pixel_mm, draw};
 }
 
 // "L_path_m" in words.
@@ -146,15 +143,17 @@ std::string result_part(const Texts& texts, const std::string& result,
     table.push_back({"<code>" + xml_escaped(name) + "</code>", number_text(share, 2),
                      number_text(rank, 2), number_text(value_at(row, {"n_runs"}))});
   }
-  const std::string svg = bars_svg(shares, texts.of("uncertainty.shares")),
-                    svg_rank = bars_svg(correlations, texts.of("uncertainty.ranks"));
   return "<h3>" + xml_escaped(title) + "</h3>\n" +
          html_table(texts.list("uncertainty.index_heads"), table, {false, true, true, true}) +
-         html_figure(
-             html_svg(svg, texts.of("uncertainty.share_picture")) +
-                 (correlations.empty() ? ""
-                                       : html_svg(svg_rank, texts.of("uncertainty.rank_picture"))),
-             xml_escaped(title) + ".");
+         html_figure(svg_of(bars_drawing(shares, texts.of("uncertainty.shares"),
+                                         texts.of("uncertainty.share_picture")),
+                            "chart") +
+                         (correlations.empty()
+                              ? ""
+                              : svg_of(bars_drawing(correlations, texts.of("uncertainty.ranks"),
+                                                    texts.of("uncertainty.rank_picture")),
+                                       "chart")),
+                     xml_escaped(title) + ".");
 }
 
 std::string sensitivity_part(const Texts& texts, const Json& runout) {

@@ -90,7 +90,7 @@ SlideData shipped_slide() {
 }
 
 void draw(Tool& tool, const Options& o, const Chart& chart, const std::string& name) {
-  tool.write_text(o.out + "/" + name + ".svg", chart_file(chart));
+  tool.write_text(o.out + "/" + name + ".svg", chart_svg(chart));
 }
 
 // Holds the error at the defaults against its bound; the quick slide has other steps.
@@ -142,7 +142,7 @@ void study_stability(Tool& tool, const Options& o, const ProgressFunction& progr
     study.corners.push_back(run_corner(corner));
   }
   tool.write_text(o.out + "/stability.csv", stability_csv(study.corners));
-  tool.write_text(o.out + "/stability.svg", stability_svg(study.corners));
+  tool.write_text(o.out + "/stability.svg", svg_of(stability_picture(study.corners)));
   const auto n_broken =
       std::count_if(study.corners.begin(), study.corners.end(),
                     [](const StabilityRow& row) { return row.outcome == Outcome::broken; });

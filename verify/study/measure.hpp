@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report/chart.hpp"
+#include "draw/chart.hpp"
 #include "verify/cases/verify_cases.hpp"
 
 namespace talus {

@@ -349,18 +349,18 @@ void add_blocks(std::vector<Corner>& corners) {
   }
 }
 
-const char* colour_of(Outcome outcome) {
+Colour colour_of(Outcome outcome) {
   switch (outcome) {
     case Outcome::right:
-      return "#5aa469";
+      return rgb(0x5aa469);
     case Outcome::inexact:
-      return "#f0c75e";
+      return rgb(0xf0c75e);
     case Outcome::refused:
-      return "#bbb";
+      return rgb(0xbbbbbb);
     case Outcome::broken:
-      return "#c1272d";
+      return rgb(0xc1272d);
   }
-  return "";
+  return {};
 }
 
 }  // namespace
@@ -422,44 +422,38 @@ std::string stability_csv(const std::vector<StabilityRow>& rows) {
   return out;
 }
 
-std::string stability_svg(const std::vector<StabilityRow>& rows) {
-  std::vector<std::string> axes;
-  std::string fields;
-  std::vector<int> filled;
+Drawing stability_picture(const std::vector<StabilityRow>& rows) {
+  std::vector<std::pair<std::string, std::vector<const StabilityRow*>>> axes;
   for (const StabilityRow& row : rows) {
-    const Corner& corner = row.corner;
-    auto at = std::find(axes.begin(), axes.end(), corner.axis);
-    const auto line = static_cast<std::size_t>(at - axes.begin());
-    if (at == axes.end()) {
-      axes.push_back(corner.axis);
-      filled.push_back(0);
+    auto at = std::find_if(axes.begin(), axes.end(),
+                           [&row](const auto& axis) { return axis.first == row.corner.axis; });
+    if (at == axes.end()) at = axes.insert(axes.end(), {row.corner.axis, {}});
+    at->second.push_back(&row);
+  }
+  const auto draw = [axes](Pen& pen) {
+    const Letters small{10};
+    double x = 260, y = 40;
+    for (const Outcome outcome :
+         {Outcome::right, Outcome::inexact, Outcome::refused, Outcome::broken}) {
+      pen.box({x, 12, 14, 14}, colour_of(outcome));
+      pen.words_about({x + 20, 19}, text_of(outcome), small, Anchor::begin);
+      x += 90;
     }
-    const int x = 260 + 72 * filled[line]++, y = 40 + 22 * static_cast<int>(line);
-    fields += "<rect x=\"" + std::to_string(x) + "\" y=\"" + std::to_string(y) +
-              "\" width=\"70\" height=\"20\" fill=\"" + colour_of(row.outcome) + "\"/><text x=\"" +
-              std::to_string(x + 35) + "\" y=\"" + std::to_string(y + 14) +
-              "\" text-anchor=\"middle\">" +
-              xml_escaped(text(corner.value, 4) + (corner.unit == "1" ? "" : " " + corner.unit)) +
-              "</text>\n";
-  }
-  std::string names;
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    names += "<text x=\"250\" y=\"" + std::to_string(54 + 22 * static_cast<int>(i)) +
-             "\" text-anchor=\"end\">" + xml_escaped(axes[i]) + "</text>\n";
-  std::string legend;
-  int x = 260;
-  for (const Outcome outcome :
-       {Outcome::right, Outcome::inexact, Outcome::refused, Outcome::broken}) {
-    legend += "<rect x=\"" + std::to_string(x) + "\" y=\"12\" width=\"14\" height=\"14\" fill=\"" +
-              colour_of(outcome) + "\"/><text x=\"" + std::to_string(x + 20) + "\" y=\"23\">" +
-              text_of(outcome) + "</text>\n";
-    x += 90;
-  }
-  const std::string height = std::to_string(50 + 22 * axes.size());
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 720 " + height +
-         "\" font-family=\"sans-serif\" font-size=\"10\">\n<rect width=\"100%\" height=\"100%\" "
-         "fill=\"white\"/>\n" +
-         legend + names + fields + "</svg>\n";
+    for (const auto& [axis, fields] : axes) {
+      pen.words_about({250, y + 10}, axis, small, Anchor::end);
+      x = 260;
+      for (const StabilityRow* field : fields) {
+        const Corner& corner = field->corner;
+        pen.box({x, y, 70, 20}, colour_of(field->outcome));
+        pen.words_about({x + 35, y + 10},
+                        text(corner.value, 4) + (corner.unit == "1" ? "" : " " + corner.unit),
+                        small);
+        x += 72;
+      }
+      y += 22;
+    }
+  };
+  return {720, 50 + 22.0 * static_cast<double>(axes.size()), "outcomes", pixel_mm, draw};
 }
 
 }  // namespace talus

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "draw/drawing.hpp"
 #include "scene/scene.hpp"
 
 namespace talus {
@@ -61,6 +62,6 @@ struct StabilityRow {
 
 /// Table as CSV, and as a picture: a line an axis, a coloured field a value.
 [[nodiscard]] std::string stability_csv(const std::vector<StabilityRow>& rows);
-[[nodiscard]] std::string stability_svg(const std::vector<StabilityRow>& rows);
+[[nodiscard]] Drawing stability_picture(const std::vector<StabilityRow>& rows);
 
 }  // namespace talus

@@ -1,10 +1,10 @@
-#include "post/maps/map_column_cairo.hpp"
-
+// The legend and the words beside a map.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/text.hpp"
+#include "post/maps/map_column.hpp"
 
 namespace talus {
 namespace {
@@ -39,14 +39,14 @@ class Column {
     const PageBox box{x_, y_, swatch_width, swatch_height};
     pen_.box(box, c.is_hatched ? Colour{255, 255, 255, 255} : over_ground(c.colour));
     if (c.is_hatched)
-      pen_.hatch(box, class_hatch_mm, false, hatch_stroke(c.colour, class_hatch_width));
+      pen_.hatch({box}, class_hatch_mm, false, hatch_stroke(c.colour, class_hatch_width));
     pen_.frame(box, {0.1, {60, 60, 60, 255}});
     row_label(c.label);
   }
 
   void uncertain_row() {
     const PageBox box{x_, y_, swatch_width, swatch_height};
-    pen_.hatch(box, uncertain_hatch_mm, true, hatch_stroke({30, 30, 30, 255}));
+    pen_.hatch({box}, uncertain_hatch_mm, true, hatch_stroke({30, 30, 30, 255}));
     pen_.frame(box, {0.1, {60, 60, 60, 255}});
     row_label("class not certain");
   }
@@ -63,22 +63,10 @@ class Column {
   }
 
   void scale_and_north(const MapView& view, const std::string& paper) {
-    const double length = bar_length(view), mm = 1000 * length / view.scale;
     pen_.words({x_, y_}, "Scale 1 : " + spaced(view.scale) + " on " + paper, heading);
-    draw_north({x_ + width_ - 4, y_ + 1});
-    const double top = y_ + 10;
-    for (int k = 0; k < 4; ++k) {
-      const PageBox part{x_ + 2 + k * mm / 4, top, mm / 4, 1.6};
-      pen_.box(part, k % 2 == 0 ? Colour{0, 0, 0, 255} : Colour{255, 255, 255, 255});
-      pen_.frame(part, {0.15});
-    }
-    const bool in_km = length >= 2000;
-    for (const double share : {0.0, 0.5, 1.0})
-      pen_.words_about(
-          {x_ + 2 + share * mm, top - 2}, 0,
-          text(share * length / (in_km ? 1000 : 1)) + (share == 1 ? in_km ? " km" : " m" : ""),
-          {2.3});
-    y_ = top + 5;
+    draw_north(pen_, {x_ + width_ - 4, y_ + 1});
+    draw_scale_bar(pen_, {x_ + 2, y_ + 10}, view);
+    y_ += 15;
   }
 
  private:
@@ -90,25 +78,17 @@ class Column {
     y_ += std::max(row_height, height + 1);
   }
 
-  // The tip of an arrow to the north of the grid is at `tip`.
-  void draw_north(const Vec2& tip) {
-    const Vec2 left = tip + Vec2(-2.4, 8), right = tip + Vec2(2.4, 8), foot = tip + Vec2(0, 6.2);
-    pen_.area({tip, foot, left}, {0, 0, 0, 255});
-    pen_.line({tip, right, foot}, {0.2}, true);
-    pen_.words_about(tip + Vec2(0, 10), 0, "N", {3.2, true});
-  }
-
   Pen& pen_;
   double x_, y_, width_;
 };
 
 void draw_legend(Column& column, const MapPage& page) {
-  column.words(page.style.legend, heading);
+  column.words(page.cells.style.legend, heading);
   column.skip(1.2);
   // the largest on top, as heights are read
-  for (auto c = page.style.classes.rbegin(); c != page.style.classes.rend(); ++c)
+  for (auto c = page.cells.style.classes.rbegin(); c != page.cells.style.classes.rend(); ++c)
     if (c->colour[3] > 0) column.class_row(*c);
-  if (!page.uncertain.empty()) column.uncertain_row();
+  if (!page.cells.uncertain.empty()) column.uncertain_row();
 }
 
 // Whether the frame may show a part of what `points` bound.
@@ -147,7 +127,7 @@ void draw_signs(Column& column, const MapGround& ground, const MapPlaces& places
 
 void draw_foot(Column& column, const MapPage& page, const MapGround& ground) {
   column.scale_and_north(ground.view, page.size == PageSize::a3 ? "A3" : "A4");
-  for (const auto& list : {page.style.notes, page.words})
+  for (const auto& list : {page.cells.style.notes, page.words})
     for (const std::string& paragraph : list) {
       column.words(paragraph, small);
       column.skip(0.9);
@@ -155,26 +135,6 @@ void draw_foot(Column& column, const MapPage& page, const MapGround& ground) {
 }
 
 }  // namespace
-
-Stroke contour_stroke(bool is_numbered) {
-  return {is_numbered ? 0.26 : 0.12,
-          {110, 75, 40, static_cast<std::uint8_t>(is_numbered ? 200 : 150)}};
-}
-Stroke source_stroke() { return {0.45, {0, 0, 0, 255}, {1.8, 0.9}, true}; }
-Stroke line_stroke(bool stands) {
-  if (stands) return {1.0, {0, 0, 0, 255}, {}, true};
-  return {0.4, {0, 0, 0, 255}, {0.5, 0.8}, true};
-}
-Stroke object_stroke() { return {0.5, {0, 90, 178, 255}, {}, true}; }
-Stroke hatch_stroke(const Colour& colour, double width) { return {width, colour}; }
-
-std::string spaced(double value) {
-  std::string digits = text(value);
-  const std::size_t begin = digits.starts_with('-') ? 1 : 0;
-  const std::size_t end = std::min(digits.find('.'), digits.size());
-  for (std::size_t i = end; i > begin + 3; i -= 3) digits.insert(i - 3, "\u202f");
-  return digits;
-}
 
 ColumnHeights draw_column(Pen& pen, const PageBox& box, double foot, const MapPage& page,
                           const MapGround& ground, const MapPlaces& places) {

@@ -1,23 +1,13 @@
 #include "post/maps/map_page.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
 
+#include "draw/ticks.hpp"
 #include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
-
-// The smallest of `steps` times a power of ten that is at least `value`.
-double rounded_up(double value, std::span<const double> steps) {
-  const double power = std::pow(10, std::floor(std::log10(value)));
-  constexpr double rounding = 1 + 1e-9;
-  for (const double step : steps)
-    if (step * power * rounding >= value) return step * power;
-  return 10 * power;
-}
 
 constexpr double per_mm = 0.001;  // metres of paper
 
@@ -107,23 +97,6 @@ PageLayout layout_of(PageSize size) {
              out.width - 2 * margin - beside_map - gap - column,
              out.height - 2 * margin - title - below_map};
   return out;
-}
-
-double round_scale(double value) {
-  constexpr std::array<double, 10> steps = {1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8};
-  return rounded_up(value, steps);
-}
-
-double round_up(double value) {
-  constexpr std::array<double, 3> steps = {1, 2, 5};
-  return rounded_up(value, steps);
-}
-
-double round_down(double value) {
-  const double power = std::pow(10, std::floor(std::log10(value)));
-  for (const double step : {5.0, 2.0})
-    if (step * power <= value * (1 + 1e-9)) return step * power;
-  return power;
 }
 
 MapView view_of(const PageLayout& layout, const Vec2& low, const Vec2& high) {

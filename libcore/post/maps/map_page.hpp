@@ -1,12 +1,14 @@
 // libcore/post/maps/map_page.hpp: public
 // A map as a page: what stands on it, and at which scale.
 // in:    values of cells, their style, the terrain, source, fences and objects
-// out:   numbers of the page; map_page_cairo.hpp draws it
+// out:   numbers of the page; map_drawing.hpp draws it
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "draw/pen.hpp"
+#include "draw/ticks.hpp"
 #include "geometry/level_lines.hpp"
 #include "io/style.hpp"
 #include "post/maps/map_places.hpp"
@@ -17,10 +19,6 @@ namespace talus {
 /// Landscape.
 enum class PageSize { a4, a3 };
 
-/// A rectangle of a page from its upper left corner [mm].
-struct PageBox {
-  double x = 0, y = 0, width = 0, height = 0;
-};
 /// Where things stand on a page [mm].
 struct PageLayout {
   double width = 0, height = 0;
@@ -37,12 +35,6 @@ struct MapView {
 /// The middle of the rectangle from `low` to `high` at the largest round scale that shows all of
 /// it.
 [[nodiscard]] MapView view_of(const PageLayout& layout, const Vec2& low, const Vec2& high);
-
-/// 1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten, at least `value` > 0.
-[[nodiscard]] double round_scale(double value);
-/// 1, 2, 5 times a power of ten: the smallest one of at least `value`, the largest one of at most.
-[[nodiscard]] double round_up(double value);
-[[nodiscard]] double round_down(double value);
 
 /// Between the lines of the coordinate grid: 25 mm of the page or more [m].
 [[nodiscard]] inline double grid_spacing(const MapView& view) {
@@ -74,17 +66,22 @@ struct LevelLabel {
 /// Heights where their lines are straight and no other height is near, in a frame of `size` [mm].
 [[nodiscard]] std::vector<LevelLabel> level_labels(const MapGround& ground, const Vec2& size);
 
+/// Cells in the colours of their classes.
+struct MapCells {
+  PassageGrid grid;
+  std::vector<float> value;     ///< of the band that the style shows             (n_cells)
+  float nodata = 0;             ///< cells that are not drawn
+  std::vector<bool> uncertain;  ///< cells that are hatched; empty: none          (n_cells)
+  RasterStyle style;            ///< its legend, classes, remark and notes
+};
+
 struct MapPage {
   PageSize size = PageSize::a4;
   std::string title, subtitle;     ///< what is shown; of which site and runs
   std::string crs;                 ///< name of the coordinate system
   std::vector<std::string> words;  ///< paragraphs below the legend: runs, model, limits
-  RasterStyle style;               ///< its legend, classes, remark and notes
-  PassageGrid grid;
-  std::vector<float> value;     ///< of the band that the style shows             (n_cells)
-  float nodata = 0;             ///< cells that are not drawn
-  std::vector<bool> uncertain;  ///< cells that are hatched; empty: none          (n_cells)
-  Vec2 origin = Vec2::Zero();   ///< map coordinates of the local zero [m]
+  MapCells cells;
+  Vec2 origin = Vec2::Zero();  ///< map coordinates of the local zero [m]
 };
 
 }  // namespace talus

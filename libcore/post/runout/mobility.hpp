@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/csv.hpp"
+#include "draw/chart.hpp"
 
 namespace talus {
 
@@ -48,7 +49,7 @@ struct MobilityRow {
 
 /// H/L against V, both logarithmic: a relation for rockfalls, one for slides with a band down to
 /// its lower 95 % line, one for rock avalanches, none from memory; the events as points.
-[[nodiscard]] std::string mobility_svg(const std::vector<MobilityRelation>& relations,
-                                       const std::vector<MobilityEvent>& events);
+[[nodiscard]] Chart mobility_chart(const std::vector<MobilityRelation>& relations,
+                                   const std::vector<MobilityEvent>& events);
 
 }  // namespace talus

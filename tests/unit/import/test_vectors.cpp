@@ -7,7 +7,6 @@
 #include "base/error.hpp"
 #include "base/sha256.hpp"
 #include "import/vectors_gdal.hpp"
-#include "io/block_pictures.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/footprints_gdal.hpp"
 #include "io/polygons_gdal.hpp"
@@ -364,18 +363,6 @@ TEST(WriteFootprints, ReadBackAndTheSameBytesEveryTime) {
   ASSERT_EQ(found.shapes.size(), 1u);
   EXPECT_EQ(found.shapes[0].size(), 4u);
   EXPECT_TRUE(found.operation.empty());
-}
-
-TEST(VolumeQuantile, IsByVolumeNotByNumber) {
-  EXPECT_EQ(volume_quantile({1, 1, 1, 1, 96}, 0.5), 96);
-  EXPECT_EQ(volume_quantile({1, 1, 1, 1, 96}, 0.03), 1);
-}
-
-TEST(Pictures, NamesOfUsersAreEscaped) {
-  const std::string svg = stereonet_svg({{"<J&1>", Vec3::UnitZ(), {Vec3::UnitZ()}}}, Vec3::Zero());
-  EXPECT_EQ(svg.find("<J"), std::string::npos);
-  EXPECT_NE(svg.find("&lt;J&amp;1&gt;"), std::string::npos);
-  EXPECT_NE(size_curve_svg({1, 2, 50}).find("V50 = 50"), std::string::npos);
 }
 
 // Nine squares without the middle one, one of them in halves: corners of the halves lie on sides of

@@ -4,10 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "post/maps/map_column_cairo.hpp"
-#include "post/maps/map_page.hpp"
-#include "post/maps/map_page_cairo.hpp"
-#include "post/maps/page_font_cairo.hpp"
+#include "post/maps/map_drawing.hpp"
 #include "run_maker.hpp"
 
 using namespace talus;
@@ -22,15 +19,15 @@ struct Sheet {
     page.title = "Speed of the blocks";
     page.subtitle = "Site slope, 2 runs";
     page.words = {"Runs: 2 runs", "Model: blocks"};
-    page.style.legend = "largest value of all blocks over the cell [m/s]";
-    page.style.classes = {{0, {255, 255, 255, 0}, "0 m/s"},
-                          {8, {1, 2, 3, 255}, "0 - 8 m/s"},
-                          {INFINITY, {9, 9, 9, 255}, "above 8 m/s", true}};
-    page.grid = {Vec2(0, 40), 10, 4, 4};
-    for (int i = 0; i < 16; ++i) page.value.push_back(static_cast<float>(i));
-    page.nodata = -9999;
-    page.uncertain.assign(16, false);
-    page.uncertain[3] = true;
+    page.cells.style.legend = "largest value of all blocks over the cell [m/s]";
+    page.cells.style.classes = {{0, {255, 255, 255, 0}, "0 m/s"},
+                                {8, {1, 2, 3, 255}, "0 - 8 m/s"},
+                                {INFINITY, {9, 9, 9, 255}, "above 8 m/s", true}};
+    page.cells.grid = {Vec2(0, 40), 10, 4, 4};
+    for (int i = 0; i < 16; ++i) page.cells.value.push_back(static_cast<float>(i));
+    page.cells.nodata = -9999;
+    page.cells.uncertain.assign(16, false);
+    page.cells.uncertain[3] = true;
     page.origin = {500000, 4000000};
     places.source = {{{5, 5}, {15, 5}, {15, 15}, {5, 15}}};
     places.lines = {{"low", {{30, 0, 0}, {30, 40, 0}}, {0, 40}, true}};
@@ -38,8 +35,8 @@ struct Sheet {
     const PageLayout layout = layout_of(size);
     ground = map_ground(plane_trn(0.5, 10, 5, 5), layout, view_of(layout, {0, 0}, {40, 40}));
   }
-  [[nodiscard]] std::string png() const { return map_page_png(page, ground, places); }
-  [[nodiscard]] std::string pdf() const { return map_page_pdf(page, ground, places); }
+  [[nodiscard]] std::string png() const { return png_of(page_drawing(page, ground, places)); }
+  [[nodiscard]] std::string pdf() const { return pdf_of(page_drawing(page, ground, places)); }
 
   MapPage page;
   MapPlaces places;
@@ -87,11 +84,11 @@ TEST(MapPage, ShowsAllThatItIsGiven) {
   EXPECT_TRUE(without([](Sheet& s) { s.page.title.clear(); }));
   EXPECT_TRUE(without([](Sheet& s) { s.page.subtitle.clear(); }));
   EXPECT_TRUE(without([](Sheet& s) { s.page.words.pop_back(); }));
-  EXPECT_TRUE(without([](Sheet& s) { s.page.style.legend.clear(); }));
-  EXPECT_TRUE(without([](Sheet& s) { s.page.style.remark = "1 of 2 runs failed"; }));
-  EXPECT_TRUE(without([](Sheet& s) { s.page.style.notes = {"frequencies: none"}; }));
-  EXPECT_TRUE(without([](Sheet& s) { s.page.uncertain[3] = false; }));
-  EXPECT_TRUE(without([](Sheet& s) { s.page.style.classes[2].is_hatched = false; }));
+  EXPECT_TRUE(without([](Sheet& s) { s.page.cells.style.legend.clear(); }));
+  EXPECT_TRUE(without([](Sheet& s) { s.page.cells.style.remark = "1 of 2 runs failed"; }));
+  EXPECT_TRUE(without([](Sheet& s) { s.page.cells.style.notes = {"frequencies: none"}; }));
+  EXPECT_TRUE(without([](Sheet& s) { s.page.cells.uncertain[3] = false; }));
+  EXPECT_TRUE(without([](Sheet& s) { s.page.cells.style.classes[2].is_hatched = false; }));
   EXPECT_TRUE(without([](Sheet& s) { s.page.origin.x() += 1; }));
   EXPECT_TRUE(without([](Sheet& s) { s.places.source.clear(); }));
   EXPECT_TRUE(without([](Sheet& s) { s.places.lines[0].standing = false; }));
@@ -104,8 +101,8 @@ TEST(MapPage, TakesALegendThatIsLongerThanThePage) {
   Sheet sheet(PageSize::a4);
   const std::string few = sheet.png();
   for (int i = 0; i < 100; ++i)
-    sheet.page.style.classes.insert(sheet.page.style.classes.begin() + 1,
-                                    {1e-6 * (100 - i), {1, 2, 3, 255}, "a class"});
+    sheet.page.cells.style.classes.insert(sheet.page.cells.style.classes.begin() + 1,
+                                          {1e-6 * (100 - i), {1, 2, 3, 255}, "a class"});
   EXPECT_NE(sheet.png(), few);
   EXPECT_EQ(size_of_png(sheet.png()), size_of_png(few));
 }

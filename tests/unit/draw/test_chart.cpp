@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "report/chart.hpp"
+#include "draw/chart.hpp"
+#include "draw/ticks.hpp"
 
 using namespace talus;
 
@@ -31,8 +32,8 @@ TEST(Chart, MissingValuesAreGaps) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   Chart chart{"t", "x", "y", {{"", "#123456", {0, 1, 2, 3, 4}, {1, 2, none, 4, 5}}}, false};
   const std::string svg = chart_svg(chart);
-  const std::size_t line = svg.find("#123456");
-  const std::size_t begin = svg.rfind("d=\"", line), end = svg.find('"', begin + 3);
+  const std::size_t line = svg.find("rgb(7.058824%");  // 0x12 of 255
+  const std::size_t begin = svg.find("d=\"", line), end = svg.find('"', begin + 3);
   const std::string path = svg.substr(begin, end - begin);
   EXPECT_EQ(count(path, "M"), 2u);
   EXPECT_EQ(count(path, "L"), 2u);
@@ -42,7 +43,7 @@ TEST(Chart, HoldsWhateverComes) {
   const double huge = std::numeric_limits<double>::infinity();
   EXPECT_NE(chart_svg({"empty", "x", "y", {}, false}).find("</svg>"), std::string::npos);
   const std::string svg =
-      chart_svg({"<odd>", "x", "y", {{"", "red", {0, huge, 2}, {-1, 5, 0}}}, true});
+      chart_svg({"<odd>", "x", "y", {{"", "#ff0000", {0, huge, 2}, {-1, 5, 0}}}, true});
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
   EXPECT_NE(svg.find("&lt;odd&gt;"), std::string::npos);

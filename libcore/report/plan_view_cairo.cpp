@@ -1,42 +1,39 @@
-#include "report/plan_view.hpp"
-
+// The paths of a run on a map, and the part of the terrain that they need.
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <vector>
 
 #include "base/grouped_text.hpp"
-#include "base/text.hpp"
 #include "post/deposit.hpp"
 #include "post/runout/runout.hpp"
+#include "report/plan_view.hpp"
 
 namespace talus {
 namespace {
 
-std::string shape(const std::string& css_class, const std::string& d, const std::string& title) {
-  return "<path class=\"" + css_class + "\" d=\"" + d + "\">" +
-         (title.empty() ? "" : "<title>" + xml_escaped(title) + "</title>") + "</path>\n";
-}
-
-std::vector<Vec2> plan_of(const std::vector<Vec3>& points) {
-  std::vector<Vec2> plan;
-  for (const Vec3& p : points) plan.emplace_back(p.head<2>());
-  return plan;
-}
-
-std::string blocks_of(const Texts& texts, const RunFile& run, const MapSheet& sheet) {
-  std::string starts, paths, ends;
+void draw_blocks(Pen& pen, const MapSpot& spot, const Texts& texts, const RunFile& run) {
+  PenLines starts, paths, ends;
   for (int b = 0; b < n_blocks(run); ++b) {
+    starts.push_back(on_map(spot, footprint(run, b, first_pose(run, b))));
+    if (n_frames(run.frames) == 0) continue;
+    paths.emplace_back();
+    for (const Vec3& p : simplified(block_path(run, b), 0.25).point)
+      paths.back().push_back(on_map(spot, Vec2(p.head<2>())));
+    ends.push_back(on_map(spot, footprint(run, b, last_pose(run, b))));
+  }
+  pen.areas(starts, rgb(0x285ac8, 64));
+  pen.lines(starts, {0.25, rgb(0x2a57b8)}, true);
+  pen.lines(paths, {0.25, rgb(0x781414, 140)});
+  pen.areas(ends, rgb(0xf08214, 153));
+  pen.lines(ends, {0.2, rgb(0x6b3000)}, true);
+  for (std::size_t b = 0; b < starts.size(); ++b) {
     const std::string name = texts.of(
         "maps.block", {{"n", std::to_string(b)}, {"volume", grouped_text(run.blocks.volume[b])}});
-    starts += shape("start", sheet_path(sheet, footprint(run, b, first_pose(run, b)), true), name);
-    if (n_frames(run.frames) == 0) continue;
-    const TimedPath path = simplified(block_path(run, b), 0.25);
-    paths += shape("way", sheet_path(sheet, plan_of(path.point), false), name);
-    ends += shape("end", sheet_path(sheet, footprint(run, b, last_pose(run, b)), true), name);
+    pen.note(name, {starts[b]}, true);
+    if (ends.empty()) continue;
+    pen.note(name, {paths[b]}, false);
+    pen.note(name, {ends[b]}, true);
   }
-  return starts + paths + ends;
 }
 
 }  // namespace
@@ -62,7 +59,11 @@ PlanWindow plan_window(const RunFile& run, const Trn& trn) {
 }
 
 std::string plan_view_svg(const Texts& texts, const RunFile& run, const MapSheet& sheet) {
-  return sheet_svg(sheet, blocks_of(texts, run, sheet), texts.of("maps.plan_picture"));
+  return sheet_svg(
+      sheet,
+      sheet_group(sheet, "class=\"blocks\"",
+                  [&](Pen& pen, const MapSpot& spot) { draw_blocks(pen, spot, texts, run); }),
+      texts.of("maps.plan_picture"));
 }
 
 }  // namespace talus

@@ -1,10 +1,10 @@
-#include "report/map_figures.hpp"
-
+// The map layers of a report.
 #include <algorithm>
 
 #include "base/text.hpp"
 #include "post/maps/map_layers.hpp"
 #include "report/html.hpp"
+#include "report/map_figures.hpp"
 #include "report/map_legend.hpp"
 
 namespace talus {
@@ -33,9 +33,9 @@ const MapPicture* picture_of(const std::vector<MapPicture>& pictures, const std:
 std::string map_figure(const Texts& texts, const MapSheet& sheet, const MapPicture& picture,
                        const std::string& alt, const std::string& unit,
                        const std::string& caption) {
-  return html_figure(
-      cells_svg(sheet, picture.cells, alt, unit),
-      caption + html_legend(texts, picture.qml, picture.weak, !picture.cells.unsure.empty()));
+  return html_figure(cells_svg(sheet, picture.map, alt, unit),
+                     caption + html_legend(texts, picture.qml, picture.weak,
+                                           !picture.map.cells.uncertain.empty()));
 }
 
 std::string case_figures(const Texts& texts, const MapSheet& sheet, const CasePictures& cases,

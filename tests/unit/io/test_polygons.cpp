@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
-#include "report/map_cells_gdal.hpp"
+#include "io/polygons_gdal.hpp"
 
 using namespace talus;
 
@@ -35,11 +34,4 @@ TEST(RimOf, ClosesJointsAndKeepsWhatIsApart) {
   EXPECT_EQ(rim_of({box(0, 0, 10, 10), box(10.1, 0, 20, 10)}).size(), 1U);
   EXPECT_EQ(rim_of({box(0, 0, 10, 10), box(10.5, 0, 20, 10)}).size(), 2U);
   EXPECT_TRUE(rim_of({}).empty());
-}
-
-TEST(ShadingPng, IsAPngAndTheSameEachTime) {
-  const Shading shading{2, 3, {185, 200, 255, std::numeric_limits<float>::quiet_NaN(), 190, 250}};
-  const std::string png = shading_png(shading);
-  EXPECT_EQ(png.substr(1, 3), "PNG");
-  EXPECT_EQ(png, shading_png(shading));
 }
