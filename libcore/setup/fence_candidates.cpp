@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/level_lines.hpp"
 #include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
+#include "io/level_lines.hpp"
 
 namespace talus {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "draw/pen.hpp"
 #include "draw/ticks.hpp"
-#include "geometry/level_lines.hpp"
+#include "io/level_lines.hpp"
 #include "io/style.hpp"
 #include "post/maps/map_places.hpp"
 #include "post/maps/shading.hpp"

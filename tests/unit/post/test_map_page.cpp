@@ -152,51 +152,6 @@ TEST(MapView, GridAndBarFitTheScale) {
   EXPECT_EQ(spaced(999), "999");
 }
 
-// The contour lines of a plane are straight, and stand where it has their height.
-TEST(LevelLines, OfAPlaneStandWhereItHasTheirHeight) {
-  SampledField field{{10, 50}, 2, 5, 8, {}};
-  for (int row = 0; row < 5; ++row)
-    for (int col = 0; col < 8; ++col) field.value.push_back(3.0 * col + row);
-  const std::vector<LevelLine> lines = level_lines(field, {4, 11.5, 100});
-  ASSERT_EQ(lines.size(), 2U);
-  for (const LevelLine& line : lines) {
-    for (const Vec2& p : line.points)
-      EXPECT_NEAR(3 * (p.x() - 10) / 2 + (50 - p.y()) / 2, line.level, 1e-12);
-  }
-}
-
-TEST(LevelLines, CloseAroundATopAndStopAtUnknownGround) {
-  SampledField cone{{0, 0}, 1, 21, 21, {}};
-  for (int row = 0; row < 21; ++row)
-    for (int col = 0; col < 21; ++col) cone.value.push_back(10 - std::hypot(col - 10, row - 10));
-  std::vector<LevelLine> lines = level_lines(cone, {3.3});
-  ASSERT_EQ(lines.size(), 1U);
-  EXPECT_EQ(lines[0].points.front(), lines[0].points.back());
-  double length = 0;
-  for (std::size_t i = 1; i < lines[0].points.size(); ++i)
-    length += (lines[0].points[i] - lines[0].points[i - 1]).norm();
-  EXPECT_NEAR(length, 2 * M_PI * 6.7, 0.02 * length);
-
-  cone.value[10 * 21 + 17] = std::nan("");  // on the line, to the east
-  lines = level_lines(cone, {3.3});
-  ASSERT_EQ(lines.size(), 1U);
-  EXPECT_NE(lines[0].points.front(), lines[0].points.back());
-  for (const Vec2& p : lines[0].points) EXPECT_FALSE(p.x() > 16.1 && std::abs(p.y() + 10) < 0.9);
-}
-
-// Two tops that touch in a saddle: the middle says which corners belong together.
-TEST(LevelLines, PartASaddleByItsMiddle) {
-  for (const double low : {0.0, 0.9}) {
-    const SampledField field{{0, 0}, 1, 2, 2, {2, low, low, 2}};
-    const std::vector<LevelLine> lines = level_lines(field, {1.3});
-    ASSERT_EQ(lines.size(), 2U);
-    const bool middle_is_high = (4 + 2 * low) / 4 >= 1.3;
-    // a line cuts off a low corner, or a high one
-    const Vec2 middle = (lines[0].points[0] + lines[0].points[1]) / 2;
-    EXPECT_EQ(std::abs((middle - Vec2(0.5, -0.5)).dot(Vec2(1, -1))) < 1e-9, middle_is_high) << low;
-  }
-}
-
 TEST(MapPlaces, KeepOneOfEachNameAndTheFenceThatStood) {
   RunFile run;
   add_box(run, {2, 2, 2}, {1, 1, 1});

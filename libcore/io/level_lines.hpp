@@ -1,5 +1,5 @@
-// libcore/geometry/level_lines.hpp: public
-// Lines of equal value of a field that is sampled on a grid.
+// libcore/io/level_lines.hpp: public
+// Lines of equal value of a field that is sampled on a grid, by GDAL.
 #pragma once
 
 #include <vector>
@@ -22,8 +22,8 @@ struct LevelLine {
   std::vector<Vec2> points;  ///< the first again at the end where the line is closed
 };
 
-/// Each line in one piece, linear between samples; none through a square with an unknown sample. A
-/// sample that has the level counts as above it.
+/// Each line in one piece, linear between samples, by level. Lines go on for half a spacing beyond
+/// the last known sample, and pass a sample of their level a millionth of a spacing beside it.
 [[nodiscard]] std::vector<LevelLine> level_lines(const SampledField& field,
                                                  const std::vector<double>& levels);
 
