@@ -13,7 +13,7 @@ import tomllib
 ROOMS = ["tools/report", "libcore/report"]
 # Not of the page: its data and what is wrong with them, the QGIS project, the look before the runs.
 NOT_THE_PAGE = {"talus_report.cpp", "folder.cpp", "project.cpp", "qgis_project.cpp", "qgis_template_gdal.cpp",
-                "field_words.cpp", "check_view.cpp", "texts.cpp", "texts_toml.cpp",
+                "field_words.cpp", "check_view_cairo.cpp", "texts.cpp", "texts_toml.cpp",
                 "map_cells_gdal.cpp", "styles_gdal.cpp", "viewer_scene.cpp"}
 FILE_ENDINGS = {"csv", "gpkg", "html", "json", "js", "pdf", "png", "qgz", "qml", "svg", "tif", "toml", "css"}
 # What results of other tools say, where the code asks for it; classes of the style sheet.

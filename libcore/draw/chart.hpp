@@ -25,14 +25,19 @@ struct Chart {
   std::string title, x_label, y_label;
   std::vector<ChartSeries> series;
   bool log_y = false, log_x = false;
-  double height = 300;  ///< [px]
+  double height = 300;         ///< [px]
+  bool is_true_scale = false;  ///< x and y at one scale, whatever the height becomes
 };
 
 /// 640 px wide.
 [[nodiscard]] Drawing chart_drawing(const Chart& chart);
-/// For a page, or as a file.
+/// As part of a page.
 [[nodiscard]] inline std::string chart_svg(const Chart& chart) {
   return svg_of(chart_drawing(chart), "chart");
+}
+/// As a document.
+[[nodiscard]] inline std::string chart_file(const Chart& chart) {
+  return svg_of(chart_drawing(chart));
 }
 
 }  // namespace talus

@@ -105,7 +105,8 @@ Frame frame_of(const Chart& chart) {
         frame.y.add(frame.scaled(line.y_high[i]));
     }
   if (frame.x.is_empty()) frame.x = {0, 1}, frame.y = {0, 1};
-  if (!chart.log_y && frame.y.low > 0 && frame.y.low < 0.5 * frame.y.high) frame.y.low = 0;
+  if (!chart.log_y && !chart.is_true_scale && frame.y.low > 0 && frame.y.low < 0.5 * frame.y.high)
+    frame.y.low = 0;
   if (frame.x.high <= frame.x.low) frame.x.high = frame.x.low + 1;
   const double least = std::max(1e-12, 1e-9 * std::abs(frame.y.high));
   if (frame.y.high - frame.y.low < least) frame.y.high = frame.y.low + (chart.log_y ? 1 : least);
@@ -223,7 +224,14 @@ void draw(Pen& pen, const Chart& chart) {
 }  // namespace
 
 Drawing chart_drawing(const Chart& chart) {
-  return {width, chart.height, chart.title, pixel_mm, [chart](Pen& pen) { draw(pen, chart); }};
+  Chart drawn = chart;
+  if (chart.is_true_scale) {
+    const Frame frame = frame_of(chart);
+    drawn.height =
+        frame.top + bottom +
+        (frame.y.high - frame.y.low) / (frame.x.high - frame.x.low) * (width - left - right);
+  }
+  return {width, drawn.height, chart.title, pixel_mm, [drawn](Pen& pen) { draw(pen, drawn); }};
 }
 
 }  // namespace talus

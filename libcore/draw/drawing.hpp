@@ -25,8 +25,8 @@ inline constexpr double picture_dpi = 150;
 [[nodiscard]] std::string png_of(const Drawing& drawing);
 /// One page; it holds no time of its making. Throws InputError as require_font().
 [[nodiscard]] std::string pdf_of(const Drawing& drawing);
-/// A document that may also be part of a page, where it has a class. Words stay words: they can be
-/// searched, and grow and shrink with the document's font size.
+/// A document, or part of a page, where it has a class. Words stay words: they can be searched, and
+/// grow and shrink with the font size.
 [[nodiscard]] std::string svg_of(const Drawing& drawing, const std::string& css_class = {});
 /// The strokes alone, as a group of an SVG of this size; `name`: its id or class, as an attribute.
 [[nodiscard]] std::string svg_group(const Drawing& drawing, const std::string& name);

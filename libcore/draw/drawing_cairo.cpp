@@ -207,13 +207,15 @@ std::string svg_of(const Drawing& drawing, const std::string& css_class) {
   const std::string content = content_of(drawing, is_sharp);
   const double unit = drawing.unit / pixel_mm;
   const std::string width = text(unit * drawing.width, 7), height = text(unit * drawing.height, 7);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" " +
-         (css_class.empty() ? "" : "class=\"" + css_class + "\" ") + "viewBox=\"0 0 " + width +
-         " " + height + "\" width=\"" + width + "\" height=\"" + height + "\" font-family=\"" +
-         page_font + ", sans-serif\" font-size=\"" + text(base_letters) + "\"" +
-         (is_sharp ? " image-rendering=\"pixelated\"" : "") + " role=\"img\" aria-label=\"" +
-         xml_escaped(drawing.title) + "\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>" +
-         content + "</svg>\n";
+  const std::string kind =
+      css_class.empty()
+          ? "xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\""
+          : "class=\"" + css_class + "\"";
+  return "<svg " + kind + " viewBox=\"0 0 " + width + " " + height + "\" width=\"" + width +
+         "\" height=\"" + height + "\" font-family=\"" + page_font + ", sans-serif\" font-size=\"" +
+         text(base_letters) + "\"" + (is_sharp ? " image-rendering=\"pixelated\"" : "") +
+         " role=\"img\" aria-label=\"" + xml_escaped(drawing.title) +
+         "\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>" + content + "</svg>\n";
 }
 
 std::string svg_group(const Drawing& drawing, const std::string& name) {

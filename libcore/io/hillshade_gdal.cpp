@@ -1,7 +1,6 @@
 #include "io/hillshade_gdal.hpp"
 
 #include <cpl_string.h>
-#include <cpl_vsi.h>
 #include <gdal_priv.h>
 #include <gdal_utils.h>
 
@@ -68,16 +67,6 @@ void write_hillshade(const std::string& path, const Trn& trn) {
     Dataset(driver->CreateCopy(path.c_str(), pixels.get(), FALSE, nullptr, nullptr, nullptr));
   if (!pixels || !driver || errors.failed())
     throw InputError({path}, "the hillshade cannot be written: " + errors.failure());
-}
-
-std::string hillshade_png(const Trn& trn) {
-  const std::string path = "/vsimem/talus_hillshade.png";
-  write_hillshade(path, trn);
-  vsi_l_offset size = 0;
-  GByte* const bytes = VSIGetMemFileBuffer(path.c_str(), &size, TRUE);
-  std::string png(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
-  CPLFree(bytes);
-  return png;
 }
 
 }  // namespace talus

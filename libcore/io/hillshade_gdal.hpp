@@ -12,7 +12,4 @@ namespace talus {
 /// black. Throws InputError when it cannot be written.
 void write_hillshade(const std::string& path, const Trn& trn);
 
-/// The same as the bytes of a PNG file.
-[[nodiscard]] std::string hillshade_png(const Trn& trn);
-
 }  // namespace talus

@@ -1,13 +1,14 @@
 // libcore/report/check_view.hpp: public
 // Pictures of a site before anything is computed: a map of the source, what lies around it and the
-// fall lines from it, and a section along the motion, both as SVG.
+// fall lines from it, a map of the inputs, and a section along the motion.
 #pragma once
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "draw/chart.hpp"
+#include "post/maps/map_page.hpp"
 #include "record/crossings.hpp"
 #include "report/doubts_html.hpp"
 #include "terrain/trn.hpp"
@@ -53,22 +54,15 @@ struct CheckView {
   std::vector<DoubtMark> doubts;
 };
 
-/// Elevation interval of contours that makes about twenty of them between two heights: 1, 2, 5 or
-/// 10 times a power of ten [m].
-[[nodiscard]] double contour_interval(double low, double high);
-/// Of this ground; 0 where it has no relief [m].
-[[nodiscard]] double contour_interval(const Trn& ground);
-
 /// The part of the terrain that source, fences and fall lines lie in, with a margin, and of objects
 /// what is no farther from these than their extent.
-[[nodiscard]] Trn part_for(const CheckView& view, const Trn& ground);
+[[nodiscard]] MapGround check_ground(const CheckView& view, const Trn& ground);
 
 /// Whether a point of the object lies in the part that is drawn.
-[[nodiscard]] bool is_drawn(const NamedArea& object, const Trn& part);
+[[nodiscard]] bool is_drawn(const NamedArea& object, const MapView& part);
 
-/// `ground`: what part_for() gave; `hillshade_png`: a pixel a node of it.
-[[nodiscard]] std::string check_map_svg(const CheckView& view, const Trn& ground,
-                                        std::string_view hillshade_png);
+/// `part`: what check_ground() gave.
+[[nodiscard]] Drawing check_map(const CheckView& view, const Trn& ground, const MapGround& part);
 
 /// A layer or raster that was read: its name, what is in it, and its extent in plan.
 struct ViewedInput {
@@ -76,18 +70,15 @@ struct ViewedInput {
   Vec2 low = Vec2::Zero(), high = Vec2::Zero();
 };
 
-/// Every nth node, so that there are `most` along a side at most.
-[[nodiscard]] Trn thinned(const Trn& ground, int most);
-
 /// The whole terrain with the extent of each input, also of those that lie outside, the shapes and
-/// doubts of the view. `hillshade_png`: a pixel a node of `ground`.
-[[nodiscard]] std::string inputs_map_svg(const CheckView& view,
-                                         const std::vector<ViewedInput>& inputs, const Trn& ground,
-                                         std::string_view hillshade_png);
+/// doubts of the view.
+[[nodiscard]] Drawing inputs_map(const CheckView& view, const std::vector<ViewedInput>& inputs,
+                                 const Trn& ground);
 /// Inputs that lie so far off the terrain that the map leaves them out.
 [[nodiscard]] bool is_far(const ViewedInput& input, const Trn& ground);
 
-/// Ground and bed along the section, heights and lengths at one scale.
-[[nodiscard]] std::string section_svg(const CheckView& view, const Trn& ground, const Trn& bed);
+/// Ground and bed along the section, heights and lengths at one scale; no series where there is no
+/// relief.
+[[nodiscard]] Chart section_chart(const CheckView& view, const Trn& ground, const Trn& bed);
 
 }  // namespace talus

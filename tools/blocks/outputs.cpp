@@ -42,7 +42,7 @@ void write_pictures(Tool& tool, const BlocksOutputs& files, const BlocksWork& wo
     tool.write_text(files.stereonet, svg_of(stereonet(sets, slope_normal(work))));
   }
   if (!files.size_curve.empty())
-    tool.write_text(files.size_curve, chart_svg(size_curve(work.blocks.volume)));
+    tool.write_text(files.size_curve, chart_file(size_curve(work.blocks.volume)));
 }
 
 }  // namespace

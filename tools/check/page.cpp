@@ -11,7 +11,6 @@
 #include "geometry/convex_outline.hpp"
 #include "geometry/plan2d.hpp"
 #include "io/block_pictures.hpp"
-#include "io/hillshade_gdal.hpp"
 #include "report/check_view.hpp"
 #include "report/html.hpp"
 #include "setup/site_places_gdal.hpp"
@@ -170,7 +169,7 @@ constexpr const char* map_key =
     "classes.</span>";
 
 // The interval is that of the map; each fifth contour is bold.
-std::string caption_of_map(const CheckView& view, const Trn& part) {
+std::string caption_of_map(const CheckView& view, const MapGround& part) {
   std::string words = map_key;
   if (!view.surfaces.empty())
     words +=
@@ -178,7 +177,7 @@ std::string caption_of_map(const CheckView& view, const Trn& part) {
         "wedge of the joint sets (<code>make source</code>: source.gpkg).</span>";
   std::string far;
   for (const NamedArea& object : view.objects)
-    if (!is_drawn(object, part)) far += (far.empty() ? "" : ", ") + xml_escaped(object.name);
+    if (!is_drawn(object, part.view)) far += (far.empty() ? "" : ", ") + xml_escaped(object.name);
   if (!view.doubts.empty())
     words +=
         " <span class=\"key\"><i class=\"doubt-key\"></i>place of the doubt with this "
@@ -186,28 +185,28 @@ std::string caption_of_map(const CheckView& view, const Trn& part) {
   if (!view.objects.empty())
     words += " <span class=\"key\"><i class=\"object-key\"></i>object.</span>";
   if (!far.empty()) words += " Beyond the map: " + far + ".";
-  return words + " Contours every " + text(contour_interval(part)) + " m.";
+  return words + " Contours every " + text(part.contour_interval) + " m.";
 }
 
 // Where the fall lines are long, the mass is a speck in their section: it gets one of its own.
 std::string section_figures(const Look& look, CheckView view) {
   const Trn &ground = look.work.ground, &bed = look.inputs.parts.trn;
-  const std::string along = section_svg(view, ground, bed);
-  if (along.empty()) return "";
+  const Chart along = section_chart(view, ground, bed);
+  if (along.series.empty()) return "";
   std::string out =
-      html_figure(along,
+      html_figure(chart_svg(along),
                   "Section along the motion, heights and lengths at one scale: what lies between "
                   "the ground and the failure surface is the mass.");
   const std::vector<Vec2> near = section_of_source(look);
   if (length_of(view.section) < 3 * length_of(near)) return out;
   view.section = near;
-  return out + html_figure(section_svg(view, ground, bed), "The same at the source.");
+  return out + html_figure(chart_svg(section_chart(view, ground, bed)), "The same at the source.");
 }
 
 std::string map_section(const Look& look, const std::vector<Doubt>& doubts) {
   CheckView view = view_of(look, doubts);
-  const Trn part = part_for(view, look.work.ground);
-  std::string out = html_figure(check_map_svg(view, look.work.ground, hillshade_png(part)),
+  const MapGround part = check_ground(view, look.work.ground);
+  std::string out = html_figure(svg_of(check_map(view, look.work.ground, part), "plan"),
                                 caption_of_map(view, part));
   out += section_figures(look, std::move(view));
   return html_section("map", "Map and section", out);
@@ -254,11 +253,10 @@ std::string kinematics_section(const Look& look) {
           html_table({"Set or pair", "slides", "slides within 20&deg; of the fall line", "topples",
                       "factor of safety"},
                      rows) +
-          html_figure(
-              html_svg(svg_of(kinematic_net(net, pole(look.slope.dip, look.slope.dip_direction),
-                                            zones, lines)),
-                       "stereonet of the joint sets and the slope"),
-              "Stereonet of the mean sets and of the mean slope."));
+          html_figure(svg_of(kinematic_net(net, pole(look.slope.dip, look.slope.dip_direction),
+                                           zones, lines),
+                             "net"),
+                      "Stereonet of the mean sets and of the mean slope."));
 }
 
 std::string locks_section(const Look& look) {
@@ -333,7 +331,7 @@ std::string source_section(const Look& look) {
 
 // Where each input lies on the whole terrain; a wrong unit, zone or file shows here.
 std::string inputs_section(const Look& look, const CheckPage& page) {
-  const Trn ground = thinned(look.work.ground, 300);
+  const Trn& ground = look.work.ground;
   CheckView view = view_of(look, page.doubts);
   const std::vector<ViewedInput> inputs = viewed_inputs(look, page.reports);
   std::string far;
@@ -343,9 +341,8 @@ std::string inputs_section(const Look& look, const CheckPage& page) {
       "All inputs over the terrain. <span class=\"key\"><i class=\"input-key\"></i>extent of an "
       "input.</span>";
   if (!far.empty()) caption += " Far beyond the map: " + far + ".";
-  return html_section(
-      "inputs", "Inputs",
-      html_figure(inputs_map_svg(view, inputs, ground, hillshade_png(ground)), caption));
+  return html_section("inputs", "Inputs",
+                      html_figure(svg_of(inputs_map(view, inputs, ground), "plan"), caption));
 }
 
 std::string whole_page(const Look& look, const CheckPage& page, const std::string& sections) {

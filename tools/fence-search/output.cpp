@@ -458,7 +458,7 @@ std::string search_chart(const SearchCase& search, const SearchAnswer& answer) {
   }
   for (const ChartSeries& series : {all, curve, predicted, verified})
     if (!series.x.empty()) chart.series.push_back(series);
-  return chart_svg(chart);
+  return chart_file(chart);
 }
 
 }  // namespace talus

@@ -267,7 +267,7 @@ std::string ground_chart(const LineProfile& profile) {
       }));
   for (ChartSeries& series : chart.series)
     for (double& y : series.y) y += profile.origin.z();
-  return chart_svg(chart);
+  return chart_file(chart);
 }
 
 // Crossings as points, over the largest and the median of each block over each cell.
@@ -279,7 +279,7 @@ std::string quantity_chart(const LineProfile& profile, const std::string& title,
   add(chart, line_over(profile, "largest over each cell", "#3182bd", largest));
   add(chart, line_over(profile, "median over each cell", "#9ecae1", median));
   add(chart, crossing_points(profile, "#cb181d", of));
-  return chart_svg(chart);
+  return chart_file(chart);
 }
 
 std::string count_chart(const LineProfile& profile) {
@@ -290,7 +290,7 @@ std::string count_chart(const LineProfile& profile) {
     steps.y.insert(steps.y.end(), {0, bin.a_run, bin.a_run, 0});
   }
   chart.series.push_back(std::move(steps));
-  return chart_svg(chart);
+  return chart_file(chart);
 }
 
 }  // namespace

@@ -11,11 +11,11 @@
 
 #include "base/file_paths.hpp"
 #include "base/text.hpp"
+#include "draw/ticks.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/style.hpp"
 #include "io/tags_gdal.hpp"
 #include "post/maps/map_layers.hpp"
-#include "report/check_view.hpp"
 #include "report/plan_view.hpp"
 #include "report/styles_gdal.hpp"
 #include "site/site_layers.hpp"
@@ -273,7 +273,7 @@ double interval_in(const Trn& trn, const PlanWindow& window) {
       low = std::min(low, node.z());
       high = std::max(high, node.z());
     }
-  return low < high ? contour_interval(low, high) : 0;
+  return low < high ? round_up((high - low) / 20) : 0;
 }
 
 // Of the template's placeholders.

@@ -21,7 +21,6 @@
 #include "io/tags_gdal.hpp"
 #include "post/maps/map_layers.hpp"
 #include "record/part_file.hpp"
-#include "report/check_view.hpp"
 #include "report/map_cells_gdal.hpp"
 #include "report/plan_view.hpp"
 #include "report/qgis_template_gdal.hpp"

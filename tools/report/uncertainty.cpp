@@ -147,12 +147,12 @@ std::string result_part(const Texts& texts, const std::string& result,
          html_table(texts.list("uncertainty.index_heads"), table, {false, true, true, true}) +
          html_figure(svg_of(bars_drawing(shares, texts.of("uncertainty.shares"),
                                          texts.of("uncertainty.share_picture")),
-                            "chart") +
+                            "bars") +
                          (correlations.empty()
                               ? ""
                               : svg_of(bars_drawing(correlations, texts.of("uncertainty.ranks"),
                                                     texts.of("uncertainty.rank_picture")),
-                                       "chart")),
+                                       "bars")),
                      xml_escaped(title) + ".");
 }
 

@@ -198,7 +198,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
     write("runs.csv", run_csv(all.runs));
     write("sensitivity.csv", csv_of(sensitivity_fields(), sensitivity));
     write("curves.csv", curve_csv(all.runs, trn.origin));
-    write("runout.svg", chart_svg(mobility_chart(relations, events)));
+    write("runout.svg", chart_file(mobility_chart(relations, events)));
   }
   if (!o.thickness.empty()) write_thickness(tool, o, all, inputs, tags, remark);
 

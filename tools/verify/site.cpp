@@ -154,7 +154,7 @@ std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string&
   tool.write_text(out + "/site.csv", csv_of(rows, processor_name(), build_commit));
   Chart chart = work_precision_chart("error of " + o.quantity + " [m]", rows, {});
   add_band(chart, reference.band[q]);
-  tool.write_text(out + "/site.svg", chart_svg(chart));
+  tool.write_text(out + "/site.svg", chart_file(chart));
   tool.write_text(out + "/solver.toml", fragment_of(list[best], o));
   if (results[best].n_broken > 0)
     tool.warn(

@@ -90,7 +90,7 @@ SlideData shipped_slide() {
 }
 
 void draw(Tool& tool, const Options& o, const Chart& chart, const std::string& name) {
-  tool.write_text(o.out + "/" + name + ".svg", chart_svg(chart));
+  tool.write_text(o.out + "/" + name + ".svg", chart_file(chart));
 }
 
 // Holds the error at the defaults against its bound; the quick slide has other steps.

@@ -23,6 +23,9 @@ void draw_cells(Pen& pen, const MapSpot& spot, const MapCells& cells);
 void draw_contours(Pen& pen, const MapSpot& spot, const MapGround& ground);
 /// With a note of the name at each object and line.
 void draw_places(Pen& pen, const MapSpot& spot, const MapPlaces& places);
+/// A name beside a point of the drawing, where the frame shows it.
+void draw_name(Pen& pen, const MapSpot& spot, const Vec2& beside, const std::string& name,
+               const Colour& colour);
 /// Lines of round coordinates; `origin`: map coordinates of the local zero [m].
 void draw_grid(Pen& pen, const MapSpot& spot, const Vec2& origin);
 

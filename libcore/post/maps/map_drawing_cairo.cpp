@@ -60,15 +60,6 @@ std::vector<PageBox> stretches(const MapSpot& spot, const PassageGrid& grid, Mar
   return boxes;
 }
 
-void draw_name(Pen& pen, const MapSpot& spot, const Vec2& beside, const std::string& name,
-               const Colour& colour) {
-  if (!is_inside(spot.frame, beside)) return;
-  const bool is_right = beside.x() > spot.frame.x + 0.8 * spot.frame.width;
-  pen.words_about(beside + Vec2(is_right ? -1.2 : 1.2, 0), name,
-                  {2.3 * spot.letters, true, 0, colour, true},
-                  is_right ? Anchor::end : Anchor::begin);
-}
-
 void draw_object(Pen& pen, const MapSpot& spot, const RecordObject& object) {
   const Stroke stroke = object_stroke();
   Vec2 last = Vec2::Constant(-1);
@@ -220,6 +211,15 @@ void draw_places(Pen& pen, const MapSpot& spot, const MapPlaces& places) {
     pen.note(line.name, {points}, false);
     draw_name(pen, spot, points.back(), line.name, {0, 0, 0, 255});
   }
+}
+
+void draw_name(Pen& pen, const MapSpot& spot, const Vec2& beside, const std::string& name,
+               const Colour& colour) {
+  if (!is_inside(spot.frame, beside)) return;
+  const bool is_right = beside.x() > spot.frame.x + 0.8 * spot.frame.width;
+  pen.words_about(beside + Vec2(is_right ? -1.2 : 1.2, 0), name,
+                  {2.3 * spot.letters, true, 0, colour, true},
+                  is_right ? Anchor::end : Anchor::begin);
 }
 
 // Lines, and their map coordinates along the frame.

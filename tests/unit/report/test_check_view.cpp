@@ -42,54 +42,60 @@ size_t count(const std::string& text, const std::string& words) {
 
 }  // namespace
 
-TEST(CheckView, ContoursLieAtRoundHeights) {
-  EXPECT_EQ(contour_interval(0, 100), 5);
-  EXPECT_EQ(contour_interval(200, 201), 0.05);
-  EXPECT_EQ(contour_interval(0, 1367), 100);
-}
-
 TEST(CheckView, PartHoldsAllThatIsDrawn) {
-  const Trn whole = slope(200), part = part_for(view(), whole);
-  EXPECT_LT(part.n_rows, 60);
-  EXPECT_LE(part.node0.x(), 40 - 7);
-  EXPECT_GE(part.node0.y(), 80 + 7);
-  EXPECT_EQ(part.elevation.size(), static_cast<size_t>(part.n_rows) * part.n_cols);
-  EXPECT_EQ(elevation_at(part, 50, 60), elevation_at(whole, 50, 60));
+  const MapGround part = check_ground(view(), slope(200));
+  EXPECT_LT((part.view.high - part.view.low).maxCoeff(), 120);  // of 398 m
+  EXPECT_LE(part.view.low.x(), 40 - 7);
+  EXPECT_GE(part.view.high.y(), 80 + 7);
+  EXPECT_GT(part.contours.size(), 5u);
 }
 
 TEST(CheckView, MapShowsEachThingOnce) {
   const Trn ground = slope(60);
-  const std::string svg = check_map_svg(view(), ground, "png");
-  for (const char* part : {"class=\"source\"", "class=\"fence\"", "class=\"fall\"",
-                           "class=\"section\"", "class=\"holds\"", "class=\"clear\"",
-                           "class=\"step\"", "step of 2.5 m", "block 3 &lt; 4", "contours every"})
-    EXPECT_GE(count(svg, part), 1u) << part;
-  EXPECT_EQ(count(svg, "class=\"fence\""), 1u);
+  const std::string svg = svg_of(check_map(view(), ground, check_ground(view(), ground)));
+  for (const char* part :
+       {"source</title>", "fence road</title>", "section</title>", "comes out here</title>",
+        "step of 2.5 m</title>", "block 3 &lt; 4</title>", ">road</text>", ">N</text>"})
+    EXPECT_EQ(count(svg, part), 1u) << part;
   EXPECT_EQ(count(svg, "nan"), 0u);
 }
 
 // A road that leaves the map is drawn as far as the map goes; what lies beyond it is not.
 TEST(CheckView, ObjectsAndSurfacesAreDrawnAndNamed) {
   CheckView made = view();
-  const double before = part_for(made, slope(600)).n_rows;
+  const auto width_of = [](const MapGround& part) { return (part.view.high - part.view.low).x(); };
+  const double before = width_of(check_ground(made, slope(600)));
   made.objects = {{"house <1>", "object house", {{{{50, 40}, {54, 40}, {54, 44}}}}},
                   {"road", "object road", {{{{30, 34}, {900, 34}, {900, 36}, {30, 36}}}}},
                   {"far", "object far", {{{{900, 900}, {910, 900}, {910, 910}}}}}};
   made.surfaces = {{"sliding", "plane of sliding", {{{{42, 62}, {58, 62}, {58, 78}}}}}};
-  const Trn ground = slope(600), part = part_for(made, ground);
-  EXPECT_LT(part.n_rows, 2 * before);
-  EXPECT_TRUE(is_drawn(made.objects[0], part));
-  EXPECT_TRUE(is_drawn(made.objects[1], part));
-  EXPECT_FALSE(is_drawn(made.objects[2], part));
-  const std::string svg = check_map_svg(made, ground, "png");
-  EXPECT_EQ(count(svg, "class=\"object\""), 3u);
+  const Trn ground = slope(600);
+  const MapGround part = check_ground(made, ground);
+  EXPECT_LT(width_of(part), 2.5 * before);
+  EXPECT_TRUE(is_drawn(made.objects[0], part.view));
+  EXPECT_TRUE(is_drawn(made.objects[1], part.view));
+  EXPECT_FALSE(is_drawn(made.objects[2], part.view));
+  const std::string svg = svg_of(check_map(made, ground, part));
   EXPECT_EQ(count(svg, ">house &lt;1&gt;</text>"), 1u);
   EXPECT_EQ(count(svg, ">road</text>"), 2u);  // and the fence of that name
   EXPECT_EQ(count(svg, ">far</text>"), 0u);
-  EXPECT_EQ(count(svg, "class=\"proposed\""), 1u);
-  EXPECT_EQ(count(svg, "plane of sliding"), 1u);
+  EXPECT_EQ(count(svg, "plane of sliding</title>"), 1u);
 }
 
+TEST(CheckView, DoubtsAndInputsAreOnTheMapOfInputs) {
+  CheckView made = view();
+  made.doubts = {{7, {{50, 60}}, "units"}};
+  const Trn ground = slope(60);
+  const std::vector<ViewedInput> inputs = {{"contours", "3 contours", {0, 0}, {100, 100}},
+                                           {"far", "away", {1e5, 1e5}, {1e5 + 9, 1e5 + 9}}};
+  const std::string svg = svg_of(inputs_map(made, inputs, ground));
+  EXPECT_EQ(count(svg, ">contours</text>"), 1u);
+  EXPECT_EQ(count(svg, ">far</text>"), 0u);
+  EXPECT_EQ(count(svg, ">7</text>"), 1u);
+  EXPECT_EQ(count(svg, "units</title>"), 1u);
+}
+
+// Five metres of mass below a slope of one; the fence is 4 m high where the section crosses it.
 TEST(CheckView, SectionHasTheMassAndTheFences) {
   const Trn ground = slope(60);
   Trn bed = ground;
@@ -97,9 +103,17 @@ TEST(CheckView, SectionHasTheMassAndTheFences) {
     for (int c = 0; c < 60; ++c)
       if (std::abs(c * 2 - 50) < 12 && std::abs((59 - r) * 2 - 70) < 12)
         bed.elevation[node_index(bed, r, c)] -= 5;
-  const std::string svg = section_svg(view(), ground, bed);
-  EXPECT_EQ(count(svg, "class=\"mass\""), 1u);
-  EXPECT_EQ(count(svg, "class=\"fence\""), 1u);
-  EXPECT_EQ(count(svg, "nan"), 0u);
-  EXPECT_EQ(section_svg(CheckView{}, ground, bed), "");
+  const Chart chart = section_chart(view(), ground, bed);
+  ASSERT_EQ(chart.series.size(), 3u);
+  const ChartSeries &mass = chart.series[0], &fence = chart.series[2];
+  double deepest = 0;
+  for (size_t i = 0; i < mass.y.size(); ++i)
+    deepest = std::max(deepest, mass.y_high[i] - mass.y[i]);
+  EXPECT_NEAR(deepest, 5, 1e-9);
+  EXPECT_EQ(fence.name, "fence road");
+  EXPECT_NEAR(fence.x[0], 55, 1e-9);
+  EXPECT_NEAR(fence.y[0], 130, 1e-9);
+  EXPECT_NEAR(fence.y[1], 134, 1e-9);
+  EXPECT_EQ(count(chart_svg(chart), "nan"), 0u);
+  EXPECT_TRUE(section_chart(CheckView{}, ground, bed).series.empty());
 }

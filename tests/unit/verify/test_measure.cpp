@@ -176,7 +176,7 @@ TEST(Measure, GivesErrorBesideTime) {
     EXPECT_EQ(one.dof, 6);
     EXPECT_GE(one.cpu, 0);
   }
-  const std::string svg = chart_svg(work_precision_chart(c.name, outcome.rows, {}));
+  const std::string svg = chart_file(work_precision_chart(c.name, outcome.rows, {}));
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_NE(svg.find("Pareto front"), std::string::npos);
   EXPECT_NE(summary_table({outcome}).find("`" + c.test + "`"), std::string::npos);
