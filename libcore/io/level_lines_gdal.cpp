@@ -5,17 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "io/errors_gdal.hpp"
 #include "io/level_lines.hpp"
+#include "io/raster_bands_gdal.hpp"
 
 namespace talus {
 namespace {
-
-using Dataset = std::unique_ptr<GDALDataset>;
 
 Dataset raster_of(const SampledField& field) {
   Dataset raster(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
