@@ -1,10 +1,10 @@
 # Terrain, blocks and site file -> a look before the runs: will it move, is all in place, how long.
 # in: site.toml, CHECK_FLAGS (e.g. --probe-s 0, --accept-doubts)
-#     DDA_FLAGS    --independent and --settle of them, since they say how the blocks start and meet
+#     DDA_FLAGS    --settle of them, since it says how the blocks start
 # out: $(OUT)/check.html, $(OUT)/check.json
 # What cannot be meant ends make here, before anything is computed; the page says why, and the next
 # make looks again.
-how_runs_start := $(filter --independent --settle,$(DDA_FLAGS))
+how_runs_start := $(filter --settle,$(DDA_FLAGS))
 $(eval $(call remember,check,$(CHECK_FLAGS) $(how_runs_start)))
 check_files := $(addprefix $(OUT)/,$(check_products))
 check: $(check_files) ## a look before the runs: will the mass move, is all in its place, how long

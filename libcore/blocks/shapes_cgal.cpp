@@ -70,6 +70,11 @@ const std::vector<ShapeKind>& shape_kinds() {
          return prism(size.n_sides, size.extents.x(), size.extents.y());
        }},
       {"eota", 3, [](const ShapeSize& size, Random&) { return eota(size.extents); }},
+      {"eota111", 1, [](const ShapeSize& size, Random&) { return eota(size.extents); }},
+      {"eota211", 1,
+       [](const ShapeSize& size, Random&) { return eota(size.extents.x() * Vec3(1, 0.5, 0.5)); }},
+      {"eota221", 1,
+       [](const ShapeSize& size, Random&) { return eota(size.extents.x() * Vec3(1, 1, 0.5)); }},
       {"rock", 3,
        [](const ShapeSize& size, Random& random) {
          return rock(size.extents, size.n_points, random);

@@ -39,7 +39,7 @@ void check_speed(const char* what, double speed, const char* unit, int block) {
   throw InputError({"", 0, "block " + std::to_string(block)},
                    std::string(what) + " with " + text(speed, 4) + " " + unit +
                        ", expected at most " + text(largest),
-                   "see velocity_m_s and spin_rad_s of its section [blocks.*]");
+                   "see velocity_m_s and spin_rad_s of its section [blocks.*] or [rockfall.*]");
 }
 
 void add_block(Scene& scene, const BlockSet& set, int b, const Material& material) {

@@ -2,13 +2,13 @@
 // A section [forest.*] while it is read, and its rasters. Shared by setup/forest_*.cpp.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "base/input_log.hpp"
 #include "scene/forest.hpp"
 #include "scene/stand.hpp"
+#include "setup/value_raster_gdal.hpp"
 #include "site/site.hpp"
 #include "terrain/trn.hpp"
 
@@ -38,18 +38,6 @@ struct ForestSection {
       refuse(std::string("has both ") + key + " and " + other,
              "say it once: leave one of them out");
   }
-};
-
-/// A box in map coordinates.
-struct MapBox {
-  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
-  Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
-
-  void add(const Vec2& point) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  [[nodiscard]] bool is_empty() const { return (low.array() >= high.array()).any(); }
 };
 
 /// A cell and the trees on it.

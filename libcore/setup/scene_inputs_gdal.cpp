@@ -165,12 +165,12 @@ std::string overlap_finding(const Site& site, const DdaInputs& inputs, const Dda
             ? "move the fence of " + site.file + " off the blocks"
             : "blocks may overlap by " + text(too_deep->limit, 3) +
                   " m, a twentieth of their thickness, to be moved apart by --settle; "
-                  "--independent moves each as if it were alone");
+                  "solver.blocks = \"alone\" moves each as if it were alone");
   if (!files.settle)
     throw InputError(
         {files.blocks}, finding,
-        "--settle moves blocks apart that overlap as little as this, --independent moves "
-        "each as if it were alone");
+        "--settle moves blocks apart that overlap as little as this, solver.blocks = \"alone\" "
+        "moves each as if it were alone");
   return finding;
 }
 

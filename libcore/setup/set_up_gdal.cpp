@@ -8,10 +8,8 @@
 
 namespace talus {
 
-ScenePlan plan_of(const Site& site, const SceneParts& parts, bool independent, bool full) {
-  PlanFacts facts = plan_facts(site, parts.blocks, parts.trn, ground_flags(parts.trn));
-  facts.independent = independent;
-  return make_plan(facts, full);
+ScenePlan plan_of(const Site& site, const SceneParts& parts, bool full) {
+  return make_plan(plan_facts(site, parts.blocks, parts.trn, ground_flags(parts.trn)), full);
 }
 
 SetUp plan_scene(const Site& site, const SetUpRequest& request, InputLog& log) {
@@ -20,7 +18,7 @@ SetUp plan_scene(const Site& site, const SetUpRequest& request, InputLog& log) {
   SetUp setup;
   setup.inputs = read_dda_inputs(log, site, request.files);
   setup.inputs.warnings.insert(setup.inputs.warnings.begin(), odd.begin(), odd.end());
-  setup.plan = plan_of(site, setup.inputs.parts, request.independent, request.full_plan);
+  setup.plan = plan_of(site, setup.inputs.parts, request.full_plan);
   return setup;
 }
 

@@ -12,8 +12,7 @@ namespace talus {
 
 struct SetUpRequest {
   DdaFiles files;
-  bool independent = false;  ///< each block moves as if it were alone
-  bool full_plan = false;    ///< compute also what the scene could do without
+  bool full_plan = false;  ///< compute also what the scene could do without
 };
 
 struct SetUp {
@@ -24,8 +23,7 @@ struct SetUp {
 };
 
 /// What the scene of these parts has to compute.
-[[nodiscard]] ScenePlan plan_of(const Site& site, const SceneParts& parts, bool independent,
-                                bool full);
+[[nodiscard]] ScenePlan plan_of(const Site& site, const SceneParts& parts, bool full);
 
 /// Reads the inputs and plans the scene. Throws InputError as check_times() and read_dda_inputs().
 [[nodiscard]] SetUp plan_scene(const Site& site, const SetUpRequest& request, InputLog& log);

@@ -14,7 +14,8 @@ bool names_a_file(const std::string& section, const std::string& key) {
   if (section == "site" || section == "solver" || section == "output") return false;
   if (section == "hazard") return false;  // a recipe may be a name: file_named()
   return keys.count(key) > 0 || (key.size() > 5 && key.ends_with("_file")) ||
-         (section.starts_with("forest.") && key.ends_with("_raster"));
+         ((section.starts_with("forest.") || section.starts_with("rockfall.")) &&
+          key.ends_with("_raster"));
 }
 
 }  // namespace

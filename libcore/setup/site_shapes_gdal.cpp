@@ -121,10 +121,15 @@ SitePlace place_of(const PlaceSettings& place) {
           place.polygon_file,    place.polygon, "polygon"};
 }
 
-SitePlace release_of(const PlacedSettings& blocks) {
-  const bool is_of_lines = !std::isnan(blocks.release_spacing_m);
-  return {"blocks." + blocks.name, is_of_lines ? "release_lines" : "release_points",
-          is_of_lines ? VectorKind::lines : VectorKind::points, blocks.release_file};
+SitePlace release_of(const RockfallSettings& rocks) {
+  const bool is_of_lines = !std::isnan(rocks.release_spacing_m);
+  return {"rockfall." + rocks.name, is_of_lines ? "release_lines" : "release_points",
+          is_of_lines ? VectorKind::lines : VectorKind::points, rocks.release_file};
+}
+
+SitePlace areas_of(const RockfallSettings& rocks) {
+  return {"rockfall." + rocks.name, "release_areas", VectorKind::areas,
+          rocks.polygon_file,       rocks.polygon,   "polygon"};
 }
 
 SitePlace place_of(const Site& site, const ObjectSettings& object) {
@@ -151,7 +156,10 @@ std::vector<RequestedLayer> layers_of(const Site& site) {
     places.push_back(place_of(forest));
     places.push_back(stems_of(forest));
   }
-  for (const PlacedSettings& blocks : site.blocks) places.push_back(release_of(blocks));
+  for (const RockfallSettings& rocks : site.rockfalls) {
+    places.push_back(release_of(rocks));
+    places.push_back(areas_of(rocks));
+  }
   for (const ObjectSettings& object : site.objects) places.push_back(place_of(site, object));
   for (const PlaceSettings& place : site.places) places.push_back(place_of(place));
   std::vector<RequestedLayer> layers;
@@ -169,6 +177,14 @@ std::vector<SiteRaster> rasters_of(const Site& site) {
   };
   add("terrain.ground_raster", site.terrain.ground_raster);
   add("source.raster", site.source.raster);
+  for (const RockfallSettings& rocks : site.rockfalls) {
+    const std::string section = "rockfall." + rocks.name;
+    add(section + ".rockdensity_raster", rocks.rockdensity_raster);
+    add(section + ".d1_raster", rocks.d1_raster);
+    add(section + ".d2_raster", rocks.d2_raster);
+    add(section + ".d3_raster", rocks.d3_raster);
+    add(section + ".blshape_raster", rocks.blshape_raster);
+  }
   for (const ForestSettings& forest : site.forests) {
     if (!forest.active) continue;
     const std::string section = "forest." + forest.name;

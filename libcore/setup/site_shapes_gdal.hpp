@@ -36,7 +36,8 @@ struct SitePlace {
 [[nodiscard]] SitePlace place_of(const ForestSettings& forest);
 [[nodiscard]] SitePlace stems_of(const ForestSettings& forest);
 [[nodiscard]] SitePlace place_of(const PlaceSettings& place);
-[[nodiscard]] SitePlace release_of(const PlacedSettings& blocks);
+[[nodiscard]] SitePlace release_of(const RockfallSettings& rocks);  ///< points or lines
+[[nodiscard]] SitePlace areas_of(const RockfallSettings& rocks);
 /// Throws InputError for an object without a place or with several, lines without a width, points
 /// without a radius.
 [[nodiscard]] SitePlace place_of(const Site& site, const ObjectSettings& object);

@@ -41,9 +41,10 @@ struct BlocksWork {
     const bool is_given =
         std::find(site.sections.begin(), site.sections.end(), "source") != site.sections.end();
     const bool has_area = !site.source.polygon.empty() || !site.source.polygon_file.empty();
+    if (!site.rockfalls.empty()) return false;
     return is_given && (has_area || site.blocks.empty() || !site.joints.empty());
   }
-  /// The source polygon may also only say where bodies are released from.
+  /// Where there are joints, or no bodies from elsewhere.
   [[nodiscard]] bool is_cut() const {
     return has_source() && (site.blocks.empty() || !site.joints.empty());
   }

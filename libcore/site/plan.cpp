@@ -94,6 +94,7 @@ PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
   facts.strain = site.solver.strain;
   facts.passages = site.output.passages;
   facts.law = site.solver.law;
+  facts.independent = moves_alone(site);
   return facts;
 }
 
@@ -111,7 +112,7 @@ PlanItem block_contacts(const PlanFacts& facts, bool full) {
   const bool several = facts.n_blocks > 1 || facts.breaks;
   const PlanItem item{
       "contacts between blocks", several && !facts.independent,
-      "two blocks or more, not --independent",
+      "two blocks or more that do not move alone",
       counted(facts.n_blocks, "block") + (facts.breaks ? " that may break ([fragmentation])" : "")};
   if (facts.independent && facts.n_blocks > 1)
     return {item.item, false, item.rule, item.reason + ", each moves as if it were alone"};

@@ -25,4 +25,9 @@ bool names_layers_file(const Site& site, const std::string& name) {
   return !site.layers_file.empty() && name.substr(0, name.find('|')) == site.layers_file;
 }
 
+bool moves_alone(const Site& site) {
+  const std::string& blocks = site.solver.blocks;
+  return blocks == "alone" || (blocks == "auto" && !site.rockfalls.empty());
+}
+
 }  // namespace talus

@@ -131,6 +131,7 @@ struct GroundSettings {
 /// [solver]
 struct SolverSettings {
   std::string law = "talus";
+  std::string blocks = "auto";  ///< how they move: together, alone; see moves_alone()
   double duration_s = 60;
   double time_step_s = not_given;  ///< not given: time_step() says
   double gravity_m_s2 = 9.80665;
@@ -214,13 +215,12 @@ struct FragmentationSettings {
   std::int64_t seed = 1;
 };
 
-/// [blocks.NAME]: bodies from elsewhere, meshes or shapes, placed once or many times.
-struct PlacedSettings {
+/// Bodies of [blocks.*] and [rockfall.*]: a mesh or a shape, how large, and how they start.
+struct BodySettings {
   std::string name;
   int line = 0;
   std::string file;  ///< OBJ, PLY, OFF or STL; or shape
   bool y_up = false;
-  bool in_place = false;  ///< the mesh has map coordinates
   double scale = 1;
   std::string shape;
   std::vector<double>
@@ -229,18 +229,36 @@ struct PlacedSettings {
   std::int64_t n_sides = 6;      ///< prism
   std::int64_t n_points = 20;    ///< rock
   std::string material;
-  std::vector<Vec3> position_m;  ///< map x, y or x, y, z; several: one body each
-  double height_above_ground_m =
-      not_given;             ///< of the lowest vertex; not given with z: z of the centroid
-  std::string release_file;  ///< points or lines
-  double release_spacing_m = not_given;  ///< along lines, or of the grid in the source polygon
-  bool release_grid = false;
+  std::vector<Vec3> position_m;              ///< map x, y or x, y, z; several: one body each
+  double height_above_ground_m = not_given;  ///< of the lowest vertex; not given with z: z of the
+                                             ///< centroid
+  std::vector<double> velocity_m_s, spin_rad_s;
+  std::int64_t seed = 1;
+};
+
+/// [blocks.NAME]: bodies that stand and move together.
+struct PlacedSettings : BodySettings {
+  bool in_place = false;  ///< the mesh has map coordinates
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
   bool random_orientation = false;
-  std::vector<double> velocity_m_s, spin_rad_s;
-  std::int64_t seed = 1, n_per_point = 1;
-  double frequency_per_a = not_given;     ///< of events at each release point; bodies' weights
-  double frequency_per_m2_a = not_given;  ///< of sloping area of a release grid, instead
+};
+
+/// [rockfall.NAME]: a source of rocks that fall one by one. Each is turned at random.
+struct RockfallSettings : BodySettings {
+  std::string release_file;              ///< points, or lines with release_spacing_m
+  std::vector<Vec3> polygon;             ///< map x, y; or polygon_file
+  std::string polygon_file;              ///< areas that rocks are released all over
+  double release_spacing_m = not_given;  ///< along lines, in areas; of areas not given: a cell
+  double min_slope_deg = 0;              ///< of areas: flatter ground releases none
+  std::string rockdensity_raster;        ///< source cells: density [kg/m3], 0 elsewhere
+  std::string d1_raster, d2_raster, d3_raster, blshape_raster;  ///< extents [m], shapes by cell
+  std::int64_t rocks = 1;                                       ///< at each place
+  std::vector<double> volumes_m3;                               ///< drawn from
+  double volume_max_m3 = not_given;                             ///< power law from volume_m3 to it
+  double volume_exponent = 1;                                   ///< of the number of larger ones
+  double height_scatter_m = 0, velocity_scatter_m_s = 0, spin_scatter_rad_s = 0;
+  double frequency_per_a = not_given;     ///< rocks of the whole source; bodies' weights
+  double frequency_per_m2_a = not_given;  ///< of sloping area, instead
 };
 
 /// [hazard]: what hazard classes are made by.
@@ -258,7 +276,7 @@ struct HazardClassSettings {
   double frequency_per_a = not_given;
   double events = not_given, observed_a = not_given;  ///< so many events in so many years
   double failure_probability = not_given, in_years = not_given;
-  bool by_weights = false;  ///< weights of blocks are frequencies, see PlacedSettings
+  bool by_weights = false;  ///< weights of blocks are frequencies, see RockfallSettings
 };
 
 /// [object.NAME]: what is endangered; it stops nothing.
@@ -367,6 +385,7 @@ struct Site {
   std::vector<FenceSettings> fences;
   std::vector<ForestSettings> forests;
   std::vector<PlacedSettings> blocks;
+  std::vector<RockfallSettings> rockfalls;
   UncertaintySettings uncertainty;
   std::vector<QuantitySettings> quantities;
   std::vector<PlaceSettings> places;
@@ -377,6 +396,9 @@ struct Site {
   std::map<std::string, ValueSource> sources;  ///< "joints.J1.dip_deg" -> where it came from
   std::vector<std::string> sections;           ///< that stand in the file
 };
+
+/// Whether each block moves as if it were alone: [solver] blocks, or rocks of [rockfall.*].
+[[nodiscard]] bool moves_alone(const Site& site);
 
 /// Reads and checks a site file.
 ///

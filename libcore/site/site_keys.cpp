@@ -66,7 +66,7 @@ template <> const std::vector<SiteKey<SourceSettings>>& keys_of() {
       {"daylight", &S::daylight, "lifts the failure surface until nothing stands before the mass: along the dip of a joint set (its name), the line of two (\"one + other\"), or a plunge in degrees down the fall line"},
       {"material", &S::material, "material of the cut blocks"},
       {"seed", &S::seed, "seed of joint positions and orientations", not_negative},
-      {"max_blocks", &S::max_blocks, "more expected blocks than this are refused before cutting, more bodies of a [blocks.*] before placing", {1, 10000000}},
+      {"max_blocks", &S::max_blocks, "more expected blocks than this are refused before cutting, more bodies of a [blocks.*] or [rockfall.*] before placing", {1, 10000000}},
       {"min_block_volume_m3", &S::min_block_volume_m3, "smaller blocks are merged into a neighbour; not given: 1e-2 of the mean joint cell in the mass", not_negative},
       {"min_block_thickness_m", &S::min_block_thickness_m, "thinner blocks are merged into a neighbour; not given: 0.05 of the smallest spacing, or of the cube root of the mass if that is less", not_negative},
       {"min_block_edge_m", &S::min_block_edge_m, "shorter edges of convex blocks are removed, one of their ends stays", not_negative},
@@ -148,6 +148,7 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
   using S = SolverSettings;
   static const std::vector<SiteKey<S>> table = {
       {"law", &S::law, "contact law", any, "talus|paper"},
+      {"blocks", &S::blocks, "how blocks move: together, or each alone among fences and trees that nothing has hit; auto: alone where the site has [rockfall.*]", any, "auto|together|alone"},
       {"duration_s", &S::duration_s, "time simulated", positive},
       {"time_step_s", &S::time_step_s, "time step, which law talus cuts where it must; not given: 0.005, law paper 0.0001", {0, 1, true, false}},
       {"accuracy", &S::accuracy, "law talus: estimated error of a moving block's displacement, as a share of it; a step whose estimate is larger is cut", {0, 1, true, false}},
@@ -159,14 +160,14 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"end_when_standing", &S::end_when_standing, "a run in which no block moved more than 0.1 m or is faster than 2 mm/s after 3 s ends there, and says so"},
       {"max_passes", &S::max_passes, "passes of the contact iteration of a lone block in one step, law talus", {1, 10000}},
       {"seed", &S::seed, "seed of the run", not_negative},
-      {"n_runs", &S::n_runs, "runs with seeds counted up", {1, 1000000}},
+      {"n_runs", &S::n_runs, "runs with seeds counted up. Of [rockfall.*] 10 when not given", {1, 1000000}},
       {"start_jitter_m_s", &S::start_jitter_m_s, "random velocity at the start", {0, 1000}},
       {"friction_scatter_deg", &S::friction_scatter_deg, "standard deviation of the ground's friction between runs", {0, 45}},
       {"cor_scatter", &S::cor_scatter, "standard deviation of the ground's restitution between runs", share},
       {"rolling_scatter", &S::rolling_scatter, "standard deviation of the logarithm of the ground's rolling resistance between runs", {0, 2}},
       {"max_penetration_m", &S::max_penetration_m, "deeper makes the run fail", positive},
       {"max_energy_gain", &S::max_energy_gain, "share of the fall energy; more makes the run fail", not_negative},
-      {"max_lost_share", &S::max_lost_share, "share of the mass that may leave the terrain; more makes the run fail", share},
+      {"max_lost_share", &S::max_lost_share, "share of the mass that may leave the terrain; more makes the run fail. Of [rockfall.*] 1 when not given", share},
       {"max_unconverged_share", &S::max_unconverged_share, "share of the steps that may be accepted unconverged", share}};
   return table;
 }
@@ -246,34 +247,62 @@ template <> const std::vector<SiteKey<FragmentationSettings>>& keys_of() {
       {"seed", &S::seed, "seed of planes and of what breaks", not_negative}};
   return table;
 }
-template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
-  using S = PlacedSettings;
-  static const std::vector<SiteKey<S>> table = {
+template <class S>
+std::vector<SiteKey<S>> body_keys() {
+  return {
       {"file", &S::file, "mesh file: OBJ, PLY, OFF or STL, one or many closed bodies"},
-      {"y_up", &S::y_up, "the mesh has y upwards: (x, y, z) becomes (x, -z, y)"},
-      {"in_place", &S::in_place, "the mesh has map coordinates and is not moved"},
-      {"scale", &S::scale, "factor on the mesh", positive},
-      {"shape", &S::shape, "shape instead of a mesh", any, "box|prism|eota|rock"},
-      {"size_m", &S::size_m, "box, rock, eota: extents x, y, z; prism: diameter, length along y", positive, "", "", 1, 3},
+      {"shape", &S::shape, "shape instead of a mesh; eota111, 211 and 221 have their proportions", any, "box|prism|eota|eota111|eota211|eota221|rock"},
+      {"size_m", &S::size_m, "box, rock, eota: extents x, y, z; eota111, 211, 221: the longest; prism: diameter, length along y; one number: of all", positive, "", "", 1, 3},
       {"volume_m3", &S::volume_m3, "volume that the body is scaled to", positive},
-      {"n_sides", &S::n_sides, "sides of a prism", {3, 64}},
       {"n_points", &S::n_points, "points of a rock", {4, 500}},
       {"material", &S::material, "material of the bodies"},
       {"position_m", &S::position_m, "map x, y or x, y, z of each body", any, "", "", 1},
       {"height_above_ground_m", &S::height_above_ground_m, "height of the lowest vertex above the ground below it", {0, 100000}},
-      {"release_file", &S::release_file, "vector file of release points or lines"},
-      {"release_spacing_m", &S::release_spacing_m, "spacing along release lines or of the release grid", positive},
-      {"release_grid", &S::release_grid, "release all over the source polygon, evenly by sloping area"},
+      {"velocity_m_s", &S::velocity_m_s, "initial velocity x, y, z", any, "", "", 3, 3},
+      {"spin_rad_s", &S::spin_rad_s, "initial angular velocity x, y, z", any, "", "", 3, 3},
+      {"seed", &S::seed, "seed of what is drawn: shapes, sizes, orientations", not_negative}};
+}
+template <class S>
+std::vector<SiteKey<S>> with_body_keys(std::vector<SiteKey<S>> own) {
+  std::vector<SiteKey<S>> table = body_keys<S>();
+  table.insert(table.end(), own.begin(), own.end());
+  return table;
+}
+template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
+  using S = PlacedSettings;
+  static const std::vector<SiteKey<S>> table = with_body_keys<S>({
+      {"y_up", &S::y_up, "the mesh has y upwards: (x, y, z) becomes (x, -z, y)"},
+      {"scale", &S::scale, "factor on the mesh", positive},
+      {"n_sides", &S::n_sides, "sides of a prism", {3, 64}},
+      {"in_place", &S::in_place, "the mesh has map coordinates and is not moved"},
       {"yaw_deg", &S::yaw_deg, "rotation about z, applied last", {-360, 360}},
       {"pitch_deg", &S::pitch_deg, "rotation about y", {-360, 360}},
       {"roll_deg", &S::roll_deg, "rotation about x, applied first", {-360, 360}},
-      {"random_orientation", &S::random_orientation, "each body is turned at random, uniformly over all rotations"},
-      {"velocity_m_s", &S::velocity_m_s, "initial velocity x, y, z", any, "", "", 3, 3},
-      {"spin_rad_s", &S::spin_rad_s, "initial angular velocity x, y, z", any, "", "", 3, 3},
-      {"seed", &S::seed, "seed of shapes and orientations", not_negative},
-      {"n_per_point", &S::n_per_point, "bodies at each release point", {1, 100000}},
-      {"frequency_per_a", &S::frequency_per_a, "events a year at each release point, shared by its bodies as their weights", positive},
-      {"frequency_per_m2_a", &S::frequency_per_m2_a, "events a year and m2 of the release grid's sloping area, as the weights of its bodies", positive}};
+      {"random_orientation", &S::random_orientation, "each body is turned at random, uniformly over all rotations"}});
+  return table;
+}
+template <> const std::vector<SiteKey<RockfallSettings>>& keys_of() {
+  using S = RockfallSettings;
+  static const std::vector<SiteKey<S>> table = with_body_keys<S>({
+      {"rocks", &S::rocks, "rocks that each place releases in a run; another run draws others", {1, 100000}},
+      {"release_file", &S::release_file, "vector file of release points, or of lines with release_spacing_m"},
+      {"polygon", &S::polygon, "corners of an area that rocks are released all over, map x, y", any, "", "", 3},
+      {"polygon_file", &S::polygon_file, "vector file with such areas: polygons, or closed lines"},
+      {"release_spacing_m", &S::release_spacing_m, "spacing along release lines; in areas over the sloping ground, a cell of the TRN when not given", positive},
+      {"min_slope_deg", &S::min_slope_deg, "ground of the areas that is flatter releases no rocks", angle_below_90},
+      {"rockdensity_raster", &S::rockdensity_raster, "raster of source cells as of Rockyfor3D: density of the rock [kg/m3], 0 elsewhere"},
+      {"d1_raster", &S::d1_raster, "raster of extents of the rocks [m], with d2_raster and d3_raster"},
+      {"d2_raster", &S::d2_raster, "see d1_raster"},
+      {"d3_raster", &S::d3_raster, "see d1_raster"},
+      {"blshape_raster", &S::blshape_raster, "raster of shapes as of Rockyfor3D: 1 box, 2 ellipsoid, 3 sphere, 4 disc"},
+      {"volumes_m3", &S::volumes_m3, "volumes that each rock's is drawn from, all alike", positive, "", "", 1},
+      {"volume_max_m3", &S::volume_max_m3, "volumes are drawn from volume_m3 to this, by a power law", positive},
+      {"volume_exponent", &S::volume_exponent, "exponent of the power law: the number of larger rocks goes with volume^-exponent", {0, 5}},
+      {"height_scatter_m", &S::height_scatter_m, "rocks start evenly up to so much higher", {0, 1000}},
+      {"velocity_scatter_m_s", &S::velocity_scatter_m_s, "standard deviation of each part of the initial velocity", {0, 100}},
+      {"spin_scatter_rad_s", &S::spin_scatter_rad_s, "standard deviation of each part of the initial angular velocity", {0, 100}},
+      {"frequency_per_a", &S::frequency_per_a, "rocks a year of the whole source, shared by its bodies as their weights", positive},
+      {"frequency_per_m2_a", &S::frequency_per_m2_a, "rocks a year and m2 of the sloping ground of areas, instead", positive}});
   return table;
 }
 template <> const std::vector<SiteKey<ObjectSettings>>& keys_of() {
@@ -322,12 +351,12 @@ template <> const std::vector<SiteKey<HazardSettings>>& keys_of() {
 template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of() {
   using S = HazardClassSettings;
   static const std::vector<SiteKey<S>> table = {
-      {"frequency_per_a", &S::frequency_per_a, "events a year; of rocks that move alone (--independent) the rocks that the whole class releases in a year", positive},
+      {"frequency_per_a", &S::frequency_per_a, "events a year; of rocks that move alone the rocks that the whole class releases in a year", positive},
       {"events", &S::events, "events that were counted, instead", not_negative},
       {"observed_a", &S::observed_a, "years in which they were counted", positive},
       {"failure_probability", &S::failure_probability, "that the mass fails, mode localized", {0, 1, true, false}},
       {"in_years", &S::in_years, "within so many years", positive},
-      {"by_weights", &S::by_weights, "weights of blocks are their frequencies, of [blocks.*] frequency_per_a or frequency_per_m2_a"}};
+      {"by_weights", &S::by_weights, "weights of blocks are their frequencies, of [rockfall.*] frequency_per_a or frequency_per_m2_a"}};
   return table;
 }
 template <> const std::vector<SiteKey<UncertaintySettings>>& keys_of() {
@@ -337,7 +366,7 @@ template <> const std::vector<SiteKey<UncertaintySettings>>& keys_of() {
       {"seed", &S::seed, "seed of the draws", not_negative},
       {"n_samples", &S::n_samples, "samples of a hypercube, which has no others", {0, 1e7}},
       {"sample", &S::sample, "which sample this run is, from 1; 0: nothing is drawn. The pipeline gives each run that of its seed", {0, 4e9}},
-      {"rock_masses", &S::rock_masses, "sets of blocks that are cut, each with its own joints; runs take them in turn. 0: one, by what this file says", {0, 1000000}},
+      {"rock_masses", &S::rock_masses, "sets of blocks that are cut, each with its own joints; runs take them in turn. 0: one, by what this file says. Of [rockfall.*] when not given: each run its own", {0, 1000000}},
       {"terrain_rmse_m", &S::terrain_rmse_m, "error of the terrain's elevations, root of the mean square: each rock mass gets a ground of its own. 0: none", {0, 1000}},
       {"terrain_correlation_m", &S::terrain_correlation_m, "distance over which errors of the terrain are alike; 10 cells when not given", positive},
       {"max_failed_share", &S::max_failed_share, "up to this share of the runs may fail: they are left out, and widen the intervals", share}};

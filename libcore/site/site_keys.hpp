@@ -59,6 +59,7 @@ template <> const std::vector<SiteKey<OutputSettings>>& keys_of();
 template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of();
 template <> const std::vector<SiteKey<FragmentationSettings>>& keys_of();
 template <> const std::vector<SiteKey<PlacedSettings>>& keys_of();
+template <> const std::vector<SiteKey<RockfallSettings>>& keys_of();
 template <> const std::vector<SiteKey<UncertaintySettings>>& keys_of();
 template <> const std::vector<SiteKey<QuantitySettings>>& keys_of();
 template <> const std::vector<SiteKey<PlaceSettings>>& keys_of();
@@ -80,6 +81,7 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("material", site.materials);
   visit("ground", site.grounds);
   visit("blocks", site.blocks);
+  visit("rockfall", site.rockfalls);
   visit("solver", site.solver);
   visit("fence", site.fences);
   visit("forest", site.forests);

@@ -390,6 +390,15 @@ void fill_defaults(Site& site) {
     site.grounds.emplace_back();
     site.grounds.back().name = "ground";
   }
+  if (site.rockfalls.empty()) return;
+  // Each run draws rocks of its own, so that several give intervals; a rock that leaves the terrain
+  // is counted.
+  const auto unless_given = [&site](const char* key, auto& value, auto otherwise) {
+    if (site.sources.count(key) == 0) value = otherwise;
+  };
+  unless_given("uncertainty.rock_masses", site.uncertainty.rock_masses, 1000000);
+  unless_given("solver.n_runs", site.solver.n_runs, 10);
+  unless_given("solver.max_lost_share", site.solver.max_lost_share, 1.0);
 }
 
 // Names that other sections refer to.
@@ -413,6 +422,21 @@ void check_names(const Site& site) {
   if (stands("source")) check_material(site, site.source.material, "source.material");
   for (const auto& body : site.blocks)
     check_material(site, body.material, "blocks." + body.name + ".material");
+  for (const auto& body : site.rockfalls)
+    check_material(site, body.material, "rockfall." + body.name + ".material");
+  if (site.rockfalls.empty()) return;
+  const RockfallSettings& first = site.rockfalls.front();
+  const Where where{site.file, first.line, "rockfall." + first.name};
+  if (!moves_alone(site))
+    throw InputError(where, "rocks of [rockfall.*] fall one by one, and solver.blocks is together",
+                     "bodies that stand together are [blocks.*]");
+  const bool is_cut = !site.source.polygon.empty() || !site.source.polygon_file.empty();
+  if (is_cut || !site.blocks.empty())
+    throw InputError(where,
+                     std::string("rocks fall one by one, and ") +
+                         (is_cut ? "[source] is cut into blocks" : "[blocks.*] are bodies") +
+                         " that move together",
+                     "make two sites of it");
 }
 
 // --- command line ------------------------------------------------------------------------------

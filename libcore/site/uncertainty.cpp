@@ -470,7 +470,7 @@ bool is_rock_key(const std::string& path) {
   const std::string group = group_of(path), key = last_word(path);
   if (group == "joints")
     return key != "friction_deg" && key != "cohesion_pa" && key != "tension_pa";
-  return group == "source" || group == "blocks";
+  return group == "source" || group == "blocks" || group == "rockfall";
 }
 
 bool is_rock(const QuantitySettings& quantity) {
@@ -568,6 +568,10 @@ void apply_draws(Site& site, DrawScope scope) {
   for (PlacedSettings& body : site.blocks) {
     body.seed += mass - 1;
     site.sources["blocks." + body.name + ".seed"] = source;
+  }
+  for (RockfallSettings& rocks : site.rockfalls) {
+    rocks.seed += mass - 1;
+    site.sources["rockfall." + rocks.name + ".seed"] = source;
   }
 }
 

@@ -39,7 +39,7 @@ def run(site, trn, blocks, out, *options, progress=None, **keys):
     """Makes one run, and returns it (open_run).
 
     `site`: a Site, or the path of its file. `trn`, `blocks`: files of talus-trn and talus-blocks. `options`: words
-    of talus-dda, e.g. "--independent", "--overwrite". `progress`: called with the share that is done, twice a
+    of talus-dda, e.g. "--settle", "--overwrite". `progress`: called with the share that is done, twice a
     second; what it raises ends the run. `keys` override the site file: ground__scree__friction_deg=32.
 
     Warnings of the tool are UserWarnings. Raises ValueError with its message for inputs that cannot be used. A run

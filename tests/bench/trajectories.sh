@@ -8,18 +8,15 @@ cat >site.toml <<END
 [site]
 name = "gschnitz_gar"
 crs = "EPSG:31287"
-[source]
-polygon_file = "$data/scenarios/gschnitz_gar.gpkg|layername=release"
 [ground.slope]
 friction_deg = 32
 cor = 0.35
-[blocks.rock]
+[rockfall.rock]
+polygon_file = "$data/scenarios/gschnitz_gar.gpkg|layername=release"
 shape = "rock"
 size_m = [1.2, 1.0, 0.8]
-release_grid = true
 release_spacing_m = 5
 height_above_ground_m = 0.5
-random_orientation = true
 [solver]
 duration_s = 120
 max_lost_share = 1
@@ -34,7 +31,7 @@ run() {
   shift
   for _ in 1 2 3; do
     "$bin/talus-dda" site.toml --trn trn.tif --blocks blocks.h5 -o run.h5 --overwrite --no-db -q \
-      --independent --json "$@" 2>/dev/null |
+      --json "$@" 2>/dev/null |
       awk -v name="$name" -F '[:,]' '
         /"n_blocks"/ { n = $2 } /"cpu_time_s"/ { cpu = $2 } /"block_steps"/ { steps = $2 }
         /"left_domain"/ { left = $2 } /"impacts"/ { impacts = $2 } /"n_passages"/ { passages = $2 }

@@ -517,7 +517,7 @@ def stated_limits(bench):
     many = bench.work / "many"
     trn, run = ["--trn", str(made / "bed.tif")], str(many / "runs/run_1.h5")
     jobs = [Job("talus-dda", [toml, *trn, "--blocks", str(made / "blocks.h5"), "-o", "run.h5",
-                              "--independent", "--set", f"output.frame_interval_s={FRAME_INTERVAL_S}", "--set",
+                              "--set", "solver.blocks=alone", "--set", f"output.frame_interval_s={FRAME_INTERVAL_S}", "--set",
                               f"solver.duration_s={(MANY_FRAMES - 1) * FRAME_INTERVAL_S}"]),
             Job("talus-runout", [run, *trn, "-o", "runout.gpkg", "--json", "runout.json"]),
             Job("talus-fence", [toml, run, *trn, "-o", "fence.gpkg", "--json", "fence.json"]),

@@ -64,7 +64,7 @@ def write_site(site, folder, rocks):
     with open(f'{root}/sample_sites/{site}/site.toml', encoding='utf-8') as file:
         for line in file:
             if line.startswith('['):
-                kept = not re.match(r'\[(joints|fence)', line)
+                kept = not re.match(r'\[(joints|fence|source)', line)
             if kept and not re.match(r'failure_surface|depth_m', line):
                 text += line.replace('../../../shared', shared)
             if line.startswith('[ground.slope]'):
@@ -73,13 +73,12 @@ def write_site(site, folder, rocks):
     track = across(scenario)
     spacing = math.sqrt(area_of(scenario['release']['polygon']) / rocks)
     text += f'''
-[blocks.rock]
+[rockfall.rock]
 shape = "rock"
 size_m = [1.2, 1.0, 0.8]
-release_grid = true
+polygon_file = "{shared}/data/scenarios/{site}.gpkg|layername=release"
 release_spacing_m = {spacing:.2f}
 height_above_ground_m = 0.5
-random_orientation = true
 
 [object.track]
 line = {track}
@@ -123,7 +122,7 @@ def run(folder, tools, name, seed, *more):
     os.makedirs(f'{folder}/{name}', exist_ok=True)
     if not os.path.exists(f'{folder}/{out}') and not os.path.exists(f'{folder}/{out}.endless'):
         command(folder, 'runs.log', 'sh', '-c', 'ulimit -t 5; "$@"', 'sh', f'{tools}talus-dda', 'site.toml', '--trn',
-                'out/bed.tif', '--blocks', 'out/blocks.h5', '--seed', str(seed), '--independent', '--no-db', '-o', out,
+                'out/bed.tif', '--blocks', 'out/blocks.h5', '--seed', str(seed), '--no-db', '-o', out,
                 *more, allowed=(0, 3, 137, 152, -9, -24))
         if not os.path.exists(f'{folder}/{out}'):
             open(f'{folder}/{out}.endless', 'w', encoding='utf-8').close()

@@ -34,7 +34,7 @@ for site in salisbury_crags gschnitz_gar lechtal_kotcliff lechtal_kotdam; do
       if [ $kind = rocks ] || [ $kind = slabs ] || [ $kind = rods ]; then
         cd "$rocks/$site"
         "${bin}talus-blocks" site.toml --set "blocks.rock.seed=$s" $extra --trn out/trn.tif -o "$work/blocks.h5" --overwrite --no-db -q
-        run --seed 1 --trn out/bed.tif --blocks "$work/blocks.h5" --independent
+        run --seed 1 --trn out/bed.tif --blocks "$work/blocks.h5" --set solver.blocks=alone
       else
         cd "$root/sample_sites/$site"
         run --seed "$s" --trn "$sites/$site/bed.tif" --blocks "$sites/$site/blocks.h5" --set solver.friction_scatter_deg=2 $extra

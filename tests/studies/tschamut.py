@@ -54,12 +54,12 @@ def site_text(releases, sizes, n, points):
             '[ground.meadow]\n[solver]\nduration_s = 60\nmax_lost_share = 1\n')
     for r in releases:
         size = sizes[r["block_id"]]
-        text += (f'[blocks.{r["trajectory_id"]}]\nshape = "rock"\nn_points = {points}\n'
+        text += (f'[rockfall.{r["trajectory_id"]}]\nshape = "rock"\nn_points = {points}\n'
                  f'size_m = [{size["size_x_m"]}, {size["size_y_m"]}, {size["size_z_m"]}]\n'
                  f'volume_m3 = {float(r["mass_kg"]) / DENSITY_KG_M3:.6f}\n'
                  f'position_m = [[{r["x_m"]}, {r["y_m"]}, {r["z_m"]}]]\n'
                  f'velocity_m_s = [{r["vx_mps"]}, {r["vy_mps"]}, {r["vz_mps"]}]\n'
-                 f'random_orientation = true\nn_per_point = {n}\nseed = {int(r["trajectory_id"][1:])}\n')
+                 f'rocks = {n}\nseed = {int(r["trajectory_id"][1:])}\n')
     return text
 
 
@@ -137,7 +137,7 @@ class Slope:
         kept = "__".join([name, *([] if trn == "trn" else [trn]), *said]) + ".csv"
         if not (self.reuse and (self.folder / kept).exists()):
             self.run("talus-dda", f"{name}.toml", "--trn", f"{trn}.tif", "--blocks", f"{name}.h5", "-o", "run.h5",
-                     "--independent", "--settle", "--set", "output.frame_interval_s=1", "--set", "output.passages=false", *words)
+                     "--settle", "--set", "output.frame_interval_s=1", "--set", "output.passages=false", *words)
             self.run("talus-runout", "run.h5", "--trn", f"{trn}.tif", "-o", "run.gpkg", "--tables", ".")
             (self.folder / "runout.csv").replace(self.folder / kept)
         rows = rows_of(self.folder / kept)

@@ -14,7 +14,7 @@
 // panel pushed 100 m (held) or in a broken one (broken), or nothing touches or crosses (pile).
 // objects: a house in the way of box 0, a hut in that of box 2, a shed that nothing reaches;
 // watched by the runs, or drawn in the site file alone. weight: of each box, events a year.
-// independent: as with talus-dda --independent. moving: at the end, all of them. still: the first N
+// independent: as with solver.blocks = "alone". moving: at the end, all of them. still: the first N
 // boxes, still_runs: all boxes of the first N runs stay where they are. passages=no: the run did
 // not record any. name: of the site file, site: of the runs.
 #include <algorithm>

@@ -59,8 +59,7 @@ void declare(Tool& tool, BatchOptions& o) {
               "of this tool");
   tool.flag("--status", o.status, "say what is to be made, and make nothing");
   tool.app().add_option("dda_options", o.dda_options, "behind --: further options of talus-dda");
-  tool.footer(
-      "Example:\n  talus-batch site.toml --results out --runs 50 --jobs 4 -- --independent");
+  tool.footer("Example:\n  talus-batch site.toml --results out --runs 50 --jobs 4 -- --settle");
 }
 
 std::string name_of(const EnsembleMember& member) {

@@ -17,6 +17,7 @@
 #include "tools/blocks/json.hpp"
 #include "tools/blocks/outputs.hpp"
 #include "tools/blocks/placed.hpp"
+#include "tools/blocks/rockfall.hpp"
 #include "tools/blocks/sizes.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/options.hpp"
@@ -131,16 +132,16 @@ int main(int argc, char** argv) {
     work.blocks.crs_wkt = work.ground.crs_wkt;
     for (const MaterialSettings& material : work.site.materials)
       work.blocks.material_names.push_back(material.name);
-    if (!work.has_source() && work.site.blocks.empty())
-      throw InputError({work.site.file}, "there is neither [source] nor [blocks.*]",
-                       "say what moves: a source to be cut, or blocks");
+    if (!work.has_source() && work.site.blocks.empty() && work.site.rockfalls.empty())
+      throw InputError({work.site.file}, "there is no [source], [blocks.*] or [rockfall.*]",
+                       "say what moves: a source to be cut, blocks, or rocks one by one");
     if (work.has_source()) work.area = read_source_area(tool, work);
     if (work.is_cut()) {
       cut_source(tool, o.exact, work);
       tool.check("volume_error", volume_error(work), 1e-9, volume_error(work) <= 1e-9);
     }
-    add_placed_blocks({tool, work.site, work.ground, work.has_source() ? &work.area : nullptr},
-                      work.blocks);
+    add_placed_blocks(tool, work.site, work.ground, work.blocks);
+    add_rocks(tool, work.site, work.ground, work.blocks);
     work.blocks.content_hash = hash_of(o, work);
     work.blocks.ground_digests = {trn_digest(work.is_cut() ? work.mass.bed : work.ground),
                                   terrain_digest};

@@ -374,7 +374,7 @@ bool can_be_probed(const Look& look) { return look.work.site.solver.law == "talu
 void probe_look(Tool& tool, double duration, Look& look) {
   Site site = look.work.site;
   site.solver.time_step_s = probe_step_s;
-  const ScenePlan plan = plan_of(site, look.inputs.parts, look.files.independent, false);
+  const ScenePlan plan = plan_of(site, look.inputs.parts, false);
   check_start(tool, site, look.inputs, {look.files.bed, look.files.blocks, look.files.settle},
               plan.block_contacts);
   const Scene scene = make_site_scene(site, plan, look.inputs.parts);

@@ -20,7 +20,7 @@ namespace talus {
 
 struct CheckFiles {
   std::string trn, bed, blocks;
-  bool independent = false, settle = false;  ///< as the runs will be
+  bool settle = false;  ///< as the runs will be
 };
 
 /// The volume of the mass in three ways [m3].

@@ -45,7 +45,6 @@ void declare(Tool& tool, Options& o) {
   tool.option("--runs", o.n_runs,
               "runs that are to be computed, for their time; 0: [solver] n_runs")
       ->check(CLI::Range(0, 1000000));
-  tool.flag("--independent", o.files.independent, "the runs move each block as if it were alone");
   tool.flag("--settle", o.files.settle,
             "the runs lift blocks onto the ground and move small overlaps apart");
   tool.inputs("--reports", o.reports,

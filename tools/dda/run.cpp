@@ -54,7 +54,7 @@ RunFile new_file(Tool& tool, const Site& site, const SetUp& setup, const DdaOpti
   info.seed = site.solver.seed;
   info.seed_draws = seed_draws(site);
   info.case_name = o.case_name;
-  info.independent = o.request.independent;
+  info.independent = moves_alone(site);
   info.weights_are_frequencies = !setup.blocks.weight.empty();
   info.config = print_config(site);
   info.made_with = tool.made_with({"trn", "blocks"});  // which have digests of their own

@@ -23,8 +23,6 @@ void declare(Tool& tool, SiteOptions& site, DdaOptions& o) {
                       "print what the scene needs and what is left out, then end; --plan=full "
                       "computes everything");
   tool.flag("--resume", o.resume, "go on from the checkpoint of a run that was stopped, if any");
-  tool.flag("--independent", o.request.independent,
-            "move each block as if it were alone: rocks that fall one by one");
   tool.flag(
       "--settle", o.request.files.settle,
       "lift blocks that start below the ground onto it with what lies on them, and move blocks "

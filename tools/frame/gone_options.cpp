@@ -54,6 +54,8 @@ constexpr GoneOption gone_options[] = {
     {"talus-fence", "--seed", "nothing: the bootstrap has one seed"},
     {"talus-blocks", "--obj", "talus-export BLOCKS.h5 -o BLOCKS.obj once the blocks are there"},
     {"talus-dda", "--xdmf", "talus-export RUN.h5 -o RUN.xmf once the run is there"},
+    {"talus-dda", "--independent", "--set solver.blocks=alone, or the rocks as [rockfall.*]"},
+    {"talus-check", "--independent", "--set solver.blocks=alone, or the rocks as [rockfall.*]"},
     {"talus-dda", "--law", "--set solver.law=VALUE"},
     {"talus-dda", "--duration-s", "--set solver.duration_s=VALUE"},
     {"talus-dda", "--time-step-s", "--set solver.time_step_s=VALUE"},

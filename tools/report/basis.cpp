@@ -49,7 +49,7 @@ std::string failure_plane(const ReportData& data) {
 }
 
 // What the bodies of a section look like.
-std::string shape_of(const Texts& texts, const PlacedSettings& placed) {
+std::string shape_of(const Texts& texts, const BodySettings& placed) {
   if (placed.shape.empty()) return texts.of("assumed.meshes", {{"file", xml_escaped(placed.file)}});
   std::string size;
   for (const double edge : placed.size_m) size += (size.empty() ? ", " : " x ") + text(edge, 3);
@@ -90,9 +90,12 @@ std::string sureness(const ReportData& data) {
                                                        {"soil", xml_escaped(soil->name)},
                                                        {"mark", soil->mark},
                                                        {"source", xml_escaped(soil->source)}}));
-  for (const PlacedSettings& placed : data.site.blocks)
-    add("assumed.shape", texts.of("assumed.shape_of", {{"blocks", xml_escaped(placed.name)},
-                                                       {"shape", shape_of(texts, placed)}}));
+  const auto say_shape = [&](const BodySettings& body) {
+    add("assumed.shape", texts.of("assumed.shape_of", {{"blocks", xml_escaped(body.name)},
+                                                       {"shape", shape_of(texts, body)}}));
+  };
+  for (const PlacedSettings& placed : data.site.blocks) say_shape(placed);
+  for (const RockfallSettings& rocks : data.site.rockfalls) say_shape(rocks);
   if (const Json flat = value_at(data.tin, {"flat", "share_before"}); flat.is_number())
     add("assumed.contours",
         texts.of("assumed.flat",

@@ -145,7 +145,7 @@ VectorStyle style_of(const SiteLayer& layer) {
       {"fences", {0, 90, 181, 255}},          {"object_lines", {84, 39, 136, 255}},
       {"objects", {84, 39, 136, 110}},        {"places", {64, 64, 64, 40}},
       {"source", {178, 24, 43, 70}},          {"forest", {27, 120, 55, 60}},
-      {"grounds", {140, 81, 10, 50}}};
+      {"grounds", {140, 81, 10, 50}},         {"release_areas", {178, 24, 43, 70}}};
   const SymbolKind kind = layer.shape == SiteLayer::points  ? SymbolKind::point
                           : layer.shape == SiteLayer::lines ? SymbolKind::line
                                                             : SymbolKind::polygon;

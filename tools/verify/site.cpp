@@ -78,7 +78,7 @@ EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Ca
   changed.solver.normal_stiffness_n_m = c.normal_stiffness;
   changed.solver.strain = c.strains ? "on" : "off";
   if (changed.solver.start_jitter_m_s == 0) changed.solver.start_jitter_m_s = 1e-3;
-  const ScenePlan plan = plan_of(changed, inputs.parts, false, false);
+  const ScenePlan plan = plan_of(changed, inputs.parts, false);
   const auto scene = [&](std::uint64_t seed) {
     changed.solver.seed = static_cast<std::int64_t>(seed);
     return make_site_scene(changed, plan, inputs.parts);
@@ -128,10 +128,9 @@ std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string&
   Site site = read_site(o.site);
   read_site_layers(tool, site);
   DdaInputs inputs = read_dda_inputs(tool, site, o.files);
-  check_start(tool, site, inputs, o.files,
-              plan_of(site, inputs.parts, false, false).block_contacts);
+  check_start(tool, site, inputs, o.files, plan_of(site, inputs.parts, false).block_contacts);
   const std::vector<Candidate> list =
-      candidates(plan_of(site, inputs.parts, false, false).strains, o.with_paper);
+      candidates(plan_of(site, inputs.parts, false).strains, o.with_paper);
   std::vector<EnsembleResult> results;
   const ProgressFunction progress = tool.progress();
   for (const Candidate& c : list) {

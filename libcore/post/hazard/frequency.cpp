@@ -86,8 +86,8 @@ HazardClass class_of(const Site& site, const HazardClassSettings& s) {
   return out;
 }
 
-// The key of [blocks.*] that says how often; null where none does.
-const char* frequency_key(const PlacedSettings& section) {
+// The key of [rockfall.*] that says how often; null where none does.
+const char* frequency_key(const RockfallSettings& section) {
   if (is_given(section.frequency_per_a)) return "frequency_per_a";
   return is_given(section.frequency_per_m2_a) ? "frequency_per_m2_a" : nullptr;
 }
@@ -96,11 +96,11 @@ const char* frequency_key(const PlacedSettings& section) {
 void check_sources(const Site& site, const std::vector<HazardClass>& classes) {
   for (const HazardClass& kind : classes)
     if (kind.kind == FrequencyKind::of_weights) return;
-  for (const PlacedSettings& section : site.blocks) {
+  for (const RockfallSettings& section : site.rockfalls) {
     const char* const key = frequency_key(section);
     if (!key || classes.empty()) continue;
     throw InputError(where_of_class(site, site.hazard_classes[0]),
-                     "has a frequency, and [blocks." + section.name + "] has " + key +
+                     "has a frequency, and [rockfall." + section.name + "] has " + key +
                          ": both say how often rocks come",
                      two_frequencies_hint);
   }

@@ -56,11 +56,10 @@ struct HazardClass {
   return all;
 }
 
-/// What to do where a class and its release points both have a frequency.
+/// What to do where a class and its sources both have a frequency.
 inline constexpr const char* two_frequencies_hint =
-    "by_weights = true in the class counts each release point by its own frequency; or take the "
-    "frequency out of [blocks.*]: that of the class is then of all its points together (28 points "
-    "of 0.01 a year are 0.28)";
+    "by_weights = true in the class counts each source by its own frequency; or take the frequency "
+    "out of [rockfall.*]: that of the class is then of all its sources together";
 
 /// "V1: 0.0233 a year (90 % within 0.0072 - 0.0471)", "V1: 0.28 rocks a year"
 [[nodiscard]] std::string words_of(const HazardClass& kind);

@@ -61,7 +61,7 @@ void check_run(const HazardClass& kind, const RunMember& run, const RunMember& f
     throw InputError({where_of(run), 0, item},
                      std::string("the run moved ") + words(run) + ", " + where_of(first) +
                          " moved " + words(first),
-                     "run all of a class with talus-dda --independent, or none");
+                     "run all of a class with solver.blocks = \"alone\", or none");
   if (has_frequency(kind) && run.info.weights_are_frequencies)
     throw InputError({where_of(run), 0, item},
                      "the blocks of the run have frequencies, and the class has one too: both say "
@@ -71,7 +71,7 @@ void check_run(const HazardClass& kind, const RunMember& run, const RunMember& f
     throw InputError({where_of(run), 0, item},
                      "the class is by_weights, and the weights of the run's blocks are no "
                      "frequencies",
-                     "give frequency_per_a or frequency_per_m2_a to [blocks.*] and run "
+                     "give frequency_per_a or frequency_per_m2_a to [rockfall.*] and run "
                      "talus-blocks and talus-dda again, or give the class a frequency");
 }
 

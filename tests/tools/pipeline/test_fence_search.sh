@@ -4,8 +4,8 @@ command -v talus-fence-search >/dev/null || skip "needs the tools of this checko
 mkdir s
 (cd s && . "$source_dir/tests/tools/talus-fence-search/common.sh" && make_search >/dev/null && rm -f slope.tif blocks.h5)
 sed -i -e 's/^name = .*/name = "slope"\ncrs = "EPSG:32632"\n[terrain]\ndem = "plane.asc"\ncell_size_m = 5/' \
-  -e 's/^duration_s = .*/duration_s = 11\nn_runs = 10/' -e 's/^spin_rad_s.*//' s/site.toml
-printf '%s\n' 'TRN_FLAGS = --crs EPSG:32632' 'SEARCH_FLAGS = --n-proposals 1' 'DDA_FLAGS = --independent' \
+  -e 's/^duration_s = .*/duration_s = 11\nn_runs = 10\nblocks = "alone"/' -e 's/^spin_rad_s.*//' s/site.toml
+printf '%s\n' 'TRN_FLAGS = --crs EPSG:32632' 'SEARCH_FLAGS = --n-proposals 1' \
   "include $source_dir/pipelines/site.mk" >s/Makefile
 made s -j2 fence-search report
 [ "$(find s/out/verify/house-1 -name 'run_*.h5' | wc -l)" = 10 ] || fail "$(find s/out/verify)"

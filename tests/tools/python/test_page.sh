@@ -20,7 +20,7 @@ END
 mkdir -p site/out  # the helpers write to files `out` and `err`
 cp slope.tif site/out/bed.tif
 talus-blocks site.toml --trn slope.tif -o site/out/blocks.h5 -q --no-db
-expect 0 talus-batch site.toml --results site/out --runs 6 --jobs 2 --no-db -- --independent --settle
+expect 0 talus-batch site.toml --results site/out --runs 6 --jobs 2 --no-db -- --set solver.blocks=alone --settle
 [ -s site/out/runs/run_6.h5 ] || fail "no runs"
 
 PYTHONPATH=$source_dir/python MPLBACKEND=Agg \

@@ -17,7 +17,7 @@ made = "slope.tif", "blocks.h5"
 shares = []
 with warnings.catch_warnings(record=True) as said:
     warnings.simplefilter("always")
-    run = talus.run(site, *made, "python.h5", "--independent", "--no-db", progress=shares.append,
+    run = talus.run(site, *made, "python.h5", "--no-db", solver__blocks="alone", progress=shares.append,
                     ground__ground__friction_deg=25)
 assert any("move as if each were alone" in str(words.message) for words in said), said
 assert run.settings["solver"]["duration_s"] == 3 and run.settings["ground"]["ground"]["friction_deg"] == 25
@@ -37,7 +37,7 @@ except ValueError as error:
 
 # a limit of the health that is broken: the run is there, and says so
 warnings.simplefilter("ignore")
-lost = talus.run(site, *made, "lost.h5", "--no-db", "--independent", solver__duration_s=20,
+lost = talus.run(site, *made, "lost.h5", "--no-db", solver__blocks="alone", solver__duration_s=20,
                  ground__ground__friction_deg=0, solver__max_lost_share=0)
 assert lost.attrs["status"] == "failed" and "left the terrain" in lost.attrs["reason"], lost.attrs["reason"]
 

@@ -1,7 +1,7 @@
 # Cases lie in folders of their own, are weighed, and each is evaluated by itself.
 . "$source_dir/tests/tools/talus-batch/common.sh"
 set -- --runs 2 --case 'soft=--set ground.ground.friction_deg=10' --case 'hard=--set "site.description=a hard one"' \
-  -- --independent
+  -- --set solver.blocks=alone
 made_again 4 --weight soft=3 --weight hard=1 "$@"
 for file in soft/run_1.h5 hard/run_2.h5 ensemble.json soft/ensemble.json; do
   [ -s "results/runs/$file" ] || fail "no $file"

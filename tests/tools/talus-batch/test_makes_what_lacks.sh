@@ -19,24 +19,24 @@ expect 0 batch --runs 3 --status --part 0/2
 [ "$(cat out)" = "stale 3 1-2 4 3" ] || fail "status: $(cat out)"
 made_again 3 --runs 3
 says "is made again: it was made with other settings: ground.ground.friction_deg: 21, there 20"
-made_again 3 --runs 3 -- --independent
+made_again 3 --runs 3 -- --set solver.blocks=alone
 cp results/runs/run_1.h5 results/runs/run_2.h5
-made_again 1 --runs 3 -- --independent
+made_again 1 --runs 3 -- --set solver.blocks=alone
 cp kept.h5 results/runs/run_3.h5
-made_again 1 --runs 3 -- --independent
+made_again 1 --runs 3 -- --set solver.blocks=alone
 truncate -s -7 results/runs/run_3.h5
-made_again 1 --runs 3 -- --independent
+made_again 1 --runs 3 -- --set solver.blocks=alone
 sed -i 's/^size_m = .*/size_m = [2, 1.5, 1.1]/' site.toml
 talus-blocks site.toml --trn results/bed.tif -o results/blocks.h5 -q --no-db --overwrite
-made_again 3 --runs 3 -- --independent
+made_again 3 --runs 3 -- --set solver.blocks=alone
 sed -i '1i # a remark' site.toml
 talus-blocks site.toml --trn results/bed.tif -o results/blocks.h5 -q --no-db --overwrite
-made_again 0 --runs 3 -- --independent
-expect 0 batch --runs 3 --status --part 0/2 -- --independent
+made_again 0 --runs 3 -- --set solver.blocks=alone
+expect 0 batch --runs 3 --status --part 0/2 -- --set solver.blocks=alone
 [ "$(cat out)" = "current 0 - 4 3" ] || fail "status: $(cat out)"
 
 # runs, another folder, and the tools that take it
-made_again 2 --runs 2 --into without -- --independent --set fence.low.active=true
+made_again 2 --runs 2 --into without -- --set solver.blocks=alone --set fence.low.active=true
 expect 0 talus-maps results/runs --trn results/bed.tif -o maps --no-db
 gdalinfo maps/reach.tif | grep -q 'N_RUNS=3$' || fail "the folder does not stand for its runs"
 rm results/runs/ensemble.json results/runs/run_[45].h5  # without a plan all count

@@ -86,7 +86,7 @@ says "two outlines of the source area meet"
 cat >points.toml <<'SITE'
 [site]
 crs = "EPSG:32633"
-[blocks.a]
+[rockfall.a]
 shape = "box"
 size_m = [1, 1, 1]
 release_file = "points.gpkg"
@@ -100,7 +100,7 @@ ogr2ogr -q -update points.gpkg points.geojson -nln b
 expect 1 talus-blocks points.toml --trn trn.tif -o other.h5 --no-db
 says "2 layers hold points, expected one; the layers are: a, b"
 says "hint: put \"|layername=a\" behind the file"
-expect 0 talus-blocks points.toml --trn trn.tif -o other.h5 --no-db --set 'blocks.a.release_file=points.gpkg|layername=b'
+expect 0 talus-blocks points.toml --trn trn.tif -o other.h5 --no-db --set 'rockfall.a.release_file=points.gpkg|layername=b'
 
 # --- every key that names a vector file takes what the reader takes -------------------------------
 is_release() { # is_release ARGUMENTS...: the mass is that of the release area
@@ -142,7 +142,7 @@ is_release --set 'source.polygon_file=areas.dxf|layername=RELEASE'
 says "1 closed line taken as areas"
 # release points from a table
 printf 'name;Easting;Northing\na;500020,0;5200020,0\n' >points.csv
-expect 0 talus-blocks points.toml --trn trn.tif -o table.h5 --no-db --set blocks.a.release_file=points.csv
+expect 0 talus-blocks points.toml --trn trn.tif -o table.h5 --no-db --set rockfall.a.release_file=points.csv
 says "points.csv: x from Easting, y from Northing"
 says "points.csv: layer points, 1 point"
 

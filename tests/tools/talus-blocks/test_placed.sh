@@ -35,15 +35,15 @@ placed 'file = "cube.obj"' 'scale = 2' 'y_up = true' 'position_m = [[500020, 520
   'height_above_ground_m = 3' 'velocity_m_s = [1, 0, 0]'
 expect 0 blocks --overwrite --report r.json
 holds "$(value r.json volume_m3) == 16"
-for shape in box prism eota rock; do
+for shape in box prism eota eota111 eota211 eota221 rock; do
   placed "shape = \"$shape\"" 'volume_m3 = 2.5' 'position_m = [500020, 5200020]' 'random_orientation = true'
   expect 0 blocks --overwrite --report r.json
   holds "($(value r.json volume_m3) - 2.5) ^ 2 < 1e-20"
 done
 
 placed 'shape = "box"' 'size_m = [1]' 'position_m = [500020, 5200020]' 'n_per_point = 3'
-expect 0 blocks --overwrite
-says "blocks.one: 3 bodies at each release point overlap"
+expect 2 blocks --overwrite
+says 'rocks in [rockfall.NAME]'
 
 placed 'shape = "box"' 'position_m = [500020, 5200020]'
 expect 1 blocks --overwrite
@@ -53,7 +53,7 @@ expect 1 blocks --overwrite
 says "site.toml:5: size_m is 0, expected above 0"
 placed 'shape = "sphere"' 'size_m = [1]' 'position_m = [500020, 5200020]'
 expect 1 blocks --overwrite
-says 'shape is "sphere", expected one of box|prism|eota|rock'
+says 'shape is "sphere", expected one of box|prism|eota|eota111|eota211|eota221|rock'
 placed 'shape = "box"' 'size_m = [1]' 'position_m = [600020, 5200020]'
 expect 1 blocks --overwrite
 says "a body at (600020, 5200020) does not lie over known ground"

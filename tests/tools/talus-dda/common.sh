@@ -49,4 +49,4 @@ make_inputs() {
   make_blocks
 }
 
-run_dda() { talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --independent "$@"; }
+run_dda() { talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --set solver.blocks=alone "$@"; }

@@ -67,33 +67,33 @@ make_site
 # blocks that do not belong to the terrain
 sed 's/^xllcenter.*/xllcenter 600000/' plane.asc >far.asc
 talus-trn far.asc -o far.tif --crs EPSG:32632 -q --no-db
-expect 1 talus-dda site.toml --trn far.tif --blocks blocks.h5 -o run.h5 --no-db --independent
+expect 1 talus-dda site.toml --trn far.tif --blocks blocks.h5 -o run.h5 --no-db --set solver.blocks=alone
 says "outside the terrain"
 talus-trn plane.asc -o other.tif --crs EPSG:32633 -q --no-db
-expect 1 talus-dda site.toml --trn other.tif --blocks blocks.h5 -o run.h5 --no-db --independent
+expect 1 talus-dda site.toml --trn other.tif --blocks blocks.h5 -o run.h5 --no-db --set solver.blocks=alone
 says "the terrain other.tif is in EPSG:32633"
 nothing_left run.h5
 
 # in the ground: refused with how deep, or lifted
 awk 'NR <= 6 { print; next } { for (i = 1; i <= NF; i++) $i += 1.25; print }' plane.asc >raised.asc
 talus-trn raised.asc -o raised.tif --crs EPSG:32632 -q --no-db
-expect 1 talus-dda site.toml --trn raised.tif --blocks blocks.h5 -o run.h5 --no-db --independent
+expect 1 talus-dda site.toml --trn raised.tif --blocks blocks.h5 -o run.h5 --no-db --set solver.blocks=alone
 says "3 of 3 blocks start below the ground"
 says "by 0.75"
 says "is not the terrain that blocks.h5 was made for"
 says "--settle lifts"
-expect 0 talus-dda site.toml --trn raised.tif --blocks blocks.h5 -o settled.h5 --no-db --independent --settle --set solver.duration_s=1
+expect 0 talus-dda site.toml --trn raised.tif --blocks blocks.h5 -o settled.h5 --no-db --set solver.blocks=alone --settle --set solver.duration_s=1
 says "lifted onto it"
 says "warning: raised.tif is not the terrain that blocks.h5 was made for"
 
 # damaged or foreign block sets
 head -c 3000 blocks.h5 >cut.h5
-expect 1 talus-dda site.toml --trn slope.tif --blocks cut.h5 -o run.h5 --no-db --independent
+expect 1 talus-dda site.toml --trn slope.tif --blocks cut.h5 -o run.h5 --no-db --set solver.blocks=alone
 says "cut.h5"
-expect 1 talus-dda site.toml --trn slope.tif --blocks settled.h5 -o run.h5 --no-db --independent
+expect 1 talus-dda site.toml --trn slope.tif --blocks settled.h5 -o run.h5 --no-db --set solver.blocks=alone
 says "settled.h5"
 sed 's/material.rock/material.granite/' site.toml >granite.toml
-expect 1 talus-dda granite.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --no-db --independent
+expect 1 talus-dda granite.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --no-db --set solver.blocks=alone
 says "the blocks are of material rock, which the site file does not have"
 
 # a box without a volume

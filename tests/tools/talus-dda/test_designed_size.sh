@@ -6,7 +6,7 @@ expect 0 talus-tin contours.gpkg -o tin.ply --elevation-field elevation_m
 expect 0 talus-trn tin.ply -o trn.tif --cell-size-m 8 --window 500000,5200000,500224,5200320
 expect 0 talus-blocks site.toml --trn trn.tif -o blocks.h5 --trn-out bed.tif
 code=0
-talus-dda site.toml --trn bed.tif --blocks blocks.h5 -o run.h5 --independent >out 2>err || code=$?
+talus-dda site.toml --trn bed.tif --blocks blocks.h5 -o run.h5 --set solver.blocks=alone >out 2>err || code=$?
 [ "$code" = 0 ] || [ "$code" = 3 ] || fail "exit code $code"
 size=$(wc -c <run.h5)
 [ "$size" -lt 2000000 ] || fail "run.h5 has $size bytes"

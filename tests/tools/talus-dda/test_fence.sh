@@ -62,6 +62,6 @@ refused 'line = [[500060, 5000010], [500160, 5000010]]' 'fence.low'
 refused 'line = [[500060, 5000010], [500060, 5000090]]\nfile = "low.gpkg"' 'has both line and file'
 refused 'line = [[500021, 5000030], [500021, 5000040]]' 'block 0 and panel 0 of fence low by'
 # with law paper it stops nothing
-expect 0 talus-dda rigid.toml --trn slope.tif --blocks blocks.h5 -o paper.h5 --no-db --set solver.law=paper --independent \
+expect 0 talus-dda rigid.toml --trn slope.tif --blocks blocks.h5 -o paper.h5 --no-db --set solver.law=paper --set solver.blocks=alone \
   --set solver.duration_s=0.001 --set solver.time_step_s=1e-4 --set solver.normal_stiffness_n_m=1e9
 says 'fences stop nothing with law paper'

@@ -95,7 +95,7 @@ grep -q 'on   forest:' out && fail 'the plan tells of stems'
 with_forest none "$polygon\nstems_per_ha = 400\nactive = false"
 expect 0 run none --json
 grep -q trees out && fail 'a forest that does not stand is told of'
-expect 0 talus-dda none.toml --trn slope.tif --blocks blocks.h5 -o x.h5 --no-db --set solver.law=paper --independent \
+expect 0 talus-dda none.toml --trn slope.tif --blocks blocks.h5 -o x.h5 --no-db --set solver.law=paper --set solver.blocks=alone \
   --set solver.duration_s=0.001 --set solver.time_step_s=1e-4 --set solver.normal_stiffness_n_m=1e9 --set forest.wood.active=true
 says 'forests stop nothing with law paper'
 

@@ -30,6 +30,6 @@ for surface in TIN POLYHEDRALSURFACE; do
   rm -f faces.gpkg
   ogr2ogr -q -f GPKG -nln faces -a_srs EPSG:32632 faces.gpkg surface.csv 2>/dev/null
   { cat site.toml && printf '[ground.rough]\npolygon_file = "faces.gpkg"\nfriction_deg = 60\n'; } >faces.toml
-  expect 1 talus-dda faces.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o faces.h5
+  expect 1 talus-dda faces.toml --trn slope.tif --blocks blocks.h5 --no-db --set solver.blocks=alone -o faces.h5
   says "faces.gpkg: layer faces: holds no polygons, but 1 surface; expected polygons or closed lines"
 done

@@ -50,21 +50,21 @@ make_classes 3 5
 refuses "holds the value 5 below the terrain, which no [ground.*] names"
 make_classes 3 9
 sed 's/raster_values = \[9\]/raster_values = [9, 4]/' site.toml >twice.toml
-expect 1 talus-dda twice.toml --trn slope.tif --blocks blocks.h5 -o bad.h5 --no-db --independent
+expect 1 talus-dda twice.toml --trn slope.tif --blocks blocks.h5 -o bad.h5 --no-db --set solver.blocks=alone
 says "the raster's value 4 stands for two grounds"
 sed 's/^ground_raster.*//' site.toml >none.toml
-expect 1 talus-dda none.toml --trn slope.tif --blocks blocks.h5 -o bad.h5 --no-db --independent
+expect 1 talus-dda none.toml --trn slope.tif --blocks blocks.h5 -o bad.h5 --no-db --set solver.blocks=alone
 says "there is no raster"
 
 # Commands of the hints are run: what they make gives the run of the right raster.
 speed_on() { # speed_on RASTER
   sed "s/^ground_raster.*/ground_raster = \"$1\"/" site.toml >other.toml
-  expect 0 talus-dda other.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --overwrite --no-db --independent --json
+  expect 0 talus-dda other.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --overwrite --no-db --set solver.blocks=alone --json
   sed -n 's/.*"largest_speed_m_s": \([0-9.]*\).*/\1/p' out | head -n 1
 }
 refuses_raster() { # refuses_raster RASTER WORDS
   sed "s/^ground_raster.*/ground_raster = \"$1\"/" site.toml >other.toml
-  expect 1 talus-dda other.toml --trn slope.tif --blocks blocks.h5 -o bad.h5 --no-db --independent
+  expect 1 talus-dda other.toml --trn slope.tif --blocks blocks.h5 -o bad.h5 --no-db --set solver.blocks=alone
   says "$2"
 }
 run_hint() { sed -n 's/^ *hint: .*\(gdal[a-z]* .*\)$/\1/p' err >hint.sh && sh -e hint.sh >/dev/null; }

@@ -11,14 +11,13 @@ density_kg_m3 = 2600
 [ground.ground]
 friction_deg = 25
 cor = 0.4
-[blocks.a]
+[rockfall.a]
 shape = "box"
 size_m = [1, 0.8, 0.7]
 position_m = [[500010, 5000035], [500010, 5000050], [500010, 5000065]]
 height_above_ground_m = 1
 velocity_m_s = [6, 0, 0]
-random_orientation = true
-n_per_point = $2
+rocks = $2
 seed = $1
 [solver]
 duration_s = 14
@@ -37,7 +36,7 @@ active = false'
 fall() {  # NAME RUN OPTIONS
   name=$1 run=$2
   shift 2
-  talus-dda $name.toml --trn slope.tif --blocks ${name}_blocks.h5 -o $run --no-db --independent "$@"
+  talus-dda $name.toml --trn slope.tif --blocks ${name}_blocks.h5 -o $run --no-db "$@"
 }
 blocks() { talus-blocks $1.toml --trn slope.tif -o $1_blocks.h5 -q --no-db 2>blocks.log; }
 
@@ -133,7 +132,7 @@ cmp weak.h5 whole.h5 || fail 'two runs differ'
 stopped=
 for pause in 1 0.5 2 4; do
   rm -f stopped.h5 stopped.h5.part
-  talus-dda weak.toml --trn slope.tif --blocks weak_blocks.h5 -o stopped.h5 --no-db --independent \
+  talus-dda weak.toml --trn slope.tif --blocks weak_blocks.h5 -o stopped.h5 --no-db \
     -q --set output.checkpoint_interval_s=3600 &
   run_id=$!
   sleep $pause
@@ -164,7 +163,7 @@ assert 0 < forest['broken'] < forest['hit'] < 0.2 * forest['stems']
 PY
 
 # blocks that meet each other share what they leave of a net
-sed 's/^n_per_point = .*/n_per_point = 1/; s/^capacity_kj = .*/capacity_kj = 1500/' weak.toml >meet.toml
+sed 's/^rocks = .*//; s/^\[rockfall/[blocks/; s/^capacity_kj = .*/capacity_kj = 1500/' weak.toml >meet.toml
 blocks meet
 expect 0 talus-dda meet.toml --trn slope.tif --blocks meet_blocks.h5 -o meet.h5 --no-db --json
 cp out meet.json

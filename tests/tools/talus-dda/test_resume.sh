@@ -19,7 +19,7 @@ wait_for() {
 # killed three times at different moments, with a half-written checkpoint lying about
 for pause in 0 0.1 0.3; do
   rm -f killed.h5.part
-  talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o killed.h5 $slow &
+  talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --set solver.blocks=alone -o killed.h5 $slow &
   run_id=$!
   wait_for killed.h5.part
   sleep $pause
@@ -41,7 +41,7 @@ for signal in HUP TERM; do
   # one that has not come to its first step has nothing to keep: a busy machine gets longer
   for pause in 1 4 16; do
     rm -f stopped.h5.part
-    talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o stopped.h5 -q \
+    talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --set solver.blocks=alone -o stopped.h5 -q \
       --set solver.time_step_s=0.00005 --set output.checkpoint_interval_s=3600 &
     run_id=$!
     sleep $pause

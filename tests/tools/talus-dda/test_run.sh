@@ -21,7 +21,7 @@ grep -q "WARNINGS=.*3 blocks move as if each were alone" info || fail "the maps 
 grep -q "WARNINGS=.*$PWD" info && fail "a warning on a map holds a path"
 
 # the id that it bears finds it in the registry
-expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o registered.h5 --set solver.duration_s=0.1 --independent --db runs.sqlite --json
+expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o registered.h5 --set solver.duration_s=0.1 --set solver.blocks=alone --db runs.sqlite --json
 id=$(sed -n 's/.*"run_id": "\(.*\)".*/\1/p' out)
 expect 0 talus-runs show "$id"
 prints "registered.h5"

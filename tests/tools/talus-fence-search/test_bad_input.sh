@@ -20,7 +20,7 @@ says 'has no section [fence_search.*]'
 
 # runs that did not watch these lines, or watched others
 cp site.toml without.toml
-expect 0 talus-dda without.toml --trn slope.tif --blocks blocks.h5 --no-db --independent --set solver.duration_s=1 -o blind.h5
+expect 0 talus-dda without.toml --trn slope.tif --blocks blocks.h5 --no-db --set solver.blocks=alone --set solver.duration_s=1 -o blind.h5
 cp good.toml site.toml
 expect 1 search blind.h5 -o s.gpkg
 says 'did not watch the candidate lines of fence_search.house'

@@ -55,10 +55,10 @@ says 'by_weights = true in the class'
 refused 'have frequencies, and the class has one too' talus-trace site.toml points/run_*.h5 --trn points/slope.tif -o both.gpkg
 sed 's/^frequency_per_a = .*/by_weights = true/' site.toml >way_out.toml
 expect 0 talus-hazard way_out.toml points/run_*.h5 --trn points/slope.tif -o way_out
-{ cat site.toml; printf '[blocks.cliff]\nfrequency_per_a = 0.01\n'; } >both.toml
-refused '[blocks.cliff] has frequency_per_a' talus-hazard both.toml run_*.h5 --trn slope.tif -o both
+{ cat site.toml; printf '[rockfall.cliff]\nfrequency_per_a = 0.01\n'; } >both.toml
+refused '[rockfall.cliff] has frequency_per_a' talus-hazard both.toml run_*.h5 --trn slope.tif -o both
 run-probe mass 3 blocks=3 seed=1 objects=watched
-refused 'run all of a class with talus-dda --independent, or none' talus-hazard site.toml run_*.h5 mass/run_0.h5 --trn slope.tif -o both
+refused 'run all of a class with solver.blocks = "alone", or none' talus-hazard site.toml run_*.h5 mass/run_0.h5 --trn slope.tif -o both
 
 # without a frequency the share is still that of the rocks
 expect 0 talus-hazard plain.toml run_*.h5 --trn slope.tif -o shares

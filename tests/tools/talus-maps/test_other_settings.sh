@@ -8,8 +8,8 @@ dda() {
   talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db -q --set solver.duration_s=1 -o "$out" "$@"
 }
 mkdir x
-for seed in 1 2; do dda x/run_$seed.h5 --independent --seed $seed --set solver.start_jitter_m_s=0.1; done
-same="--independent --set solver.start_jitter_m_s=0.1"
+for seed in 1 2; do dda x/run_$seed.h5 --set solver.blocks=alone --seed $seed --set solver.start_jitter_m_s=0.1; done
+same="--set solver.blocks=alone --set solver.start_jitter_m_s=0.1"
 expect 0 talus-maps x/run_1.h5 x/run_2.h5 --trn slope.tif -o maps --no-db
 
 # refused KEY FILE...: with all tools that need no site file
@@ -31,7 +31,7 @@ refused "x/run_3.h5: ${other}ground.ground.friction_deg: 10, there 20" x/run_1.h
 dda x/run_4.h5 $same --seed 4 --set solver.accuracy=0.05
 refused "${other}solver.accuracy: 0.05, there " x/run_1.h5 x/run_4.h5
 dda x/run_5.h5 --set solver.start_jitter_m_s=0.1 --seed 5 --passages-by centroid
-refused "${other}--independent: not given, there true; --passages-by: centroid, there footprint" x/run_1.h5 x/run_5.h5
+refused "${other}--passages-by: centroid, there footprint; solver.blocks: 'auto', there 'alone'" x/run_1.h5 x/run_5.h5
 classes() {
   awk -v last="$1" 'BEGIN {
     print "ncols 30\nnrows 20\nxllcorner 500002.5\nyllcorner 5000002.5\ncellsize 5"
@@ -43,7 +43,7 @@ sed -e 's/^\[ground.ground\]/[terrain]\nground_raster = "classes.asc"\n&/' site.
 printf '[ground.%s]\nraster_values = [%d]\nfriction_deg = 20\n' one 1 other 2 >>classed.toml
 for last in 1 2; do
   classes $last
-  talus-dda classed.toml --trn slope.tif --blocks blocks.h5 --no-db -q --set solver.duration_s=1 --independent --seed $last -o by_class/run_$last.h5
+  talus-dda classed.toml --trn slope.tif --blocks blocks.h5 --no-db -q --set solver.duration_s=1 --set solver.blocks=alone --seed $last -o by_class/run_$last.h5
 done
 expect 1 talus-maps by_class/run_1.h5 by_class/run_2.h5 --trn slope.tif -o m --no-db
 says "by_class/run_2.h5: was computed with other settings than by_class/run_1.h5: file ground_raster: "
@@ -81,12 +81,12 @@ says "ground.ground.friction_deg: 10, there 20"
 # Samples differ in what they draw. A run without a sample is of another distribution.
 printf '[uncertainty.f]\nkeys = ["ground.ground.friction_deg"]\ndistribution = "uniform"\nmin = 15\nmax = 25\n' >>site.toml
 mkdir drawn
-for seed in 1 2; do dda drawn/run_$seed.h5 --independent --seed $seed --sample $seed; done
+for seed in 1 2; do dda drawn/run_$seed.h5 --set solver.blocks=alone --seed $seed --sample $seed; done
 expect 0 talus-maps drawn/run_1.h5 drawn/run_2.h5 --trn slope.tif -o drawn/maps --no-db
-dda drawn/run_3.h5 --independent --seed 3
+dda drawn/run_3.h5 --set solver.blocks=alone --seed 3
 expect 1 talus-maps drawn/run_1.h5 drawn/run_3.h5 --trn slope.tif -o m --no-db
 says "ground.ground.friction_deg: 20, there "
-dda drawn/run_4.h5 --independent --seed 4 --sample 4 --set uncertainty.f.max=26
+dda drawn/run_4.h5 --set solver.blocks=alone --seed 4 --sample 4 --set uncertainty.f.max=26
 expect 1 talus-maps drawn/run_1.h5 drawn/run_4.h5 --trn slope.tif -o m --no-db
 says "uncertainty.f.max: 26, there 25"
 

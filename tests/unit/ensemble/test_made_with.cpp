@@ -62,12 +62,11 @@ TEST(SettingsOfRuns, MayDifferInSeedSampleFramesAndWhatNoStageOfARunReads) {
 
 TEST(SettingsOfRuns, OptionsAndFilesCount) {
   const SettingsCheck check =
-      after("run_1.h5", info_of(slope, "--independent = true\nfile forest.wood = aa\n"));
-  EXPECT_EQ(
-      refusal(check, "run_2.h5", info_of(slope, "--independent = true\nfile forest.wood = aa\n")),
-      "");
-  EXPECT_NE(refusal(check, "run_2.h5", info_of(slope, "--independent = \nfile forest.wood = bb\n"))
-                .find("--independent: not given, there true; file forest.wood: bb, there aa"),
+      after("run_1.h5", info_of(slope, "--settle = true\nfile forest.wood = aa\n"));
+  EXPECT_EQ(refusal(check, "run_2.h5", info_of(slope, "--settle = true\nfile forest.wood = aa\n")),
+            "");
+  EXPECT_NE(refusal(check, "run_2.h5", info_of(slope, "--settle = \nfile forest.wood = bb\n"))
+                .find("--settle: not given, there true; file forest.wood: bb, there aa"),
             std::string::npos);
 }
 

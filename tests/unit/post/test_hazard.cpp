@@ -311,13 +311,13 @@ TEST(Hazard, OfSingleRocksAsksOneQuestionOnce) {
   mixed[1].n_blocks = 1;  // alone in any case
   EXPECT_EQ(refusal_of_runs(given, mixed), "accepted");
 
-  const std::string release = "[blocks.cliff]\nfrequency_per_a = 0.01\n";
+  const std::string release = "[rockfall.cliff]\nfrequency_per_a = 0.01\n";
   EXPECT_NE(refusal_of_site("[hazard.class.V1]\nfrequency_per_a = 0.28\n" + release)
-                .find("[blocks.cliff] has frequency_per_a"),
+                .find("[rockfall.cliff] has frequency_per_a"),
             std::string::npos);
   EXPECT_NE(refusal_of_site("[hazard.class.V1]\nevents = 3\nobserved_a = 10\n"
-                            "[blocks.cliff]\nfrequency_per_m2_a = 0.01\n")
-                .find("[blocks.cliff] has frequency_per_m2_a"),
+                            "[rockfall.cliff]\nfrequency_per_m2_a = 0.01\n")
+                .find("[rockfall.cliff] has frequency_per_m2_a"),
             std::string::npos);
   EXPECT_EQ(refusal_of_site("[hazard.class.V1]\nby_weights = true\n" + release), "accepted");
   EXPECT_EQ(refusal_of_site("[hazard.class.V1]\nby_weights = true\n"

@@ -354,7 +354,7 @@ TEST(Runner, BlocksThatLeftTheTerrainCountByTheirMass) {
   EXPECT_FALSE(lost().pass);
 }
 
-// Runs of one rock and of many that were asked for with --independent belong together.
+// Runs of one rock and of many that were asked for to be alone belong together.
 TEST(Runner, ARunOfALoneBlockSaysWhatWasAskedFor) {
   const Scene lone = scene_of(plane_trn(slope_frame(0, 0), 1, 20), {},
                               {body_of(box(Vec3(0, 0, 1), Vec3(1, 1, 2)))}, {});

@@ -16,12 +16,14 @@ struct SetUpTest : testing::Test {
 
   void SetUp() override {
     request.files = {folder.file("slope.tif"), folder.file("blocks.h5"), false};
-    request.independent = true;
     write_trn(request.files.trn, slope_trn());
     write_blocks(request.files.blocks, three_boxes());
   }
+  std::string how = "alone";  ///< [solver] blocks
   talus::SetUp made(const std::string& more = "") {
-    return set_up(site_of(folder, more), request, log);
+    talus::Site site = site_of(folder, more);
+    site.solver.blocks = how;
+    return set_up(site, request, log);
   }
   std::string refusal(const std::string& more = "") {
     return refusal_of([&] { static_cast<void>(made(more)); });
@@ -79,7 +81,7 @@ TEST_F(SetUpTest, BlocksInTheGroundAreRefusedOrLifted) {
 }
 
 TEST_F(SetUpTest, BlocksThatOverlapAreRefusedOrMovedApartWhereItIsLittle) {
-  request.independent = false;
+  how = "together";
   write_blocks(request.files.blocks, boxes_on(slope_trn(), {{120, 30}, {120, 31.1}}, 0.01));
   EXPECT_HOLDS(refusal(), "1 pair overlaps: block 0 and block 1 by 0.4 m");
   EXPECT_HOLDS(refusal(), "a twentieth of their thickness");

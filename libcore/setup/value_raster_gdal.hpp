@@ -1,0 +1,58 @@
+// libcore/setup/value_raster_gdal.hpp
+// Rasters of values that a section of the site file names, over a part of the terrain: what stands
+// in a cell, no elevations.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/input_log.hpp"
+#include "site/site.hpp"
+#include "terrain/grid_frame.hpp"
+#include "terrain/trn.hpp"
+
+namespace talus {
+
+/// A box in map coordinates.
+struct MapBox {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
+
+  void add(const Vec2& point) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  [[nodiscard]] bool is_empty() const { return (low.array() >= high.array()).any(); }
+};
+
+/// A raster over the cells that a box meets.
+struct ValueRaster {
+  std::string key, path;      ///< "nrtrees_raster"
+  GridFrame frame;            ///< of cell centres, map coordinates
+  std::vector<double> value;  ///< NaN: unknown                                         (n_cells)
+
+  [[nodiscard]] Vec2 centre_of(std::size_t cell) const;
+  /// Throws InputError: the key, the finding, the place.
+  [[noreturn]] void refuse(std::size_t cell, const std::string& finding,
+                           const std::string& hint) const;
+};
+
+/// What is read: a key of a section, in the system of the terrain.
+struct ValueRasterContext {
+  InputLog& log;
+  const Site& site;
+  const Trn& ground;
+  std::string section;  ///< "forest.upper"
+};
+
+/// Throws InputError where the file is no raster with one band, is in another system than the
+/// terrain, or lies outside of the box.
+[[nodiscard]] ValueRaster read_values(const ValueRasterContext& of, const char* key,
+                                      const std::string& file, const MapBox& box);
+
+/// Throws InputError, with the command that brings `raster` to them, where it has other cells than
+/// `first`.
+void check_same_cells(const ValueRaster& raster, const ValueRaster& first);
+
+}  // namespace talus
