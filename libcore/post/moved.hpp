@@ -19,7 +19,8 @@ inline constexpr double least_moved = 0.5;  ///< share of the mass below which a
 
 /// Displacement: straight from a centroid's place at the start to that at the end, in space.
 struct Moved {
-  double mass = 0;                   ///< released [kg]
+  double mass = 0;                   ///< released [kg]; of rocks one by one their number
+  bool of_rocks = false;             ///< shares are of rocks that fell one by one, not of a mass
   double share = 0;                  ///< of the mass, displaced by more than moved_m [-]
   double share_far = 0;              ///< displaced by more than moved_far_m [-]
   double p50 = 0, p90 = 0, p95 = 0;  ///< displacement that this share of the mass stays below [m]
@@ -29,9 +30,15 @@ struct Moved {
   [[nodiscard]] bool is_event() const { return share >= event_share; }
 };
 /// NaN where there is no mass.
-[[nodiscard]] Moved moved_of(std::vector<WeightedValue> displacement_and_mass);
+[[nodiscard]] Moved moved_of(std::vector<WeightedValue> displacement_and_mass,
+                             bool of_rocks = false);
+/// Of one run.
+[[nodiscard]] Moved moved_of_run(const RunFile& run);
 
-/// Displacement [m] and mass [kg] of each block of a run                          (n_blocks)
+/// What the blocks of a run count in shares: their mass [kg]; one each where rocks fell one by one.
+[[nodiscard]] std::vector<double> counted_by(const RunFile& run);  //               (n_blocks)
+
+/// Displacement [m] of each block of a run, and what it counts                    (n_blocks)
 [[nodiscard]] std::vector<WeightedValue> displacements(const RunFile& run);
 
 /// "28 % of the mass moved more than 1 m, 12 % more than 20 m; displacement by mass: p50 0.1 m, p90

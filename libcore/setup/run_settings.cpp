@@ -114,6 +114,7 @@ void warn_of_plan(InputLog& log, const Site& site, const ScenePlan& plan, DdaInp
     log.warn(words);
   };
   // A slide whose blocks pass through each other must not look like a result.
+  if (!plan.block_contacts && !site.rockfalls.empty()) return;
   if (!plan.block_contacts)
     warn(std::to_string(n) +
          " blocks move as if each were alone: contacts between them are not computed");

@@ -163,6 +163,11 @@ double expected_cpu_s(double n_blocks, double duration, double dt) {
   return whole_run(cpu_s_of_a_packed_second(n_blocks, dt), duration);
 }
 
+double expected_cpu_s_alone(double n_rocks) {
+  constexpr double cpu_of_a_rock = 0.01;  // tests/bench/trajectories.sh
+  return cpu_of_a_rock * n_rocks;
+}
+
 double scaled_cpu_s(double probe_cpu, double probe_duration, double probe_dt, double duration,
                     double dt) {
   return whole_run(probe_cpu / probe_duration * std::pow(probe_dt / dt, step_power), duration);

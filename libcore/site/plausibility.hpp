@@ -51,6 +51,8 @@ enum class Outlook { stands, goes_in_part, goes };
 [[nodiscard]] double expected_cpu_s(double n_blocks, double duration, double dt);
 /// Of one simulated second while all blocks are in contact [s].
 [[nodiscard]] double cpu_s_of_a_packed_second(double n_blocks, double dt);
+/// Of rocks that fall one by one, each until it rests.
+[[nodiscard]] double expected_cpu_s_alone(double n_rocks);
 /// The same run, from the time that a probe of it took: `probe_cpu` for `probe_duration` at
 /// `probe_dt` [s].
 [[nodiscard]] double scaled_cpu_s(double probe_cpu, double probe_duration, double probe_dt,

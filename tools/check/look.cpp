@@ -393,7 +393,7 @@ void find_doubts(Look& look) {
   const Site& site = look.work.site;
   PlausibilityFacts facts;
   facts.cell_size = look.work.ground.cell_size;
-  facts.n_blocks = n_blocks(look.inputs.parts.blocks);
+  facts.n_blocks = moves_alone(site) ? 1 : n_blocks(look.inputs.parts.blocks);
   facts.duration = site.solver.duration_s;
   facts.travel_duration = look.travel_duration;
   if (!look.slides.empty()) {

@@ -68,7 +68,9 @@ double probe_duration(const Options& o, const Look& look) {
     return 0;
   if (o.probe_s >= 0) return o.probe_s;
   constexpr double most_cpu_s = 20;
-  const double second = cpu_s_of_a_packed_second(n_blocks(look.inputs.parts.blocks), probe_step_s);
+  const int n = n_blocks(look.inputs.parts.blocks);
+  const double second = moves_alone(look.work.site) ? expected_cpu_s_alone(n)
+                                                    : cpu_s_of_a_packed_second(n, probe_step_s);
   return 4 * second <= most_cpu_s ? 4 : second <= most_cpu_s ? 1 : 0;
 }
 

@@ -173,7 +173,8 @@ std::string time_text(const Look& look, std::int64_t n_runs, bool of_this_machin
   const double duration =
       may_stand ? std::min(standing_after_s, site.solver.duration_s) : site.solver.duration_s;
   const double one =
-      of_this_machine && look.is_probed && look.probe.time > 0
+      moves_alone(site) ? expected_cpu_s_alone(n)
+      : of_this_machine && look.is_probed && look.probe.time > 0
           ? scaled_cpu_s(look.probe_cpu_s, look.probe.time, probe_step_s, duration, dt)
           : expected_cpu_s(n, duration, dt);
   if (may_stand) words += "a run in which nothing moves ends after 3 s\n";
@@ -224,8 +225,10 @@ Json check_json(const Look& look, const std::string& run_id) {
   json["fences"] = fences;
   json["objects"] = objects;
   if (site.solver.law == "talus")
-    json["expected_cpu_s"] = expected_cpu_s(n_blocks(look.inputs.parts.blocks),
-                                            site.solver.duration_s, time_step(site.solver));
+    json["expected_cpu_s"] = moves_alone(site)
+                                 ? expected_cpu_s_alone(n_blocks(look.inputs.parts.blocks))
+                                 : expected_cpu_s(n_blocks(look.inputs.parts.blocks),
+                                                  site.solver.duration_s, time_step(site.solver));
   return json;
 }
 

@@ -265,7 +265,7 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double from_s, doub
                {"n_frames", n_frames(file.frames)},
                {"largest_speed_m_s", largest_speed(file)},
                {"mean_displacement_m", {moved.x(), moved.y(), moved.z()}},
-               {"moved", moved_json(moved_of(displacements(file)))},
+               {"moved", moved_json(moved_of_run(file))},
                {"cpu_time_s", cpu_s},
                {"simulated_s_per_cpu_s", cpu_s > 0 ? (file.info.time - from_s) / cpu_s : 0}};
   if (!file.forests.empty()) json["trees"] = trees_on(file);
@@ -291,17 +291,18 @@ std::string run_summary(const Json& report, const RunFile& file) {
     return counted(report[key].get<std::int64_t>(), noun);
   };
   const double fell = -moved[2].get<double>();
-  return count("n_blocks", "block") + ", " + number("time_s") + " s in " + count("steps", "step") +
-         ": centre of mass moved " + text(horizontal, 4) + " m and " +
-         (fell < 0 ? "rose " : "fell ") + text(std::abs(fell), 4) + " m, " +
-         text(moved_of(displacements(file))) + "; largest speed " + number("largest_speed_m_s") +
-         " m/s, " + count("n_passages", "passage") + ", " + count("n_crossings", "crossing") +
+  const std::string centre = "centre of mass moved " + text(horizontal, 4) + " m and " +
+                             (fell < 0 ? "rose " : "fell ") + text(std::abs(fell), 4) + " m, ";
+  return count("n_blocks", file.info.independent ? "rock" : "block") + ", " + number("time_s") +
+         " s in " + count("steps", "step") + ": " + (file.info.independent ? "" : centre) +
+         text(moved_of_run(file)) + "; largest speed " + number("largest_speed_m_s") + " m/s, " +
+         count("n_passages", "passage") + ", " + count("n_crossings", "crossing") +
          fence_summary(report, file) + tree_summary(report, file) + trouble_summary(report) + "; " +
          text(report["simulated_s_per_cpu_s"].get<double>(), 3) + " s simulated per CPU second";
 }
 
 void warn_of_standing_mass(Tool& tool, const RunFile& file) {
-  const std::string words = standing_mass_warning(moved_of(displacements(file)));
+  const std::string words = standing_mass_warning(moved_of_run(file));
   if (!words.empty()) tool.warn(words);
 }
 

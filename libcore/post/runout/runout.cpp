@@ -125,11 +125,12 @@ MassReach mass_reach(const RunFile& run, const std::vector<WeightedValue>& displ
     if (has_moved(block)) raise_to_highest(run, block, top);
   std::vector<End> ends;
   double all = 0;
+  const std::vector<double> counted = counted_by(run);
   for (int block = 0; block < n_blocks(run); ++block) {
     if (!has_moved(block)) continue;
     const Vec3 at = last_pose(run, block).position;
-    ends.push_back({plan_distance(top, at), at.z(), run.blocks.mass[block]});
-    all += run.blocks.mass[block];
+    ends.push_back({plan_distance(top, at), at.z(), counted[block]});
+    all += counted[block];
     reach.moved_volume += run.blocks.volume[block];
   }
   if (ends.empty()) return {none, none, 0, none, none, 0, 0};
@@ -268,7 +269,7 @@ RunReach reach_of_frames(const RunFile& run, const Trn& trn, const ReachSettings
   }
   raise_by_passages(reach, run.passages);
   const std::vector<WeightedValue> displacement = displacements(run);
-  if (!moved_of(displacement).any()) return reach;
+  if (!moved_of_run(run).any()) return reach;
   reach.centre_of_mass =
       reach_along(simplified(centre_of_mass_path(run), settings.tolerance).point);
   const Vec3 top = highest_point(run);
@@ -289,7 +290,7 @@ EventReach event_reach(const RunFile& run, const Trn& trn, const ReachSettings& 
     length += run.blocks.mass[block] * reach.block[block].path;
   }
   const std::vector<WeightedValue> displacement = displacements(run);
-  event.moved = moved_of(displacement);
+  event.moved = moved_of_run(run);
   if (!event.moved.any()) {
     event.event = event.centre_of_mass = {none, none, none};
     event.sum_angle = event.profile.smallest = event.profile.smallest_at = none;

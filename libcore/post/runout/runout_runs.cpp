@@ -65,6 +65,19 @@ void add_cell(RunoutSums& sums, std::int32_t cell) {
   sums.is_passed[cell] = 1;
 }
 
+namespace {
+
+// As counted_by() of a run.
+double counted(const RunoutRun& run, std::size_t block) {
+  return run.member.info.independent ? 1 : run.mass[block];
+}
+
+bool are_of_rocks(const std::vector<RunoutRun>& runs) {
+  return !runs.empty() && runs.front().member.info.independent;
+}
+
+}  // namespace
+
 RunoutRuns add_up(RunoutSums sums) {
   RunoutRuns out;
   out.grid = sums.grid;
@@ -73,7 +86,7 @@ RunoutRuns add_up(RunoutSums sums) {
   std::vector<WeightedValue> displacement;
   for (const RunoutRun& r : out.runs) {
     for (std::size_t b = 0; b < r.mass.size(); ++b)
-      displacement.push_back({r.displacement[b], r.member.run_weight * r.mass[b]});
+      displacement.push_back({r.displacement[b], r.member.run_weight * counted(r, b)});
     add(out.balance, r.balance);
     out.released.weight.push_back(r.member.weight);
     out.released.n_blocks.push_back(r.member.n_blocks);
@@ -81,7 +94,7 @@ RunoutRuns add_up(RunoutSums sums) {
   }
   for (std::size_t cell = 0; cell < sums.is_passed.size(); ++cell)
     if (sums.is_passed[cell] != 0) out.cells.push_back(static_cast<std::uint32_t>(cell));
-  out.moved = moved_of(std::move(displacement));
+  out.moved = moved_of(std::move(displacement), are_of_rocks(out.runs));
   return out;
 }
 
@@ -103,8 +116,8 @@ std::vector<RunoutCase> cases_of(const std::vector<RunoutRun>& runs) {
     std::vector<WeightedValue> displacement;
     for (const int i : of_case)
       for (std::size_t b = 0; b < runs[i].mass.size(); ++b)
-        displacement.push_back({runs[i].displacement[b], runs[i].mass[b]});
-    cases.push_back({name, of_case, moved_of(std::move(displacement))});
+        displacement.push_back({runs[i].displacement[b], counted(runs[i], b)});
+    cases.push_back({name, of_case, moved_of(std::move(displacement), are_of_rocks(runs))});
   }
   return cases;
 }

@@ -148,7 +148,9 @@ std::string cases_text(const std::vector<RunoutRun>& runs) {
              std::to_string(length.n) + " of " +
              counted(static_cast<std::int64_t>(one.runs.size()), "run") + " moved" +
              (n_events < length.n ? " (" + std::to_string(n_events) + " events)" : "") + ", " +
-             percent(one.moved.share) + " of the mass by more than " + text(moved_m) + " m";
+             percent(one.moved.share) +
+             (one.moved.of_rocks ? " of the rocks by more than " : " of the mass by more than ") +
+             text(moved_m) + " m";
     if (length.n > 0)
       lines += "; largest L " + grouped_text(length.largest) + " m, L95 " +
                grouped_text(mass_length.largest) + " m, smallest angle of reach " +

@@ -754,6 +754,7 @@ def virtual_table(plane):
 
 SITES = []
 BLOCK = '[blocks.b]\nshape = "box"\nsize_m = [2, 2, 1]\nposition_m = [650100, 5200150]\n'
+ROCKS = BLOCK.replace('blocks', 'rockfall')
 END = '[material.rock]\n[solver]\nduration_s = 0.1\n'
 SOURCE = '[source]\n{keys}\n' + ''.join(
     f'[joints.{name}]\ndip_deg = {dip}\ndip_direction_deg = {direction}\nspacing_m = 8\n'
@@ -986,16 +987,30 @@ def conifers_as_share(_plane):
             'conif_percent_raster = "conifers.tif"\n')
 
 
+def two_blocks(apart):
+    return BLOCK.replace('position_m = [650100, 5200150]',
+                         f'position_m = [[650100, 5200150], [{650100 + apart}, 5200150]]') + END
+
+
+@key_row(DDA, '1 pair overlaps', 'solver', 'blocks = "alone"')
+def blocks_in_one_another(_plane):
+    return two_blocks(1)
+
+
+@key_row(DDA, '1 pair overlaps', 'solver', 'blocks = "alone"')
+def blocks_that_overlap_a_little(_plane):
+    return two_blocks(1.97)
+
+
 @key_row(DDA, 'the same fence would stand there twice', 'fence.b', 'active = false')
 def fence_twice(_plane):
     line_ = 'line = [[650050, 5200050], [650150, 5200050]]\nheight_m = 3\nactive = true\n'
     return BLOCK + END + '[fence.a]\n' + line_ + '[fence.b]\n' + line_
 
 
-@key_row(BLOCKS, 'its bodies do not stand for an area', 'blocks.b', 'release_grid = true\nrelease_spacing_m = 20',
-         out=['position_m'])
+@key_row(BLOCKS, 'do not stand for an area', 'rockfall.b', 'frequency_per_a = 0.01', out=['frequency_per_m2_a'])
 def frequency_of_an_area_of_points(_plane):
-    return '[source]\n' + AREA + BLOCK + 'frequency_per_m2_a = 1e-4\n' + END
+    return ROCKS + 'frequency_per_m2_a = 1e-4\n' + END
 
 
 @key_row(BLOCKS, 'keys is missing', 'uncertainty.q', 'keys = ["ground.slope.friction_deg"]')
@@ -1017,9 +1032,9 @@ def orientation_of_uniform(_plane):
 
 
 @key_row(BLOCKS, 'holds a whole number', 'uncertainty.q',
-         'distribution = "discrete"\nvalues = [1, 2] then uncertainty: rock_masses = 4', out=['min', 'max'])
+         'distribution = "discrete"\nvalues = [1, 2]', out=['min', 'max'])
 def whole_number_of_uniform(_plane):
-    return (BLOCK + 'n_per_point = 1\n' + END + '[uncertainty.q]\nkeys = ["blocks.b.n_per_point"]\n'
+    return (ROCKS + 'rocks = 1\n' + END + '[uncertainty.q]\nkeys = ["rockfall.b.rocks"]\n'
             'distribution = "uniform"\nmin = 1\nmax = 2\n')
 
 

@@ -42,7 +42,7 @@ for shape in box prism eota eota111 eota211 eota221 rock; do
 done
 
 placed 'shape = "box"' 'size_m = [1]' 'position_m = [500020, 5200020]' 'n_per_point = 3'
-expect 2 blocks --overwrite
+expect 1 blocks --overwrite
 says 'rocks in [rockfall.NAME]'
 
 placed 'shape = "box"' 'position_m = [500020, 5200020]'
@@ -72,7 +72,7 @@ expect 1 blocks --overwrite
 says "is neither a text STL (solid ...) nor a binary one"
 printf '%s\n' '[site]' >site.toml
 expect 1 blocks --overwrite
-says "there is neither [source] nor [blocks.*]"
+says "there is no [source], [blocks.*] or [rockfall.*]"
 
 # a hollow body is refused, bodies that stand in each other and below the ground are said to
 inner='v 0.25 0.25 0.25

@@ -1,0 +1,71 @@
+# A site of rocks one by one: from a ground and a polygon, and from a folder as of Rockyfor3D, to classes.
+. "$source_dir/tests/tools/pipeline/common.sh"
+command -v gdal_translate >/dev/null || skip "needs gdal-bin"
+new() { sh "$source_dir/pipelines/new_site.sh" "$@"; }
+# 40 x 60 cells of 4 m: 45 degrees in the north, from there on 14 degrees
+awk 'BEGIN { print "ncols 40\nnrows 60\nxllcorner 650000\nyllcorner 5200000\ncellsize 4\nNODATA_value -9999"
+  for (r = 0; r < 60; r++) { y = 4 * (59 - r); z = 500 + 0.25 * y + (y > 160 ? 0.75 * (y - 160) : 0)
+    for (c = 0; c < 40; c++) printf "%g ", z; print "" } }' >dem.asc
+gdal_translate -q -ot Float64 -a_srs EPSG:25832 dem.asc dem.tif
+cat >cliff.geojson <<'END'
+{"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}},
+ "features": [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon",
+ "coordinates": [[[650060, 5200120], [650100, 5200120], [650100, 5200220], [650060, 5200220], [650060, 5200120]]]}}]}
+END
+expect 0 new wall dem.tif cliff.geojson "$source_dir/pipelines" "" yes
+prints "edit $work/wall/site.toml (rocks, soils)"
+expect 0 make -C wall BIN= blocks
+says 'are flatter than 40 deg'
+# a path below the wall, and how often: the goal computes ten runs of different rocks, maps, classes and the report
+cat >>wall/site.toml <<'END'
+[object.road]
+line = [[650020, 5200100], [650140, 5200100]]
+width_m = 6
+[hazard.class.rocks]
+by_weights = true
+END
+sed -i -e 's/^# frequency_per_a = 0.5/frequency_per_a = 0.5/' -e 's/^duration_s = 120/duration_s = 30/' \
+  -e 's/^rocks = 1/release_spacing_m = 12\n&/' wall/site.toml
+made wall -j2
+[ "$(ls wall/out/runs/run_*.h5 | wc -l)" -eq 10 ] || fail 'not ten runs'
+prints 'run_10: 23 rocks'
+python3 - <<'PY' || fail 'runs, hits and classes'
+import json
+hazard, trace = (json.load(open(f'wall/out/{name}.json')) for name in ('hazard', 'trace'))
+kind, = hazard['frequencies']
+assert abs(kind['frequency_per_a'] - 0.5) < 1e-9 and kind['event'] == 'rock', kind
+assert trace['objects'][0]['name'] == 'road'
+PY
+[ -s wall/out/report.html ] || fail 'no report'
+cmp -s wall/out/rock/blocks_1.h5 wall/out/rock/blocks_2.h5 && fail 'two runs have the same rocks'
+
+# the folder: the same ground, five cells of the wall
+mkdir folder
+cp dem.asc folder
+cells() { # cells NAME VALUE ELSEWHERE: five cells in the wall have the value
+  awk -v v="$2" -v other="$3" 'NR <= 6 { print; next }
+    { for (c = 1; c <= NF; c++) printf "%g ", NR == 16 && c > 15 && c < 21 ? v : other; print "" }' dem.asc >"folder/$1.asc"
+}
+cells rockdensity 2700 0
+for d in d1 d2 d3; do cells $d 0.8 0; done
+cells blshape 1 0
+cells soiltype 6 3
+cells rg70 0.1 0.1
+cells nrtrees 0 200
+cells dbhmean 25 25
+echo x >folder/net.asc
+gdal_translate -q -ot Float64 -a_srs EPSG:25832 folder/dem.asc crs.tif
+gdalsrsinfo -o wkt_esri EPSG:25832 >folder/dem.prj
+expect 2 new cells folder "" "$source_dir/pipelines" "" no
+says 'ROCKFALL is no, expected yes'
+expect 1 new cells folder "" "$source_dir/pipelines"
+says 'a folder of Rockyfor3D needs ROCKFALL=yes'
+expect 0 new cells folder "" "$source_dir/pipelines" "" yes
+says 'not taken over: rg70.asc' 
+says 'not taken over: net.asc: unknown'
+for words in 'density_kg_m3 = 2700' 'soil = "rock"' 'raster_values = \[6\]' 'soil = "scree"' 'nrtrees_raster = '; do
+  grep -q "^$words" cells/site.toml || fail "the site has no $words"
+done
+expect 0 make -C cells BIN= blocks
+prints '5 blocks, 2.56 m3'
+nothing_left other
