@@ -33,8 +33,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
 def library_of(path):
     """Name of the library that a file of libcore needs, by its suffix; empty for a plain one."""
-    word = path.stem.rsplit("_", 1)[-1]
-    return word if word in LIBRARY_HEADERS else ""
+    _, _, word = path.stem.rpartition("_")
+    return word if word in LIBRARY_HEADERS and path.stem != word else ""
 
 
 def sources_of(root, *folders):
@@ -95,8 +95,7 @@ def tools_of(root):
         folder = module_of(root, path)
         for bracket, header in INCLUDE.findall(path.read_text()):
             where = f"{path.relative_to(root)} includes {header}"
-            if bracket == "<" and any(pattern.match(header) for library, pattern in LIBRARY_HEADERS.items()
-                                      if library != "json"):
+            if bracket == "<" and any(pattern.match(header) for pattern in LIBRARY_HEADERS.values()):
                 yield f"{where}: tools use libraries through libcore only"
             if bracket == '"' and header.startswith("tools/") and \
                     "/".join(header.split("/")[:2]) not in (folder, "tools/frame"):

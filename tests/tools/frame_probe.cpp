@@ -5,14 +5,14 @@
 #include <fstream>
 #include <thread>
 
-#include "tools/frame/options.hpp"
+#include "tools/frame/tool.hpp"
 
 int main(int argc, char** argv) {
   std::string source, target, second, mode = "copy";
   double factor_m = 0.5;
   talus::Tool tool("frame-probe", "Copies a file.");
   tool.input("source", source, "file to copy");
-  tool.output("-o,--out", target, "where to")->required();
+  tool.output("-o,--out", target, "where to").required();
   tool.output("--second", second, "another copy");
   tool.option("--mode", mode, "copy, refuse, fail, break, check, throw, wait or hold");
   tool.option("--factor-m", factor_m, "a number [m]");

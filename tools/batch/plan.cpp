@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "base/sha256.hpp"
@@ -14,7 +15,7 @@
 #include "site/uncertainty.hpp"
 #include "tools/batch/processes.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace talus {
 namespace {
@@ -236,8 +237,10 @@ std::vector<std::size_t> to_make_here(const BatchPlan& plan) {
 }
 
 std::vector<std::string> tool_words(const BatchPlan& plan, const std::string& tool) {
-  std::vector<std::string> words = CLI::detail::split(plan.launcher, ' ');
-  std::erase(words, "");
+  std::vector<std::string> words;
+  std::istringstream launcher(plan.launcher);
+  for (std::string word; std::getline(launcher, word, ' ');)
+    if (!word.empty()) words.push_back(word);
   if (words.empty() || plan.launcher.ends_with(' ')) words.emplace_back();
   words.back() += tool;
   return words;

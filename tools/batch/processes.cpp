@@ -63,7 +63,7 @@ Json output_of(const std::vector<std::string>& words) {
   }
   close(file);
   const int status = waited(pid);
-  Json json = Json::parse(out, nullptr, false);
+  Json json = Json::parse_or_null(out);
   if (status != 0 || !json.is_object())
     throw InputError({words[0]}, "refuses what it is asked, see above");
   return json;
@@ -106,7 +106,7 @@ bool Process::read(const std::function<void(const std::string&, const std::strin
     const std::string line = unread_.substr(0, end);
     unread_.erase(0, end + 1);
     if (line.empty()) continue;
-    const Json json = Json::parse(line, nullptr, false);
+    const Json json = Json::parse_or_null(line);
     const bool is_object = json.is_object();
     if (is_object && json.contains("progress")) {
       progress_ = json["progress"].get<double>();

@@ -21,9 +21,10 @@
 #include "base/text.hpp"
 #include "tools/batch/plan.hpp"
 #include "tools/batch/processes.hpp"
+#include "tools/frame/command_line.hpp"
 #include "tools/frame/machine.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace {
 
@@ -38,19 +39,16 @@ void declare(Tool& tool, BatchOptions& o) {
   tool.option("--runs", o.runs,
               "runs of each case, or auto: as many as [place.*] half_width wants; default: those "
               "of the site file");
-  tool.option("--most", o.most, "runs of each case that auto makes at most")
-      ->check(CLI::Range(1, 1000000));
+  tool.option("--most", o.most, "runs of each case that auto makes at most").between(1, 1000000);
   tool.option("--seed", o.seed, "of the first run; -1: that of the site file")
-      ->check(CLI::Range(std::int64_t{-1}, std::int64_t{1} << 53));
-  tool.option("--case", o.cases,
-              "NAME=OPTIONS of talus-dda: a variant, of which as many runs are made")
-      ->allow_extra_args(false);
-  tool.option("--weight", o.weights, "NAME=NUMBER: what a case counts among the others; of each")
-      ->allow_extra_args(false);
+      .between(std::int64_t{-1}, std::int64_t{1} << 53);
+  tool.list("--case", o.cases,
+            "NAME=OPTIONS of talus-dda: a variant, of which as many runs are made");
+  tool.list("--weight", o.weights, "NAME=NUMBER: what a case counts among the others; of each");
   tool.option(
           "--jobs", o.jobs,
           "runs at a time; 0, the default: as make -j says, or as many as the machine has cores")
-      ->check(CLI::Range(0, 4096));
+      .between(0, 4096);
   tool.option("--part", o.part,
               "K/N: every N-th run from the K-th, brought together in a file of talus-reduce; 0/N "
               "with --status: which parts lack runs");
@@ -58,7 +56,7 @@ void declare(Tool& tool, BatchOptions& o) {
               "words before the names of tools, e.g. \"srun -n1 /opt/talus/\"; default: the folder "
               "of this tool");
   tool.flag("--status", o.status, "say what is to be made, and make nothing");
-  tool.app().add_option("dda_options", o.dda_options, "behind --: further options of talus-dda");
+  tool.list("dda_options", o.dda_options, "behind --: further options of talus-dda");
   tool.footer("Example:\n  talus-batch site.toml --results out --runs 50 --jobs 4 -- --settle");
 }
 

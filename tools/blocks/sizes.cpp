@@ -7,7 +7,7 @@
 #include "base/text.hpp"
 #include "blocks/size_fit.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace talus {
 namespace {
@@ -64,9 +64,9 @@ void declare_sizes(Tool& tool, SizeOptions& o) {
       "V30, V100 and V300");
   tool.option("--anchor-volume-m3", o.anchor_volume_m3,
               "volume that a block had or exceeded once in --anchor-years [m3]")
-      ->check(number_between(1e-9, 1e9, true));
+      .check(number_between(1e-9, 1e9, true));
   tool.option("--anchor-years", o.anchor_years, "return period of that event [a]")
-      ->check(number_between(1e-3, 1e6, true));
+      .check(number_between(1e-3, 1e6, true));
   tool.output("--scenarios", o.scenarios,
               "sections [hazard.class.*] with frequencies for a site file (TOML), of --sizes");
 }

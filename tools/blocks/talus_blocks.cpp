@@ -20,8 +20,8 @@
 #include "tools/blocks/rockfall.hpp"
 #include "tools/blocks/sizes.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace {
 
@@ -37,9 +37,9 @@ struct Options {
 void declare(Tool& tool, Options& o) {
   tool.input("--trn", o.trn, "terrain before the slide (talus-trn)");
   tool.output("-o,--out", o.files.blocks, "block set to write (HDF5)");
-  tool.app().add_flag("--exact", o.exact,
-                      "keep blocks as they are cut, non-convex at the ground, as unions of convex "
-                      "parts; default: convex inside their joint cell");
+  tool.flag("--exact", o.exact,
+            "keep blocks as they are cut, non-convex at the ground, as unions of convex "
+            "parts; default: convex inside their joint cell");
   tool.output("--trn-out", o.files.trn,
               "terrain lowered to the failure surface, the bed that the blocks lie on (GeoTIFF)");
   tool.output("--report", o.files.report, "volumes, sizes, shapes, joints (JSON)");

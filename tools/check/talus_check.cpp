@@ -13,9 +13,9 @@
 #include "tools/frame/doubts.hpp"
 #include "tools/frame/doubts_json.hpp"
 #include "tools/frame/hazard_recipe.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace {
 
@@ -31,20 +31,20 @@ struct Options {
 };
 
 void declare(Tool& tool, Options& o) {
-  tool.input("--trn", o.files.trn, "terrain before the slide (talus-trn)")->required();
+  tool.input("--trn", o.files.trn, "terrain before the slide (talus-trn)").required();
   tool.input("--bed", o.files.bed, "terrain that the blocks lie on (talus-blocks --trn-out)")
-      ->required();
-  tool.input("--blocks", o.files.blocks, "block set (talus-blocks)")->required();
+      .required();
+  tool.input("--blocks", o.files.blocks, "block set (talus-blocks)").required();
   tool.output("-o,--out", o.page, "page with map, section and numbers (HTML)");
   tool.output("--report", o.report, "the numbers (JSON)");
-  tool.app()
-      .add_option("--probe-s", o.probe_s,
-                  "seconds of the run that the engine computes, 0: none; not given: 4, or 1 or "
-                  "none with so many blocks that the probe would take more than 20 CPU s")
-      ->check(CLI::Range(0.0, 60.0));
+  tool.option("--probe-s", o.probe_s,
+              "seconds of the run that the engine computes, 0: none; not given: 4, or 1 or "
+              "none with so many blocks that the probe would take more than 20 CPU s")
+      .between(0.0, 60.0)
+      .without_default();
   tool.option("--runs", o.n_runs,
               "runs that are to be computed, for their time; 0: [solver] n_runs")
-      ->check(CLI::Range(0, 1000000));
+      .between(0, 1000000);
   tool.flag("--settle", o.files.settle,
             "the runs lift blocks onto the ground and move small overlaps apart");
   tool.inputs("--reports", o.reports,

@@ -6,8 +6,8 @@
 #include "setup/site_crs_gdal.hpp"
 #include "tools/dda/report.hpp"
 #include "tools/dda/run.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace {
 
@@ -16,12 +16,12 @@ using namespace talus;  // NOLINT: a program of its own
 void declare(Tool& tool, SiteOptions& site, DdaOptions& o) {
   tool.input("--trn", o.request.files.trn,
              "terrain that the blocks slide on (talus-trn, talus-blocks)")
-      ->required();
-  tool.input("--blocks", o.request.files.blocks, "block set (talus-blocks)")->required();
+      .required();
+  tool.input("--blocks", o.request.files.blocks, "block set (talus-blocks)").required();
   tool.output("-o,--out", o.out, "run to write (HDF5); not needed for --plan");
-  tool.app().add_flag("--plan{show}", o.plan,
-                      "print what the scene needs and what is left out, then end; --plan=full "
-                      "computes everything");
+  tool.flag("--plan{show}", o.plan,
+            "print what the scene needs and what is left out, then end; --plan=full "
+            "computes everything");
   tool.flag("--resume", o.resume, "go on from the checkpoint of a run that was stopped, if any");
   tool.flag(
       "--settle", o.request.files.settle,
@@ -32,11 +32,11 @@ void declare(Tool& tool, SiteOptions& site, DdaOptions& o) {
               "weighed against others");
   tool.option("--passages-by", o.passages_by,
               "a cell is passed while the footprint or only the centroid is over it")
-      ->check(CLI::IsMember({"footprint", "centroid"}));
+      .one_of({"footprint", "centroid"});
   tool.option("--threads", o.threads,
               "threads that share a step; 0, the default: all that the machine or the Slurm task "
               "gives, one inside make -j; the run has the same bytes with any number")
-      ->check(CLI::Range(0, 1024));
+      .between(0, 1024);
   site.option(tool, "--seed", "solver.seed", "seed of scatter and jitter");
   tool.footer(
       "Example:\n  talus-dda site.toml --trn bed.tif --blocks blocks.h5 -o run.h5\n"

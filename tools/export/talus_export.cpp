@@ -15,7 +15,7 @@
 #include "io/trn_digest.hpp"
 #include "store/xdmf_hdf5.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace {
 
@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
              "run of talus-dda, or blocks at rest of talus-blocks (HDF5)");
   tool.output("-o,--out", o.out,
               "PLY, OBJ, GLB, VTP of one moment, or XDMF of all frames, by its ending")
-      ->required();
+      .required();
   tool.input("--trn", o.trn, "terrain of the runs (GeoTIFF of talus-trn)");
   tool.option("--time-s", o.time_s,
               "moment, of which the nearest frame is taken [s]; nan: the end");

@@ -11,8 +11,8 @@
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace {
 
@@ -27,19 +27,17 @@ struct Options {
 };
 
 void declare(Tool& tool, Options& o) {
-  tool.output("-o,--out", o.out, "candidates, front and proposals (GeoPackage)")->required();
+  tool.output("-o,--out", o.out, "candidates, front and proposals (GeoPackage)").required();
   tool.json_output(o.json, "the result (JSON)");
   tool.output_folder("--charts", o.charts, "folder for a chart a search: cost and what is left");
   tool.output_folder("--proposals", o.proposals,
                      "folder for the proposals, as sections for talus-dda --add");
   tool.option("--search", o.only, "this [fence_search.*] alone");
   tool.option("--n-proposals", o.n_proposals, "fences that are proposed, each search")
-      ->check(CLI::Range(1, 10));
+      .between(1, 10);
   tool.flag("--no-refine", o.no_refine, "leave fences on their candidate lines");
-  tool.app()
-      .add_option("--verified", o.verified,
-                  "NAME=FOLDER or NAME=RUN.h5: runs with other seeds in which proposal NAME stood")
-      ->allow_extra_args(false);
+  tool.list("--verified", o.verified,
+            "NAME=FOLDER or NAME=RUN.h5: runs with other seeds in which proposal NAME stood");
   tool.footer(
       "Example:\n  talus-fence-search site.toml run_*.h5 --trn bed.tif -o search.gpkg --proposals "
       "proposals\n  talus-dda site.toml --add proposals/house-1.toml --seed 101 ...\n  "

@@ -10,9 +10,9 @@
 #include "tools/fence/layers.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/run_inputs.hpp"
 #include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace {
 
@@ -27,7 +27,7 @@ struct Options {
 void declare(Tool& tool, Options& o) {
   DesignInput& design = o.result.design;
   design.block_volume = design.deflection = design.distance_to_object = std::nan("");
-  tool.output("-o,--out", o.out, "fields, posts and arrivals (GeoPackage)")->required();
+  tool.output("-o,--out", o.out, "fields, posts and arrivals (GeoPackage)").required();
   tool.json_output(o.json, "verdicts, statistics, design check, comparison (JSON)");
   tool.output("--csv", o.csv, "one row a block and fence: its verdict (CSV)");
   tool.inputs("--without", o.without,
@@ -36,21 +36,20 @@ void declare(Tool& tool, Options& o) {
               "deposit and speed with the fences minus those of --without (GeoTIFF; style and "
               "pages beside it)");
   tool.option("--code", o.code, "design code: uni, onr, or a data file (CSV)");
-  tool.option("--consequence-class", design.consequence_class, "of ONR 24810")
-      ->check(CLI::Range(1, 3));
+  tool.option("--consequence-class", design.consequence_class, "of ONR 24810").between(1, 3);
   tool.flag("--service-level", design.service_level, "UNI: check the service energy level (SEL)");
   tool.option("--design-block-m3", design.block_volume,
               "volume of the design block [m3]; nan: 95th percentile of the blocks that arrive")
-      ->check(CLI::PositiveNumber);
+      .positive();
   tool.option("--deflection-m", design.deflection, "largest deflection of the barrier [m]")
-      ->check(CLI::NonNegativeNumber);
+      .not_negative();
   tool.option("--object-distance-m", design.distance_to_object,
               "distance from the fence to the object behind it [m]")
-      ->check(CLI::PositiveNumber);
+      .positive();
   tool.option("--free-border-m", design.free_border, "f_min [m]; nan: that of the code")
-      ->check(CLI::NonNegativeNumber);
+      .not_negative();
   tool.option("--bulking", o.result.bulking, "volume of piled blocks over that of their rock")
-      ->check(CLI::Range(1.0, 3.0));
+      .between(1.0, 3.0);
   tool.footer(
       "Example:\n  talus-fence site.toml run_*.h5 --trn slope.tif -o fence.gpkg --json fence.json\n"
       "  talus-fence site.toml with.h5 --without without.h5 --trn slope.tif -o fence.gpkg");

@@ -1,11 +1,11 @@
 #include "tools/frame/command_line.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cstring>
 
 #include "base/text.hpp"
-#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {

@@ -12,8 +12,8 @@ namespace talus {
 namespace {
 
 std::string attitude_text(const Json& plane) {
-  return "dips " + tenths(plane["dip_deg"]) + " degrees towards " +
-         tenths(plane["dip_direction_deg"]);
+  return "dips " + tenths(plane["dip_deg"].get<double>()) + " degrees towards " +
+         tenths(plane["dip_direction_deg"].get<double>());
 }
 
 Json json_of(const FailurePlane& plane, double friction, const Vec3& origin) {
@@ -39,21 +39,22 @@ Json json_of(const FailurePlane& plane, double friction, const Vec3& origin) {
 
 // What the plane does at the foot, and how much of it is steeper than friction.
 std::string foot_text(const Json& plane) {
-  std::string words = tenths(plane["above_friction_deg"]) +
+  std::string words = tenths(plane["above_friction_deg"].get<double>()) +
                       " degrees steeper than friction; comes out of the ground along " +
-                      percent(plane["free_share_of_foot"]) + " of the foot";
+                      percent(plane["free_share_of_foot"].get<double>()) + " of the foot";
   if (!plane["comes_out_from_m"].is_null())
     words += ", " + grouped_text(std::round(plane["comes_out_from_m"].get<double>()), 5) + " to " +
              grouped_text(std::round(plane["comes_out_to_m"].get<double>()), 5) + " m";
-  if (plane["largest_step_at_foot_m"] > 0)
-    words += ", a step of up to " + text(plane["largest_step_at_foot_m"], 2) + " m on the rest";
+  if (plane["largest_step_at_foot_m"].get<double>() > 0)
+    words += ", a step of up to " + text(plane["largest_step_at_foot_m"].get<double>(), 2) +
+             " m on the rest";
   return words;
 }
 
 std::string mass_text(const Json& plane) {
   return grouped_text(plane["volume_m3"].get<double>(), 3) + " m3, " +
-         text(plane["mean_depth_m"], 3) + " m deep on average, " +
-         text(plane["largest_depth_m"], 3) + " m at most";
+         text(plane["mean_depth_m"].get<double>(), 3) + " m deep on average, " +
+         text(plane["largest_depth_m"].get<double>(), 3) + " m at most";
 }
 
 double azimuth_deg(double azimuth) { return std::fmod(azimuth / degree + 360, 360); }
@@ -119,10 +120,10 @@ std::string best_plane_text(const Json& planes) {
   for (const Json& wedge : planes["wedges"])
     if (wedge["sets"] == planes["taken"])
       return "failure wedge of sets " + wedge["sets"].get<std::string>() + ": along " +
-             tenths(wedge["plunge_deg"]) + " degrees towards " + tenths(wedge["trend_deg"]) +
-             ", factor of safety " + text(wedge["factor_of_safety"], 3) +
-             "; comes out of the ground along " + percent(wedge["free_share_of_foot"]) +
-             " of the foot";
+             tenths(wedge["plunge_deg"].get<double>()) + " degrees towards " +
+             tenths(wedge["trend_deg"].get<double>()) + ", factor of safety " +
+             text(wedge["factor_of_safety"].get<double>(), 3) + "; comes out of the ground along " +
+             percent(wedge["free_share_of_foot"].get<double>()) + " of the foot";
   for (const Json& plane : planes["sets"])
     if (plane["set"] == planes["taken"])
       return "failure plane of set " + plane["set"].get<std::string>() + ": " +

@@ -10,7 +10,7 @@
 #include "io/crs_gdal.hpp"
 #include "setup/vector_inputs_gdal.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace talus {
 namespace {
@@ -86,21 +86,16 @@ void declare_import_options(Tool& tool, ImportOptions& o) {
   tool.input("--spots", o.spots.path, "spot heights (points)");
   tool.input("--boundary", o.boundary.path,
              "polygons or closed lines: triangles with their centre outside go");
-  tool.app()
-      .add_option("--elevation-field", o.fields,
-                  "field with the elevation of the contours, Z: the geometries' own; INPUT=FIELD: "
-                  "of labels, breaklines or spots")
-      ->allow_extra_args(false);
+  tool.list("--elevation-field", o.fields,
+            "field with the elevation of the contours, Z: the geometries' own; INPUT=FIELD: "
+            "of labels, breaklines or spots");
   tool.option("--elevation-unit-m", o.elevation_unit_m,
               "metres in one unit of all elevations; 0: as their height system says, else metres")
-      ->check(check_positive);
-  tool.app()
-      .add_option(
-          "--unit-m", o.units,
-          "metres in one unit of the contours, in plan and height; INPUT=METRES: of labels, "
-          "breaklines, spots or boundary")
-      ->allow_extra_args(false)
-      ->check([&o](const std::string& words) { return check_positive(of_input(o, words).second); });
+      .check(check_positive);
+  tool.list("--unit-m", o.units,
+            "metres in one unit of the contours, in plan and height; INPUT=METRES: of labels, "
+            "breaklines, spots or boundary")
+      .check([&o](const std::string& words) { return check_positive(of_input(o, words).second); });
   declare_crs_options(tool, o.crs);
 }
 

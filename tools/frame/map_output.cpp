@@ -10,7 +10,7 @@
 #include "io/polygons_gdal.hpp"
 #include "io/tags_gdal.hpp"
 #include "post/maps/map_drawing.hpp"
-#include "tools/frame/options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace talus {
 namespace {
@@ -135,7 +135,7 @@ CellWindow window_of_map(const std::string& path, const PassageGrid& grid, const
 void add_pages_option(Tool& tool, PageOptions& pages) {
   tool.option("--pages", pages.words,
               "a page of each map beside it: png, pdf or png,pdf; of the size A3 with ,a3")
-      ->check([](const std::string& words) -> std::string {
+      .check([](const std::string& words) -> std::string {
         const PageOptions given{words};
         std::string rest = "," + words;
         for (const char* word : {",png", ",pdf", ",a3"})

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -11,7 +12,6 @@
 #include "base/file_paths.hpp"
 #include "base/text.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace fs = std::filesystem;

@@ -10,7 +10,7 @@
 #include "io/trn_digest.hpp"
 #include "post/deposit.hpp"
 #include "site/site.hpp"
-#include "tools/frame/options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace talus {
 namespace {
@@ -44,7 +44,7 @@ std::string content_of(const std::vector<RunMember>& runs) {
 RunInputs::RunInputs(Tool& tool, RunUse use) : tool_(tool), use_(use) {
   tool.inputs("run", paths_,
               "runs of talus-dda and parts of talus-reduce (HDF5), in any order, or their folder");
-  tool.input("--trn", trn_file, "terrain of the runs (GeoTIFF of talus-trn)")->required();
+  tool.input("--trn", trn_file, "terrain of the runs (GeoTIFF of talus-trn)").required();
   // the runs themselves stand for them
   tool.leave_out_of_run_id({"run", "without", "compare"});
 }

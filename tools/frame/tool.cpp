@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -23,7 +24,6 @@
 #include "tools/frame/doubts_json.hpp"
 #include "tools/frame/exit_code.hpp"
 #include "tools/frame/gone_options.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/output_checks.hpp"
 #include "tools/frame/progress_line.hpp"
 #include "tools/frame/run_record.hpp"
@@ -74,9 +74,7 @@ constexpr const char* by_content_role = "by content";
 
 }  // namespace
 
-std::string json_text(const Json& json, int indent) {
-  return printable_json(json.dump(indent, ' ', false, Json::error_handler_t::replace));
-}
+std::string json_text(const Json& json, int indent) { return printable_json(json.dump(indent)); }
 
 struct Tool::Impl {
   std::string name;
@@ -380,45 +378,41 @@ Tool::~Tool() = default;
 
 CLI::App& Tool::app() { return impl_->app; }
 
-CLI::Option* Tool::input(const std::string& name, std::string& path, const std::string& help) {
+ToolOption Tool::input(const std::string& name, std::string& path, const std::string& help) {
   CLI::Option* option = app().add_option(name, path, help);
   if (name[0] != '-') option->required();
   impl_->options.inputs.push_back({option, [&path] { return std::vector<std::string>{path}; }});
-  return option;
+  return ToolOption(option);
 }
 
-CLI::Option* Tool::inputs(const std::string& name, std::vector<std::string>& paths,
-                          const std::string& help) {
+ToolOption Tool::inputs(const std::string& name, std::vector<std::string>& paths,
+                        const std::string& help) {
   CLI::Option* option = app().add_option(name, paths, help);
   if (name[0] != '-') option->required();
   impl_->options.inputs.push_back({option, [&paths] { return paths; }});
-  return option;
+  return ToolOption(option);
 }
 
-CLI::Option* Tool::output(const std::string& name, std::string& path, const std::string& help) {
+ToolOption Tool::output(const std::string& name, std::string& path, const std::string& help) {
   CLI::Option* option = app().add_option(name, path, help);
   impl_->options.outputs.push_back({option, &path, false});
-  return option;
+  return ToolOption(option);
 }
 
-CLI::Option* Tool::output_folder(const std::string& name, std::string& path,
-                                 const std::string& help) {
+ToolOption Tool::output_folder(const std::string& name, std::string& path,
+                               const std::string& help) {
   CLI::Option* option = app().add_option(name, path, help);
   impl_->options.outputs.push_back({option, &path, true});
-  return option;
+  return ToolOption(option);
 }
 
 void Tool::json_output(std::string& path, const std::string& help) {
   std::erase(impl_->options.common, app().get_option("--json"));
   app().remove_option(app().get_option("--json"));
-  CLI::Option* const option = output("--json", path, help)->expected(0, 1);
-  option->default_str("");
+  output("--json", path, help).without_default();
+  CLI::Option* const option = app().get_option("--json")->expected(0, 1);
   impl_->options.json_path = &path;
   impl_->options.json_option = option;
-}
-
-CLI::Option* Tool::flag(const std::string& name, bool& value, const std::string& help) {
-  return app().add_flag(name, value, help);
 }
 
 void Tool::footer(const std::string& text) { app().footer(text); }
@@ -540,6 +534,7 @@ void Tool::result(Json result, const std::string& summary) {
 }
 
 bool Tool::overwrite() const { return impl_->options.overwrite; }
+double Tool::memory_mb() const { return impl_->options.memory_mb; }
 
 bool Tool::is_recorded() const { return !impl_->options.no_db; }
 

@@ -4,16 +4,16 @@
 // only catch. A tool is a list of options and one function. docs/tools/common.md
 #pragma once
 
-#include <cmath>
+#include <cstdint>
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/input_log.hpp"
+#include "base/json.hpp"
 
 namespace CLI {
 class App;
@@ -22,15 +22,8 @@ class Option;
 
 namespace talus {
 
-using Json = nlohmann::ordered_json;
-
 /// JSON as text that may reach a file or a terminal, whatever bytes its texts came with.
 [[nodiscard]] std::string json_text(const Json& json, int indent = -1);
-
-/// null for NaN and infinity, which JSON does not have.
-[[nodiscard]] inline Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
 
 /// One effective setting and where it came from: "default", "cli", or a place in the site file.
 struct ConfigValue {
@@ -39,34 +32,64 @@ struct ConfigValue {
   std::string source;
 };
 
+/// An option that was declared. Each function says more of it and returns it.
+class ToolOption {
+ public:
+  explicit ToolOption(CLI::Option* option) : option_(option) {}
+  const ToolOption& required(bool is = true) const;
+  const ToolOption& needs(const ToolOption& other) const;  ///< is refused without it
+  const ToolOption& one_of(const std::vector<std::string>& words) const;
+  const ToolOption& between(int low, int high) const;
+  const ToolOption& between(std::int64_t low, std::int64_t high) const;
+  const ToolOption& between(double low, double high) const;
+  const ToolOption& positive() const;
+  const ToolOption& not_negative() const;
+  const ToolOption& existing_file() const;
+  /// `fault_of` a word: what is wrong with it; empty: nothing.
+  const ToolOption& check(const std::function<std::string(const std::string&)>& fault_of) const;
+  const ToolOption& without_default() const;  ///< what it is without, its help says in words
+  [[nodiscard]] bool is_given() const;
+
+ private:
+  CLI::Option* option_;
+};
+
 class Tool : public InputLog {
  public:
   /// `name` as typed ("talus-tin"); `purpose` one sentence for --help.
   Tool(std::string name, std::string purpose);
   ~Tool() override;
 
-  /// For what the functions below do not cover (groups, sub-commands).
+  /// For what the functions below do not cover (sub-commands).
   CLI::App& app();
 
   // --- declare, before run() ---------------------------------------------------------------------
   /// A file read: must exist; hashed into the registry under the option's name. A name without
   /// dashes is positional and required. GDAL's virtual paths (/vsi...) are passed on unchecked;
   /// what stands behind the file's name ("|layername=a", a member of an archive) is recorded.
-  CLI::Option* input(const std::string& name, std::string& path, const std::string& help);
-  CLI::Option* inputs(const std::string& name, std::vector<std::string>& paths,
-                      const std::string& help);
+  ToolOption input(const std::string& name, std::string& path, const std::string& help);
+  ToolOption inputs(const std::string& name, std::vector<std::string>& paths,
+                    const std::string& help);
   /// A file written: refused when it exists and --overwrite is not given, when it is also an input,
   /// or when its folder cannot be written. runs.sqlite stands beside the first one given.
-  CLI::Option* output(const std::string& name, std::string& path, const std::string& help);
+  ToolOption output(const std::string& name, std::string& path, const std::string& help);
   /// A folder written into, made when missing; refused when not empty without --overwrite.
-  CLI::Option* output_folder(const std::string& name, std::string& path, const std::string& help);
+  ToolOption output_folder(const std::string& name, std::string& path, const std::string& help);
   /// Lets --json name a file that the result is written to; without a name it prints, as always.
   void json_output(std::string& path, const std::string& help);
   /// A value; its default is shown by --help, and its effective value is recorded with its source.
-  /// Include options.hpp to declare some.
+  /// tool_option.cpp lists the types.
   template <class T>
-  CLI::Option* option(const std::string& name, T& value, const std::string& help);
-  CLI::Option* flag(const std::string& name, bool& value, const std::string& help);
+  ToolOption option(const std::string& name, T& value, const std::string& help);
+  /// A value that is taken as it is read.
+  ToolOption option(const std::string& name, const std::function<void(const std::string&)>& take,
+                    const std::string& help);
+  /// Words: one each time the option is given, or all that stand in this place.
+  ToolOption list(const std::string& name, std::vector<std::string>& words,
+                  const std::string& help);
+  ToolOption flag(const std::string& name, bool& value, const std::string& help);
+  /// A flag that may be given a word, as --plan=full.
+  ToolOption flag(const std::string& name, std::string& word, const std::string& help);
   /// Remarks below the options in --help, e.g. an example.
   void footer(const std::string& text);
   /// Settings beyond the command line (a site file's), asked for once the command line is known;
@@ -115,6 +138,7 @@ class Tool : public InputLog {
   /// What --json prints; without --json `summary` goes to stdout, not with -q.
   void result(Json result, const std::string& summary);
   [[nodiscard]] bool overwrite() const;
+  [[nodiscard]] double memory_mb() const;      ///< as given; 0: what is free
   [[nodiscard]] bool is_recorded() const;      ///< not with --no-db
   [[nodiscard]] std::string registry() const;  ///< that runs are recorded in, whether or not there
   /// Leaves these out of run_id(): settings by their keys and inputs by their roles that equal

@@ -1,10 +1,10 @@
 #include "tools/frame/tool_description.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "base/text.hpp"
 #include "tools/frame/build_info.hpp"
-#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {

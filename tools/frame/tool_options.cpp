@@ -1,5 +1,6 @@
 #include "tools/frame/tool_options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 
@@ -8,7 +9,6 @@
 #include "base/text.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {

@@ -12,7 +12,7 @@
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
-#include "tools/frame/options.hpp"
+#include "tools/frame/tool.hpp"
 #include "tools/hazard/inputs.hpp"
 #include "tools/hazard/layers.hpp"
 
@@ -25,25 +25,24 @@ struct Options {
   std::string folder, json;
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   PageOptions pages;
-  const CLI::Option* memory = nullptr;  // --memory-mb, of every tool
+  const Tool* tool = nullptr;
 
   // Rows that may be held: a list that grows holds up to three times what stands in it.
   [[nodiscard]] std::uint64_t most_rows() const {
     constexpr double usual_mb = 600;
-    const double given_mb = memory->count() > 0 ? memory->as<double>() : 0;
-    const double memory_mb = given_mb > 0 ? given_mb : usual_mb;
+    const double memory_mb = tool->memory_mb() > 0 ? tool->memory_mb() : usual_mb;
     return static_cast<std::uint64_t>(memory_mb * 1e6 / (3 * sizeof(EventRow)));
   }
 };
 
 void declare(Tool& tool, Options& o) {
-  tool.output_folder("-o,--out", o.folder, "folder for the maps")->required();
+  tool.output_folder("-o,--out", o.folder, "folder for the maps").required();
   tool.option("--cell-size-m", o.cell_size_m,
               "cell of the maps, a whole multiple of the recorded one [m]; nan: as recorded")
-      ->check(number_between(0, 1e6, true));
+      .check(number_between(0, 1e6, true));
   add_pages_option(tool, o.pages);
   tool.json_output(o.json, "the result (JSON)");
-  o.memory = tool.app().get_option("--memory-mb");
+  o.tool = &tool;
   tool.footer(
       "Example:\n  talus-hazard site.toml run_1.h5 run_2.h5 --trn bed.tif -o hazard --pages png\n"
       "  talus-hazard site.toml runs --trn bed.tif -o hazard");

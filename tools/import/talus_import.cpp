@@ -163,7 +163,7 @@ int main(int argc, char** argv) {
   Tool tool("talus-import", "Brings what a site is made from to one form.");
   SiteOptions site(tool);
   declare_import_options(tool, o.ground);
-  tool.output("-o,--out", o.out, "layers in metres and in one system (GeoPackage)")->required();
+  tool.output("-o,--out", o.out, "layers in metres and in one system (GeoPackage)").required();
   tool.output("--report", o.report, "every decision, and how large the numbers are (JSON)");
   declare_doubts_layer(tool, o.doubts);
   tool.footer("Example:\n  talus-import site.toml -o inputs.gpkg --report import.json");

@@ -16,8 +16,8 @@
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/run_inputs.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace {
 
@@ -33,31 +33,30 @@ struct Options {
   talus::MapSettings settings;
   talus::PageOptions pages;
   double half_width = 0.05;
-  const CLI::Option* memory = nullptr;  // --memory-mb, of every tool
+  const Tool* tool = nullptr;
 
   // Rows that may be held: each twice while they are sorted.
   [[nodiscard]] std::uint64_t most_rows() const {
     constexpr double usual_mb = 2000;
-    const double given_mb = memory->count() > 0 ? memory->as<double>() : 0;
-    const double memory_mb = given_mb > 0 ? given_mb : usual_mb;
+    const double memory_mb = tool->memory_mb() > 0 ? tool->memory_mb() : usual_mb;
     return static_cast<std::uint64_t>(memory_mb * 1e6 / (2 * sizeof(talus::MapRow)));
   }
 };
 
 void declare(Tool& tool, Options& o) {
-  tool.output_folder("-o,--out", o.folder, "folder for the maps")->required();
+  tool.output_folder("-o,--out", o.folder, "folder for the maps").required();
   tool.option("--cell-size-m", o.cell_size_m,
               "cell of the maps, a whole multiple of the recorded one [m]; nan: as recorded")
-      ->check(talus::number_between(0, 1e6, true));
+      .check(talus::number_between(0, 1e6, true));
   tool.option("--min-passages", o.settings.min_passages,
               "passages that a percentile needs; 0: 5, 29, 59, 299 for p50, p90, p95, p99")
-      ->check(CLI::Range(0, 1000000000));
+      .between(0, 1000000000);
   talus::add_pages_option(tool, o.pages);
   tool.input("--window-of", o.window_of, "map of the same cells: pages show what its pages show");
-  o.memory = tool.app().get_option("--memory-mb");
+  o.tool = &tool;
   tool.option("--half-width", o.half_width,
               "wanted of the interval of reach_probability: says how many runs to add")
-      ->check(talus::number_between(1e-4, 0.5));
+      .check(talus::number_between(1e-4, 0.5));
   tool.inputs(
       "--compare", o.compared,
       "runs, parts or their folder to compare with: compare.tif holds what these have more");

@@ -12,8 +12,8 @@
 #include "setup/vector_inputs_gdal.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/run_inputs.hpp"
+#include "tools/frame/tool.hpp"
 #include "tools/profile/output.hpp"
 
 namespace {
@@ -32,7 +32,7 @@ void declare(Tool& tool, Options& o) {
   tool.option("--line", o.line,
               "the line: \"x,y x,y ...\" in map coordinates of the terrain, blanks between points");
   tool.input("--line-file", o.line_file, "the line: a vector file that holds one");
-  tool.output("-o,--out", o.out, "crossings, parts of the line, stations (GeoPackage)")->required();
+  tool.output("-o,--out", o.out, "crossings, parts of the line, stations (GeoPackage)").required();
   tool.output_folder(
       "--tables", o.tables,
       "folder for tables and charts: crossings.csv, a row a block; bins.csv, a row a "
@@ -40,9 +40,9 @@ void declare(Tool& tool, Options& o) {
       "count, energy, speed and height (SVG)");
   tool.json_output(o.json, "the result (JSON)");
   tool.option("--step-m", o.step_m, "between stations [m]; nan: the cells of the terrain")
-      ->check(number_between(1e-3, 1e6, true));
+      .check(number_between(1e-3, 1e6, true));
   tool.option("--bin-m", o.bin_m, "parts that blocks are counted by [m]; nan: 10 to 25 of them")
-      ->check(number_between(1e-3, 1e6, true));
+      .check(number_between(1e-3, 1e6, true));
   tool.footer(
       "Example:\n  talus-profile run_*.h5 --trn bed.tif --line-file road.geojson -o profile.gpkg "
       "--tables profile");

@@ -8,8 +8,8 @@
 #include "post/reduce.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/run_inputs.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace {
 
@@ -22,10 +22,10 @@ struct Options {
 };
 
 void declare(Tool& tool, Options& o) {
-  tool.output("-o,--out", o.out, "part to write (HDF5)")->required();
+  tool.output("-o,--out", o.out, "part to write (HDF5)").required();
   tool.option("--path-tolerance-m", o.tolerance_m,
               "no point of a block's path lies farther from its simplified path [m]")
-      ->check(number_between(1e-6, 1e6));
+      .check(number_between(1e-6, 1e6));
   tool.footer(
       "Example:\n  talus-reduce runs/run_*.h5 --trn bed.tif -o part_1.h5\n"
       "  talus-reduce part_1.h5 part_2.h5 --trn bed.tif -o part.h5");

@@ -10,7 +10,7 @@ namespace talus {
 namespace {
 
 std::string plan_table(const ReportData& data) {
-  const Json plan = Json::parse(data.shown.info.plan, nullptr, false);
+  const Json plan = Json::parse_or_null(data.shown.info.plan);
   const Texts& texts = data.texts;
   std::vector<std::vector<std::string>> rows;
   if (plan.is_array())

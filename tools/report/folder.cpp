@@ -50,16 +50,18 @@ void ResultFolder::leave_out(const std::vector<std::string>& names, const std::s
 
 Json ResultFolder::parsed(const std::string& name, const std::string& content) const {
   if (content.empty()) return nullptr;
-  Json json = Json::parse(content, nullptr, false);
+  Json json = Json::parse_or_null(content);
   if (!json.is_object())
     throw InputError({path(name).string()}, "is not a JSON object", "make it again");
   return json;
 }
 
 std::string text_at(const Json& json, const std::string& place) {
-  const Json::json_pointer pointer(place);
-  return json.contains(pointer) && json[pointer].is_string() ? json[pointer].get<std::string>()
-                                                             : "";
+  const Json* at = &json;
+  std::istringstream keys(place.substr(1));
+  for (std::string key; std::getline(keys, key, '/'); at = &at->at(key))
+    if (!at->contains(key)) return "";
+  return at->is_string() ? at->get<std::string>() : "";
 }
 
 Json read_runout(const ResultFolder& folder) {

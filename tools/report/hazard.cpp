@@ -12,11 +12,12 @@ namespace {
 
 std::string class_table(const Texts& texts, const Json& classes) {
   std::vector<std::vector<std::string>> rows;
-  for (auto row = classes.rbegin(); row != classes.rend(); ++row) {
-    const Json area = value_at(*row, {"area_m2"}), certain = value_at(*row, {"certain_area_m2"});
-    rows.push_back({word_text(value_at(*row, {"class"})), word_text(value_at(*row, {"label"})),
+  for (const Json& row : classes) {
+    const Json area = value_at(row, {"area_m2"}), certain = value_at(row, {"certain_area_m2"});
+    rows.push_back({word_text(value_at(row, {"class"})), word_text(value_at(row, {"label"})),
                     number_text(area), number_text(certain)});
   }
+  std::reverse(rows.begin(), rows.end());
   return html_table(texts.list("hazard.heads"), rows, {false, false, true, true});
 }
 

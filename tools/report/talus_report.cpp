@@ -30,9 +30,9 @@
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/doubts_json.hpp"
 #include "tools/frame/fault_json.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
 #include "tools/frame/whole_runs.hpp"
 #include "tools/report/data.hpp"
 #include "tools/report/folder.hpp"
@@ -510,14 +510,14 @@ int main(int argc, char** argv) {
   Options o;
   Tool tool("talus-report", "The results of a site as one HTML file and as a QGIS project.");
   SiteOptions site(tool);
-  tool.app().add_option("--dir", o.dir, "folder with the results of the site")->required();
-  tool.output("-o,--out", o.out, "report to write (HTML, one file)")->required();
-  CLI::Option* const qgis =
+  tool.option("--dir", o.dir, "folder with the results of the site").required();
+  tool.output("-o,--out", o.out, "report to write (HTML, one file)").required();
+  const ToolOption qgis =
       tool.output("--qgis", o.qgis, "project to write (QGZ), with paths relative to it");
   tool.input("--qgis-template", o.qgis_template,
              "project (QGS or QGZ) saved by QGIS 3.22 or later, whose layouts and settings the "
              "project takes in place of the shipped ones: share/talus/report/project.qgs")
-      ->needs(qgis);
+      .needs(qgis);
   tool.input("--texts", o.texts,
              "words of the page (TOML) in place of those shipped, all or some: share/talus/report/"
              "texts.toml has all");

@@ -19,10 +19,10 @@
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/moved_json.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/row_json.hpp"
 #include "tools/frame/run_inputs.hpp"
 #include "tools/frame/shipped_data.hpp"
+#include "tools/frame/tool.hpp"
 #include "tools/runout/json.hpp"
 #include "tools/runout/layers.hpp"
 #include "tools/runout/trees.hpp"
@@ -38,7 +38,7 @@ struct Options {
 };
 
 void declare(Tool& tool, Options& o) {
-  tool.output("-o,--out", o.out, "deposit, paths, streamlines, envelope (GeoPackage)")->required();
+  tool.output("-o,--out", o.out, "deposit, paths, streamlines, envelope (GeoPackage)").required();
   tool.json_output(o.json, "run-out of the event, runs and relations (JSON)");
   tool.output_folder(
       "--tables", o.tables,
@@ -50,10 +50,10 @@ void declare(Tool& tool, Options& o) {
   tool.input("--mobility", o.mobility, "relations to compare with (CSV) [share/mobility.csv]");
   tool.option("--path-tolerance-m", o.tolerance_m,
               "no point of a block's path lies farther from its simplified path [m]")
-      ->check(number_between(1e-6, 1e6));
+      .check(number_between(1e-6, 1e6));
   tool.option("--friction-deg", o.friction_deg,
               "angle of friction, shown beside H_cm/L_cm [deg]; nan: not shown")
-      ->check(number_between(0, 89, true));
+      .check(number_between(0, 89, true));
   tool.flag("--confined", o.confined, "the path is laterally confined (for the relations)");
   tool.footer("Example:\n  talus-runout run.h5 --trn slope.tif -o runout.gpkg --json runout.json");
 }

@@ -1,6 +1,7 @@
 // tools/runs/talus_runs.cpp
 // Reads the run registry: what was run, from what, with which outcome. Page:
 // docs/tools/talus-runs.md
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <limits>
@@ -10,8 +11,8 @@
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "store/runs.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/run_record.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace {
 

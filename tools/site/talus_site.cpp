@@ -15,9 +15,10 @@
 #include "io/data_files_gdal.hpp"
 #include "setup/site_files.hpp"
 #include "site/stages.hpp"
+#include "tools/frame/command_line.hpp"
 #include "tools/frame/object_files.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
 #include "tools/site/file_digests.hpp"
 #include "tools/site/new_layers.hpp"
 
@@ -266,23 +267,20 @@ int main(int argc, char** argv) {
   Tool tool("talus-site", "Parts the site file into what each stage of the pipeline reads.");
   SiteOptions site_options(tool, {}, false);
   NewLayers new_layers;
-  CLI::Option* const out =
+  const ToolOption out =
       tool.output_folder("-o,--out", folder, "folder for a file a stage, and site.mk");
-  tool.app()
-      .add_option(
-          "--given", given,
-          "NAME=FILE: a file that make was given; DIR/NAME.files lists those of a NAME with "
-          "their digests")
-      ->allow_extra_args(false);
-  tool.app().add_option("--results", results,
-                        "folder of the results: refused where it holds a file that is read");
+  tool.list("--given", given,
+            "NAME=FILE: a file that make was given; DIR/NAME.files lists those of a NAME with "
+            "their digests");
+  tool.option("--results", results,
+              "folder of the results: refused where it holds a file that is read");
   declare_new_layers(tool, new_layers);
   tool.footer(
       "Example:\n  talus-site site.toml -o out/stages --overwrite --no-db\n"
       "  talus-site --new-layers site.gpkg --crs-of dem.tif --source release.gpkg --no-db");
   return tool.run(argc, argv, [&] {
     if (!new_layers.out.empty()) return make_new_layers(tool, new_layers);
-    if (site_options.file().empty() || out->count() == 0)
+    if (site_options.file().empty() || !out.is_given())
       throw UsageError({"", 0, "talus-site"}, "needs a site file and a folder to write to",
                        "talus-site site.toml -o out/stages, or --new-layers site.gpkg");
     const Site& site = site_options.load();

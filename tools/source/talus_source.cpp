@@ -14,8 +14,8 @@
 #include "setup/source_cut_gdal.hpp"
 #include "tools/frame/failure_outlines.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace {
 
@@ -29,14 +29,14 @@ struct Options {
 };
 
 void declare(Tool& tool, Options& o) {
-  tool.input("--trn", o.trn, "terrain before the slide (talus-trn)")->required();
+  tool.input("--trn", o.trn, "terrain before the slide (talus-trn)").required();
   tool.output("-o,--out", o.report, "slope, sets and planes (JSON)");
   tool.output("--layers", o.layers,
               "areas of the masses that could leave, by set and by share of the foot (GeoPackage)");
   tool.output("--assume-joints", o.assumed,
               "[source] and [joints.*] for a slope whose joints nobody has measured (TOML)");
   tool.option("--blocks", o.n_blocks, "blocks that the assumed sets should make")
-      ->check(CLI::Range(1, 100000));
+      .between(1, 100000);
   tool.footer("Example:\n  talus-source site.toml --trn trn.tif -o source.json");
 }
 

@@ -17,7 +17,7 @@
 #include "terrain/tin_mesh.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/import_options.hpp"
-#include "tools/frame/options.hpp"
+#include "tools/frame/tool.hpp"
 #include "tools/tin/doubts.hpp"
 
 namespace {
@@ -50,20 +50,20 @@ void declare(Tool& tool, Options& o) {
   tool.input("contours", o.inputs.contours.path,
              "contour lines (any vector source that GDAL reads)");
   talus::declare_import_options(tool, o.inputs);
-  tool.output("-o,--out", o.out, "TIN to write (binary PLY)")->required();
+  tool.output("-o,--out", o.out, "TIN to write (binary PLY)").required();
   tool.option("--flat", o.flat, "flat triangles on summits, ridges, valley floors: fill or keep")
-      ->check(CLI::IsMember({"fill", "keep"}));
+      .one_of({"fill", "keep"});
   tool.option("--fill-spacing-m", o.fill_spacing_m,
               "distance of the points that mend flat triangles [m]; 0: from the map")
-      ->check(talus::check_not_negative);
+      .check(talus::check_not_negative);
   tool.option("--hold-out-every", o.hold_out_every,
               "hold back the contours at every K-th height, K >= 2; 0: none")
-      ->check(check_every);
+      .check(check_every);
   tool.output("--hold-out", o.hold_out, "points of the contours held back (GeoPackage)");
   tool.option("--tolerance-m", o.doubts.tolerance_m,
               "contours of different heights that meet are moved apart by at most this [m]; "
               "0: refused; not given: the accuracy that their bends show")
-      ->check(talus::check_not_negative);
+      .check(talus::check_not_negative);
   talus::declare_doubts(tool, o.doubts, "take heights that cannot be, and say so");
   tool.output("--report", o.report, "what was read, cleaned and mended (JSON)");
   tool.footer(

@@ -16,8 +16,8 @@
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/object_files.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
 #include "tools/trace/layers.hpp"
 
 namespace {
@@ -35,7 +35,7 @@ struct Options {
 };
 
 void declare(Tool& tool, Options& o) {
-  tool.output("-o,--out", o.out, "objects, source cells and links (GeoPackage)")->required();
+  tool.output("-o,--out", o.out, "objects, source cells and links (GeoPackage)").required();
   tool.output("--csv", o.csv, "one row a source cell and object (CSV)");
   tool.json_output(o.json, "the result (JSON)");
   tool.output_folder("--rasters", o.rasters, "folder for a raster of source cells an object");
@@ -43,7 +43,7 @@ void declare(Tool& tool, Options& o) {
   tool.option("--source-cell-m", o.source_cell_m,
               "cells that blocks are put together by where they were released [m]; nan: the "
               "terrain's")
-      ->check(number_between(1e-3, 1e6, true));
+      .check(number_between(1e-3, 1e6, true));
   tool.flag("--by-cells", o.by_cells,
             "count passages of cells also where runs watched the objects themselves");
   tool.footer(

@@ -25,7 +25,7 @@
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/doubts.hpp"
 #include "tools/frame/import_options.hpp"
-#include "tools/frame/options.hpp"
+#include "tools/frame/tool.hpp"
 
 namespace {
 
@@ -72,16 +72,16 @@ std::string parse_window(const std::string& words, MapWindow& window) {
 
 void declare(Tool& tool, Options& o) {
   tool.input("source", o.source, "TIN (PLY, OBJ, LandXML, 3DFACE in DXF), or an elevation raster");
-  tool.output("-o,--out", o.out, "terrain to write (GeoTIFF)")->required();
+  tool.output("-o,--out", o.out, "terrain to write (GeoTIFF)").required();
   tool.option("--unit-m", o.faces.unit_m,
               "metres in one unit of a drawing of faces, in plan and height; 0: metres, or refused "
               "where it says another unit")
-      ->check(talus::check_positive);
+      .check(talus::check_positive);
   tool.option("--cell-size-m", o.cell_size_m,
               "distance of the nodes [m]; 0: the DEM's own, or near that of the TIN's points")
-      ->check(talus::check_positive);
+      .check(talus::check_positive);
   tool.option("--window", o.window_text, "part to take, map coordinates: XMIN,YMIN,XMAX,YMAX [m]")
-      ->check([&o](const std::string& words) { return parse_window(words, o.window); });
+      .check([&o](const std::string& words) { return parse_window(words, o.window); });
   tool.input("--like", o.like, "put the nodes on the cell centres of this raster");
   talus::declare_crs_options(tool, o.crs);
   tool.input("--reference", o.reference, "better known DEM to hold the terrain against");

@@ -10,8 +10,8 @@
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/machine.hpp"
-#include "tools/frame/options.hpp"
 #include "tools/frame/shipped_data.hpp"
+#include "tools/frame/tool.hpp"
 #include "tools/verify/site.hpp"
 #include "verify/cases/claims.hpp"
 #include "verify/study/page.hpp"
@@ -30,31 +30,27 @@ struct Options {
 };
 
 void declare(Tool& tool, Options& o) {
-  tool.app().add_option("cases", o.cases, "names of cases; all when none is given");
+  tool.list("cases", o.cases, "names of cases; all when none is given");
   tool.output_folder("-o,--out", o.out, "folder for the tables, the diagrams and the page");
   tool.output("--page", o.page, "write the page there; its diagrams stay in the folder");
   tool.flag("--full", o.full, "the whole study; without it few settings");
-  CLI::Option* site = tool.input("--site", o.site.site,
-                                 "site file: find the cheapest settings for this scene instead");
-  tool.input("--trn", o.site.files.trn, "with --site: terrain")->needs(site);
-  tool.input("--blocks", o.site.files.blocks, "with --site: block set")->needs(site);
-  tool.flag("--settle", o.site.files.settle, "with --site: as in talus-dda")->needs(site);
+  const ToolOption site = tool.input(
+      "--site", o.site.site, "site file: find the cheapest settings for this scene instead");
+  tool.input("--trn", o.site.files.trn, "with --site: terrain").needs(site);
+  tool.input("--blocks", o.site.files.blocks, "with --site: block set").needs(site);
+  tool.flag("--settle", o.site.files.settle, "with --site: as in talus-dda").needs(site);
   tool.option("--tolerance", o.site.tolerance, "with --site: share of the answer, or per cent")
-      ->needs(site);
+      .needs(site);
   tool.option("--quantity", o.site.quantity, "with --site: what must be right")
-      ->check(CLI::IsMember(quantity_names))
-      ->needs(site);
-  tool.option("--runs", o.site.n_runs, "with --site: runs a setting")
-      ->check(CLI::Range(2, 1000))
-      ->needs(site);
-  tool.flag("--paper", o.site.with_paper, "with --site: law paper too, for comparison")
-      ->needs(site);
+      .one_of(quantity_names)
+      .needs(site);
+  tool.option("--runs", o.site.n_runs, "with --site: runs a setting").between(2, 1000).needs(site);
+  tool.flag("--paper", o.site.with_paper, "with --site: law paper too, for comparison").needs(site);
   tool.flag("--stability", o.stability, "the stability chart too");
   tool.flag("--leaving-out", o.leaving_out,
             "what the scene plan leaves out, and what it saves, too");
   tool.flag("--list", o.list, "print the cases and end");
-  tool.app().add_option("--peers", o.peers,
-                        "folder with tables of other engines, to draw and compare with");
+  tool.option("--peers", o.peers, "folder with tables of other engines, to draw and compare with");
   tool.footer("Example:\n  talus-verify slide_20 bounce_face -o verify --full");
 }
 

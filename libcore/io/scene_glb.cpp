@@ -1,16 +1,13 @@
-// libcore/io/scene_glb_json.cpp
+// libcore/io/scene_glb.cpp
 // A scene as binary glTF 2.0 (Khronos, 2021): a node and a mesh for each block and for the ground.
 // glTF has y up, so local (x, y, z) becomes (x, z, -y). Without normals a reader shades flat.
-#include <nlohmann/json.hpp>
-
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "geometry/triangulate.hpp"
 #include "io/scene_triangles.hpp"
 
 namespace talus {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Numbers of the specification: sections 3.6.2.2 (types), 3.6.1.1 (targets), 4.4 (GLB).
 constexpr int float_type = 5126, unsigned_int_type = 5125;
@@ -124,7 +121,7 @@ void write_glb(const std::string& path, const BlockScene& scene) {
   gltf["bufferViews"] = Json::array(
       {view(0, n_vertices, array_buffer), view(n_vertices, n_corners, element_array_buffer)});
   gltf["buffers"][0] = {{"byteLength", n_vertices + n_corners}};
-  const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string json = gltf.dump();
   constexpr std::size_t n_header = 12;
   std::string chunks;
   append_chunk(chunks, json_chunk, json, ' ');

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "base/file_paths.hpp"
+#include "base/json.hpp"
 #include "base/write_bytes.hpp"
 #include "ensemble/ensemble.hpp"
 #include "ensemble/made_with.hpp"
@@ -19,7 +19,6 @@ namespace talus {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* format_name = "talus-ensemble";
 constexpr int format_version = 1;
@@ -245,7 +244,7 @@ std::string text_of(const Ensemble& ensemble) {
                      {"settings_that_differ", ensemble.differs},
                      {"parts", ensemble.parts},
                      {"members", members}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(1) + "\n";
 }
 
 // In one go; the same bytes are left as they are.
@@ -265,7 +264,7 @@ void replace(const Ensemble& ensemble) {
 Ensemble stored_ensemble(const std::string& folder) {
   try {
     return parsed(folder, bytes_of(path_in(folder, ensemble_name)));
-  } catch (const Json::exception&) {
+  } catch (const JsonError&) {
     Ensemble none;
     none.folder = folder;
     return none;
