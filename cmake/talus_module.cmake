@@ -21,8 +21,8 @@ endif()
 target_include_directories(talus_options INTERFACE ${PROJECT_SOURCE_DIR}/libcore ${PROJECT_SOURCE_DIR})
 
 # The headers that nearly every source includes are compiled once. A source names all that it uses
-# nevertheless: the release preset builds without this.
-option(TALUS_PRECOMPILED "Compile the common headers of libcore and of the tests once" OFF)
+# nevertheless: the preset asan builds without this.
+option(TALUS_PRECOMPILED "Compile the common headers of libcore, tools and tests once" ON)
 set(talus_common_headers <Eigen/Geometry> <algorithm> <array> <cmath> <functional> <map> <optional>
     <span> <string> <vector>)
 function(talus_precompiled target owner)

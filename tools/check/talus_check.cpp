@@ -78,7 +78,7 @@ double probe_duration(const Options& o, const Look& look) {
 CheckPage page_of(Tool& tool, const Options& o, const std::vector<Doubt>& last) {
   CheckPage page;
   for (const std::string& file : o.reports) {
-    page.reports.push_back(Json::parse(read_file(file), nullptr, false));
+    page.reports.push_back(Json::parse_or_null(read_file(file)));
     if (!page.reports.back().is_object())
       throw InputError({file}, "is no report", "name those that talus tools write (--report)");
     for (Doubt& doubt : doubts_of(page.reports.back())) page.doubts.push_back(std::move(doubt));

@@ -5,7 +5,6 @@
 
 #include "base/fields.hpp"
 #include "io/geopackage_gdal.hpp"
-#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {
