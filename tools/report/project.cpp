@@ -59,6 +59,7 @@ std::string layer_words(const std::string& name) {
       {"deposit", "Blocks at the end"},
       {"paths", "Paths of the blocks"},
       {"path_points", "Points of the paths"},
+      {"impacts", "Impacts of the blocks"},
       {"streamline", "Path to the toe, with L and H"},
       {"reach_points", "Ends of L and H"},
       {"runs", "Centre of mass at the end of a run"},
@@ -321,7 +322,7 @@ QgisProject project_of(const ReportData& data, const std::string& file,
     project.layers.push_back(raster_layer(file, folder, "change", "Fences", "Change by the fence"));
   add_objects(project, file, folder, data);
   // Footprints of many runs would cover the maps.
-  std::set<std::string> hidden = {"path_points", "paths", "envelope", "runs", "tree_hits"};
+  std::set<std::string> hidden = {"path_points", "impacts", "paths", "envelope", "runs", "tree_hits"};
   if (data.runs.size() > 1) hidden.insert("deposit");
   add_package(project, file, folder, "runout.gpkg", "Paths", hidden);
   if (data.runs.size() > 1) show_farthest(project, data);

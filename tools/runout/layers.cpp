@@ -1,5 +1,9 @@
 #include "tools/runout/layers.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "io/style.hpp"
@@ -18,6 +22,7 @@ struct MapPlace {
 using Value = FieldValue;
 using Run = const RunoutRun&;
 constexpr FieldType words = FieldType::text, whole = FieldType::integer;
+constexpr double kilo = 1e3;
 
 VectorLayer deposit_layer_of(const std::vector<RunoutRun>& runs, const MapPlace& map) {
   VectorLayer layer{"deposit",
@@ -54,6 +59,18 @@ VectorFeature line_feature(const std::vector<Vec3>& points, const std::vector<do
   return f;
 }
 
+// NaN where all are.
+double largest(const std::vector<double>& values) {
+  double most = std::numeric_limits<double>::quiet_NaN();
+  for (const double value : values)
+    if (!(value <= most) && !std::isnan(value)) most = value;
+  return most;
+}
+
+std::int64_t n_impacts(const TimedPath& path) {
+  return std::count(path.is_impact.begin(), path.is_impact.end(), true);
+}
+
 struct BlockPath {
   Run run;
   const BlockReach& block;
@@ -64,9 +81,19 @@ const std::vector<Field<BlockPath>>& path_fields() {
   static const std::vector<Field<BlockPath>> fields = {
       {"run_id", "", "Run", [](Path p) -> Value { return p.run.member.info.run_id; }, words},
       {"block", "", "Block", [](Path p) -> Value { return p.block.block; }, whole},
+      {"volume_m3", "m3", "Volume", [](Path p) -> Value { return p.run.volume[p.block.block]; }},
+      {"mass_kg", "kg", "Mass", [](Path p) -> Value { return p.run.mass[p.block.block]; }},
       {"path_length_m", "m", "Length of the path in plan",
        [](Path p) -> Value { return p.block.reach.path; }},
       {"max_speed_m_s", "m/s", "Largest speed", [](Path p) -> Value { return p.block.max_speed; }},
+      {"max_energy_kj", "kJ", "Largest kinetic energy, with spin",
+       [](Path p) -> Value { return p.block.max_energy / kilo; }},
+      {"max_height_m", "m", "Largest height of the centroid above the ground, in the frames",
+       [](Path p) -> Value { return largest(p.path.height); }},
+      {"max_spin_rad_s", "rad/s", "Largest spin, in the frames",
+       [](Path p) -> Value { return largest(p.path.spin); }},
+      {"n_impacts", "", "Number of impacts", [](Path p) -> Value { return n_impacts(p.path); },
+       whole},
       {"duration_s", "s", "Duration",
        [](Path p) -> Value { return p.path.time.back() - p.path.time.front(); }}};
   return fields;
@@ -95,32 +122,67 @@ VectorLayer path_layer(const std::vector<RunoutRun>& runs, const MapPlace& map, 
 struct PathPoint {
   Run run;
   std::size_t block, point;
+  [[nodiscard]] const TimedPath& path() const { return run.paths[block]; }
 };
-const std::vector<Field<PathPoint>>& path_point_fields() {
-  using Point = const PathPoint&;
-  static const std::vector<Field<PathPoint>> fields = {
+using Point = const PathPoint&;
+
+std::vector<Field<PathPoint>> point_fields(std::vector<Field<PathPoint>> more) {
+  std::vector<Field<PathPoint>> fields = {
       {"run_id", "", "Run", [](Point p) -> Value { return p.run.member.info.run_id; }, words},
       {"block", "", "Block", [](Point p) -> Value { return static_cast<std::int64_t>(p.block); },
        whole},
-      {"time_s", "s", "Time", [](Point p) -> Value { return p.run.paths[p.block].time[p.point]; }},
-      {"speed_m_s", "m/s", "Speed",
-       [](Point p) -> Value { return p.run.paths[p.block].speed[p.point]; }}};
+      {"volume_m3", "m3", "Volume", [](Point p) -> Value { return p.run.volume[p.block]; }},
+      {"mass_kg", "kg", "Mass", [](Point p) -> Value { return p.run.mass[p.block]; }},
+      {"time_s", "s", "Time", [](Point p) -> Value { return p.path().time[p.point]; }},
+      {"height_m", "m", "Height of the centroid above the ground",
+       [](Point p) -> Value { return p.path().height[p.point]; }}};
+  fields.insert(fields.end(), more.begin(), more.end());
   return fields;
 }
 
-VectorLayer path_point_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
-  VectorLayer layer{"path_points",
-                    "points of the simplified paths",
+const std::vector<Field<PathPoint>>& path_point_fields() {
+  static const std::vector<Field<PathPoint>> fields = point_fields(
+      {{"speed_m_s", "m/s", "Speed", [](Point p) -> Value { return p.path().speed[p.point]; }},
+       {"energy_kj", "kJ", "Kinetic energy, with spin",
+        [](Point p) -> Value { return p.path().energy[p.point] / kilo; }},
+       {"spin_rad_s", "rad/s", "Spin", [](Point p) -> Value { return p.path().spin[p.point]; }}});
+  return fields;
+}
+
+// The point before an impact is kept too.
+const std::vector<Field<PathPoint>>& impact_fields() {
+  static const std::vector<Field<PathPoint>> fields =
+      point_fields({{"speed_before_m_s", "m/s", "Speed in the frame before",
+                     [](Point p) -> Value { return p.path().speed[p.point - 1]; }},
+                    {"speed_after_m_s", "m/s", "Speed in the frame after",
+                     [](Point p) -> Value { return p.path().speed[p.point]; }},
+                    {"energy_before_kj", "kJ", "Kinetic energy in the frame before, with spin",
+                     [](Point p) -> Value { return p.path().energy[p.point - 1] / kilo; }},
+                    {"energy_after_kj", "kJ", "Kinetic energy in the frame after, with spin",
+                     [](Point p) -> Value { return p.path().energy[p.point] / kilo; }},
+                    {"spin_before_rad_s", "rad/s", "Spin in the frame before",
+                     [](Point p) -> Value { return p.path().spin[p.point - 1]; }},
+                    {"spin_after_rad_s", "rad/s", "Spin in the frame after",
+                     [](Point p) -> Value { return p.path().spin[p.point]; }}});
+  return fields;
+}
+
+VectorLayer point_layer(const char* name, const char* what, const Colour& colour, bool of_impacts,
+                        const std::vector<Field<PathPoint>>& fields,
+                        const std::vector<RunoutRun>& runs, const MapPlace& map) {
+  VectorLayer layer{name,
+                    what,
                     GeometryType::point_z,
-                    vector_fields(path_point_fields()),
+                    vector_fields(fields),
                     {},
-                    vector_qml({SymbolKind::point, "", {{"", "", {31, 78, 121, 255}}}, 0.8})};
+                    vector_qml({SymbolKind::point, "", {{"", "", colour}}, 0.8})};
   for (const RunoutRun& r : runs)
     for (std::size_t b = 0; b < r.paths.size(); ++b)
       for (std::size_t i = 0; i < r.paths[b].point.size(); ++i) {
+        if (of_impacts && !r.paths[b].is_impact[i]) continue;
         VectorFeature f;
         f.points = {map(r.paths[b].point[i])};
-        f.values = values_of(path_point_fields(), {r, b, i});
+        f.values = values_of(fields, {r, b, i});
         layer.features.push_back(std::move(f));
       }
   return layer;
@@ -244,7 +306,10 @@ std::vector<VectorLayer> runout_layers(const RunoutRuns& all, const Vec3& origin
   return {envelope_layer(all, map),
           deposit_layer_of(all.runs, map),
           path_layer(all.runs, map, tolerance),
-          path_point_layer(all.runs, map),
+          point_layer("path_points", "points of the simplified paths", {31, 78, 121, 255}, false,
+                      path_point_fields(), all.runs, map),
+          point_layer("impacts", "impacts of the blocks, at the first frame after each",
+                      {200, 30, 30, 255}, true, impact_fields(), all.runs, map),
           streamline_layer(all.runs, map),
           end_layer(all.runs, map),
           run_layer(all.runs, map)};

@@ -157,12 +157,22 @@ MassReach mass_reach(const RunFile& run, const std::vector<WeightedValue>& displ
 double AngleProfile::at_end() const { return angle.empty() ? none : angle.back(); }
 
 TimedPath block_path(const RunFile& run, int block) {
+  constexpr double least_change = 0.5, gravity = 9.81;  // [m/s], [m/s2]
   TimedPath path;
+  Vec3 before = Vec3::Zero();
   for (int k = 0; k < n_frames(run.frames); ++k) {
     const FrameBlock at = frame_block(run, k, block);
+    const double speed = at.velocity.norm();
+    const double by_weight = k == 0 ? 0 : gravity * (run.frames.time[k] - run.frames.time[k - 1]);
+    const Vec3 change = at.velocity - before + by_weight * Vec3::UnitZ();
     path.time.push_back(run.frames.time[k]);
     path.point.push_back(at.position);
-    path.speed.push_back(at.velocity.norm());
+    path.speed.push_back(speed);
+    path.spin.push_back(at.spin.norm());
+    path.energy.push_back(0.5 * run.blocks.mass[block] * speed * speed +
+                          kinetic_rotation(run, block, at));
+    path.is_impact.push_back(k > 0 && change.norm() > std::max(least_change, 2 * by_weight));
+    before = at.velocity;
   }
   return path;
 }
@@ -213,14 +223,47 @@ std::vector<int> simplified(std::span<const Vec3> points, double tolerance) {
   return kept;
 }
 
-TimedPath simplified(const TimedPath& path, double tolerance) {
+namespace {
+
+TimedPath points_of(const TimedPath& path, const std::vector<int>& kept) {
   TimedPath out;
-  for (const int i : simplified(std::span(path.point), tolerance)) {
-    out.time.push_back(path.time[i]);
-    out.point.push_back(path.point[i]);
-    out.speed.push_back(path.speed[i]);
-  }
+  const auto keep = [&kept](const auto& values, auto& of_kept) {
+    for (const int i : kept)
+      if (!values.empty()) of_kept.push_back(values[i]);
+  };
+  keep(path.time, out.time);
+  keep(path.point, out.point);
+  keep(path.speed, out.speed);
+  keep(path.spin, out.spin);
+  keep(path.energy, out.energy);
+  keep(path.height, out.height);
+  keep(path.is_impact, out.is_impact);
   return out;
+}
+
+}  // namespace
+
+TimedPath simplified(const TimedPath& path, double tolerance) {
+  return points_of(path, simplified(std::span(path.point), tolerance));
+}
+
+TimedPath shown_path(const RunFile& run, int block, const Trn& trn, double tolerance) {
+  TimedPath path = block_path(run, block);
+  for (const Vec3& p : path.point)
+    path.height.push_back(contains(trn, p.x(), p.y()) ? p.z() - elevation_at(trn, p.x(), p.y())
+                                                      : none);
+  std::vector<int> kept = simplified(std::span(path.point), tolerance);
+  int highest = 0;  // since the last impact
+  for (int i = 0; i < static_cast<int>(path.point.size()); ++i) {
+    if (path.is_impact[i]) {
+      kept.insert(kept.end(), {highest, i - 1, i});
+      highest = i;
+    }
+    if (path.height[i] > path.height[highest]) highest = i;
+  }
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  return points_of(path, kept);
 }
 
 double horizontal_length(std::span<const Vec3> points) {

@@ -17,13 +17,19 @@
 
 namespace talus {
 
-/// The path of a point through the frames, and its speed in each.
+/// The path of a point through the frames, and its motion in each.
 struct TimedPath {
-  std::vector<double> time;   ///< [s]                                               (n_points)
-  std::vector<Vec3> point;    ///< local [m]                                         (n_points)
-  std::vector<double> speed;  ///< [m/s]                                             (n_points)
+  std::vector<double> time;     ///< [s]                                             (n_points)
+  std::vector<Vec3> point;      ///< local [m]                                       (n_points)
+  std::vector<double> speed;    ///< [m/s]                                           (n_points)
+  std::vector<double> spin;     ///< of a block [rad/s]                     (n_points, or none)
+  std::vector<double> energy;   ///< of a block, with spin [J]              (n_points, or none)
+  std::vector<double> height;   ///< of shown_path(), above the ground; NaN: no ground [m]
+  std::vector<bool> is_impact;  ///< since the frame before; of a block                   (same)
 };
 
+/// An impact lies between two frames if the velocity changed by more than 0.5 m/s, and by more than
+/// twice what the weight does, once gravity is taken off: sliding and rolling change it by less.
 [[nodiscard]] TimedPath block_path(const RunFile& run, int block);
 /// Of the centre of mass of all blocks; its speed is that of the mean momentum.
 [[nodiscard]] TimedPath centre_of_mass_path(const RunFile& run);
@@ -32,6 +38,9 @@ struct TimedPath {
 /// through the kept ones (Douglas and Peucker); first and last always [m].
 [[nodiscard]] std::vector<int> simplified(std::span<const Vec3> points, double tolerance);
 [[nodiscard]] TimedPath simplified(const TimedPath& path, double tolerance);
+/// The simplified path of a block, with both ends of each impact and the highest point above the
+/// ground between two of them, so that no bounce is lost.
+[[nodiscard]] TimedPath shown_path(const RunFile& run, int block, const Trn& trn, double tolerance);
 
 [[nodiscard]] double horizontal_length(
     std::span<const Vec3> points);  ///< along the path, in plan [m]

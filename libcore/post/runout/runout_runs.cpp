@@ -35,7 +35,7 @@ RunoutRun runout_run(const RunFile& run, const RunMember& member, const Trn& trn
   r.energy = energy_shares(run);
   r.has_frames = !run.reach;
   for (int b = 0; b < n_blocks(run); ++b) {
-    if (r.has_frames) r.paths.push_back(simplified(block_path(run, b), settings.tolerance));
+    if (r.has_frames) r.paths.push_back(shown_path(run, b, trn, settings.tolerance));
     const Pose pose = last_pose(run, b);
     r.footprints.push_back(footprint(run, b, pose));
     r.end.push_back(pose.position);

@@ -25,7 +25,7 @@ assert sum(m['from_memory'] for m in j['mobility']) == 6
 PY
 grep -q 'rockfalls (Corominas 1996)' runout.svg || fail 'the chart has no legend'
 ogrinfo -so runout.gpkg paths | grep -q '3D Measured Line String' || fail 'paths hold no time'
-for layer in envelope deposit paths path_points streamline reach_points runs; do
+for layer in envelope deposit paths path_points impacts streamline reach_points runs; do
   ogrinfo -q runout.gpkg -sql "SELECT f_table_name FROM layer_styles WHERE f_table_name = '$layer' AND useAsDefault" | grep -q "$layer" || fail "$layer has no style"
 done
 ogrinfo -q runout.gpkg -sql 'SELECT area_m2 FROM envelope' | grep -q '= 136' || fail 'the envelope is not 136 m2'

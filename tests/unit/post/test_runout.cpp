@@ -381,3 +381,40 @@ TEST(RunoutRuns, AreEventsWhereATenthOfTheMassMoved) {
             "1 of 4 runs did not move (no block by more than 1 m), and 1 of 4 runs moved less than "
             "10 % of the mass");
 }
+
+// A rock thrown five times at a plane: the path is straight in plan and lower than the tolerance in
+// height, but each bounce is there, with its height and what the impact took.
+TEST(ShownPath, KeepsEachBounceWithItsHeight) {
+  RunFile run;
+  add_box(run, {0.2, 0.2, 0.2}, {0, 0, 0});
+  constexpr double g = 9.81, up = 2, flight = 2 * up / g;
+  int frames = 0;
+  for (double t = 0; t < 5 * flight; t += 0.02, ++frames) {
+    const double since = std::fmod(t, flight);
+    FrameBlock at = standing({40 + 3 * t, 0, 85 + up * since - 0.5 * g * since * since});
+    at.velocity = {3, 0, up - g * since};
+    at.spin = {0, 4, 0};
+    add_frame(run, t, {at});
+  }
+  const TimedPath path = shown_path(run, 0, bent_trn(), 0.5);
+  EXPECT_EQ(std::count(path.is_impact.begin(), path.is_impact.end(), true), 4);
+  EXPECT_LT(path.point.size(), 18U);
+  double highest = 0;
+  for (std::size_t i = 0; i < path.point.size(); ++i) {
+    EXPECT_NEAR(path.height[i], path.point[i].z() - 84, 1e-9);
+    EXPECT_EQ(path.spin[i], 4);
+    EXPECT_GE(path.energy[i], 0.5 * run.blocks.mass[0] * path.speed[i] * path.speed[i]);
+    highest = std::max(highest, path.height[i]);
+  }
+  EXPECT_NEAR(highest, 1 + up * up / (2 * g), 1e-3);
+  EXPECT_LE(simplified(block_path(run, 0), 0.5).point.size(), 3U);  // lengths stay as they were
+}
+
+// Sliding to a stop in one frame of a second is not an impact; a wall is.
+TEST(ShownPath, HasNoImpactInASlide) {
+  EXPECT_EQ(block_path(sliding_block(1), 0).is_impact, std::vector<bool>(71, false));
+  RunFile run = sliding_block(0.1);
+  const auto path = block_path(run, 0);
+  EXPECT_EQ(std::count(path.is_impact.begin(), path.is_impact.end(), true), 1);
+  EXPECT_TRUE(path.is_impact.back());
+}
