@@ -1,4 +1,4 @@
-// libcore/report/encode.hpp
+// libcore/report/encode.hpp: public
 // Text and numbers as the parts of a self-contained page: base64, data addresses.
 #pragma once
 

@@ -15,10 +15,6 @@ std::string html_note(const std::string& content) {
   return "<p class=\"note\">" + content + "</p>\n";
 }
 
-std::string html_fold(const std::string& summary, const std::string& content) {
-  return "<details><summary>" + summary + "</summary>\n" + content + "</details>\n";
-}
-
 std::string html_fact(const std::string& value, const std::string& what, const std::string& kind) {
   return (kind.empty() ? std::string("<div>") : "<div class=\"" + kind + "\">") + "<b>" + value +
          "</b><span>" + what + "</span></div>\n";
@@ -26,13 +22,6 @@ std::string html_fact(const std::string& value, const std::string& what, const s
 
 std::string html_verdict(const std::string& kind, const std::string& content) {
   return "<div class=\"verdict " + kind + "\">" + content + "</div>\n";
-}
-
-std::string html_marked(const std::string& section, const std::string& banner) {
-  const std::size_t heading = section.find("</h2>\n");
-  if (banner.empty() || heading == std::string::npos) return section;
-  return section.substr(0, heading + 6) + "<p class=\"banner\">" + banner + "</p>\n" +
-         section.substr(heading + 6);
 }
 
 std::string html_figure(const std::string& picture, const std::string& caption) {

@@ -13,16 +13,11 @@ namespace talus {
 [[nodiscard]] std::string html_paragraph(const std::string& content);
 /// A paragraph in small print.
 [[nodiscard]] std::string html_note(const std::string& content);
-/// What is shown once `summary` is clicked.
-[[nodiscard]] std::string html_fold(const std::string& summary, const std::string& content);
 /// A value in large print, and what it is; `kind` is a class of the style sheet.
 [[nodiscard]] std::string html_fact(const std::string& value, const std::string& what,
                                     const std::string& kind = {});
 /// A statement with a mark; `kind`: pass, warn or fail.
 [[nodiscard]] std::string html_verdict(const std::string& kind, const std::string& content);
-/// A section with a banner below its heading; unchanged where there is nothing to say.
-[[nodiscard]] std::string html_marked(const std::string& section, const std::string& banner);
-
 /// A picture with the text below it; `picture` as the functions below give it, or SVG itself.
 [[nodiscard]] std::string html_figure(const std::string& picture, const std::string& caption);
 /// A picture that stands in the page itself, from a file's content; `alt` is read out instead.

@@ -12,8 +12,9 @@ namespace {
 
 std::string layer_figure(const Texts& texts, const MapSheet& sheet, const MapLayerKind& kind,
                          const MapPicture& picture) {
-  return map_figure(texts, sheet, picture, kind.title, kind.unit,
-                    std::string("<b>") + kind.title + "</b>: " + kind.caption + " [" + kind.unit +
+  const std::string title = texts.said(kind.title);
+  return map_figure(texts, sheet, picture, title, kind.unit,
+                    "<b>" + title + "</b>: " + texts.said(kind.caption) + " [" + kind.unit +
                         "]. <code>maps/" + kind.name + ".tif</code>");
 }
 
@@ -43,19 +44,19 @@ std::string case_figures(const Texts& texts, const MapSheet& sheet, const CasePi
   std::string out;
   for (const MapLayerKind& kind : map_layers()) {
     if (is_of_decisions(kind.name) != of_decisions) continue;
+    const std::string title = texts.said(kind.title);
     std::string row;
     for (const auto& [name, pictures] : cases) {
       const MapPicture* const picture = picture_of(pictures, kind.name);
       if (picture == nullptr) continue;
-      const std::string which =
-          texts.of("maps.layer_of_case", {{"layer", kind.title}, {"case", name}});
+      const std::string which = texts.of("maps.layer_of_case", {{"layer", title}, {"case", name}});
       row +=
           map_figure(texts, sheet, *picture, which, kind.unit,
                      "<b>" + texts.of("words.case", {{"case", xml_escaped(name)}}) +
                          "</b>. <code>maps/" + xml_escaped(name) + "/" + kind.name + ".tif</code>");
     }
     if (!row.empty())
-      out += std::string("<h3>") + kind.title + " [" + kind.unit + "]</h3>\n<p>" + kind.caption +
+      out += "<h3>" + title + " [" + kind.unit + "]</h3>\n<p>" + texts.said(kind.caption) +
              ".</p>\n<div class=\"maps\">\n" + row + "</div>\n";
   }
   return out;

@@ -49,7 +49,7 @@ std::string html_legend(const Texts& texts, const std::string& qml, const std::v
     });
     out += std::string("<span><i") + (is_weak ? " class=\"weak\"" : "") +
            " style=\"background-color:" + attribute(item, "color") + "\"></i>" +
-           attribute(item, "label") + "</span> ";
+           texts.said(attribute(item, "label")) + "</span> ";
   }
   if (has_unsure)
     out += "<span><i class=\"unsure\"></i>" + texts.of("maps.not_certain") + "</span> ";

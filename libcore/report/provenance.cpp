@@ -4,9 +4,6 @@
 #include <filesystem>
 #include <set>
 
-#include "base/text.hpp"
-#include "report/html.hpp"
-
 namespace talus {
 namespace fs = std::filesystem;
 namespace {
@@ -25,18 +22,14 @@ std::string shown_path(const std::string& path, const std::string& site_file) {
   return relative.empty() ? path : relative.string();
 }
 
-std::string file_list(const Texts& texts, const std::vector<RunArtifact>& files,
-                      const std::string& site_file) {
-  std::vector<std::string> lines;
+std::vector<StepFile> files_of(const std::vector<RunArtifact>& files,
+                               const std::string& site_file) {
+  std::vector<StepFile> shown;
   for (const RunArtifact& file : files)
-    lines.push_back(
-        "<code>" + xml_escaped(shown_path(file.path, site_file)) + "</code> <code>" +
-        (file.sha256.empty() ? texts.of("provenance.not_hashed") : file.sha256.substr(0, 12)) +
-        "</code>");
-  std::sort(lines.begin(), lines.end());
-  std::string out;
-  for (const std::string& line : lines) out += (out.empty() ? "" : "<br>") + line;
-  return out;
+    if (file.role != "part")  // the runs of a part are there themselves
+      shown.push_back({shown_path(file.path, site_file), file.sha256.substr(0, 12)});
+  std::sort(shown.begin(), shown.end());
+  return shown;
 }
 
 // The words of a command for the shell, as they are quoted.
@@ -94,33 +87,22 @@ std::string short_command(const RunRecord& step) {
   return out;
 }
 
-// The command, and what it said of its inputs: operations by which they were reprojected.
-std::string command_cell(const RunRecord& step) {
-  std::string cell = "<code>" + xml_escaped(short_command(step)) + "</code>";
-  for (const RunEvent& event : step.events)
-    if (event.level == "info") cell += "<br>" + xml_escaped(event.text);
-  return cell;
-}
-
-// Parts of runs are left out: the runs are there themselves.
-std::vector<RunArtifact> shown_inputs(const RunRecord& step) {
-  std::vector<RunArtifact> shown;
-  for (const RunArtifact& file : step.inputs)
-    if (file.role != "part") shown.push_back(file);
-  return shown;
-}
-
 }  // namespace
 
-std::string provenance_table(const Texts& texts, const std::vector<RunRecord>& steps,
-                             const std::string& site_file) {
-  std::vector<std::vector<std::string>> rows;
-  for (const RunRecord& step : steps)
-    rows.push_back({command_cell(step), xml_escaped(step.version + " (" + step.git_commit + ")"),
-                    "<code>" + xml_escaped(step.content_id) + "</code>",
-                    file_list(texts, shown_inputs(step), site_file),
-                    file_list(texts, step.outputs, site_file)});
-  return html_table(texts.list("provenance.heads"), rows);
+std::vector<ProvenanceStep> provenance_steps(const std::vector<RunRecord>& steps,
+                                             const std::string& site_file) {
+  std::vector<ProvenanceStep> shown;
+  for (const RunRecord& step : steps) {
+    shown.push_back({short_command(step),
+                     step.version + " (" + step.git_commit + ")",
+                     step.content_id,
+                     {},
+                     files_of(step.inputs, site_file),
+                     files_of(step.outputs, site_file)});
+    for (const RunEvent& event : step.events)
+      if (event.level == "info") shown.back().notes.push_back(event.text);
+  }
+  return shown;
 }
 
 }  // namespace talus

@@ -1,22 +1,33 @@
 // libcore/report/provenance.hpp: public
-// From the first files to the results: the steps as a table of a page.
+// From the first files to the results: the steps as a page shows them.
 // in:    runs of the registry
-// out:   HTML, the same wherever the programs and the site's folder lie
+// out:   rows, the same wherever the programs and the site's folder lie
 #pragma once
 
+#include <compare>
 #include <string>
 #include <vector>
 
-#include "report/texts.hpp"
 #include "store/runs.hpp"
 
 namespace talus {
 
-/// A row a step: command, version, run id, files read and written with the beginning of their
-/// digests; paths below the folder of `site_file` are relative to it. So that shards and one make
-/// give the same table, a command names its runs and parts by RUN.h5..., and neither the registry
-/// nor inputs of the role "part" are shown: the runs of a part stand beside it.
-[[nodiscard]] std::string provenance_table(const Texts& texts, const std::vector<RunRecord>& steps,
-                                           const std::string& site_file);
+struct StepFile {
+  std::string path;  ///< below the site's folder: relative to it
+  std::string sha;   ///< the beginning of its SHA-256; "": not hashed
+  auto operator<=>(const StepFile&) const = default;
+};
+
+struct ProvenanceStep {
+  std::string command, version, run_id;
+  std::vector<std::string> notes;  ///< what it said of its inputs: how they were reprojected
+  std::vector<StepFile> read, wrote;
+};
+
+/// So that shards and one make give the same steps, a command names its runs and parts by
+/// RUN.h5..., and neither the registry nor inputs of the role "part" are shown: the runs of a part
+/// stand beside it.
+[[nodiscard]] std::vector<ProvenanceStep> provenance_steps(const std::vector<RunRecord>& steps,
+                                                           const std::string& site_file);
 
 }  // namespace talus

@@ -1,16 +1,26 @@
 #include "report/run_health.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
-#include "base/text.hpp"
 #include "record/deep_rows.hpp"
-#include "report/html.hpp"
 
 namespace talus {
 namespace {
 
-std::string n_of(const Texts& texts, const std::string& n, const std::string& all) {
-  return texts.of("words.n_of", {{"n", n}, {"all", all}});
+using Value = FieldValue;
+constexpr FieldType words = FieldType::text, whole = FieldType::integer;
+
+template <std::size_t... cut>
+std::vector<Field<RunHealth>> fields_of_cuts(std::index_sequence<cut...> /*all*/) {
+  return {{"run", "", "run", [](const RunHealth& r) -> Value { return r.name; }, words},
+          {substep_cut_names[cut], "", substep_cut_names[cut],
+           [](const RunHealth& r) -> Value { return r.whole.cuts[cut]; }, whole}...};
+}
+
+Value map_metre(const DeepOfRun& deep, int axis) {
+  return static_cast<std::int64_t>(std::llround(deep.row.place[axis] + deep.run.info.origin[axis]));
 }
 
 }  // namespace
@@ -32,87 +42,92 @@ bool all_pass(const std::vector<RunFile>& runs, const std::vector<LimitOverRuns>
                      [](const LimitOverRuns& limit) { return limit.n_failed == 0; });
 }
 
-std::string limit_table(const Texts& texts, const std::vector<LimitOverRuns>& limits,
-                        std::size_t n_runs) {
-  std::vector<std::vector<std::string>> rows;
-  for (const LimitOverRuns& limit : limits) {
-    const bool pass = limit.n_failed == 0;
-    rows.push_back({xml_escaped(limit.name), text(limit.worst, 4), text(limit.limit, 4),
-                    n_of(texts, std::to_string(limit.n_failed), std::to_string(n_runs)),
-                    pass ? "<b class=\"pass\">" + texts.of("health.kept") + "</b>"
-                         : "<b class=\"fail\">" + texts.of("health.broken") + "</b>"});
-  }
-  return html_table(texts.list("health.limit_heads"), rows, {false, true, true, true, false});
+const std::vector<Field<LimitOverRuns>>& limit_fields() {
+  using Limit = const LimitOverRuns&;
+  static const std::vector<Field<LimitOverRuns>> fields = {
+      {"limit", "", "limit", [](Limit l) -> Value { return l.name; }, words},
+      {"worst", "", "worst value", [](Limit l) -> Value { return l.worst; }},
+      {"largest", "", "largest allowed", [](Limit l) -> Value { return l.limit; }},
+      {"n_failed", "", "runs beyond it", [](Limit l) -> Value { return l.n_failed; }, whole},
+      {"verdict", "", "verdict", [](Limit l) -> Value { return l.n_failed == 0 ? "pass" : "fail"; },
+       words}};
+  return fields;
 }
 
-std::string counter_table(const Texts& texts, const std::vector<RunFile>& runs,
-                          const std::vector<std::string>& names) {
-  std::vector<std::vector<std::string>> rows;
+std::vector<RunHealth> health_of(const std::vector<RunFile>& runs,
+                                 const std::vector<std::string>& names) {
+  std::vector<RunHealth> all;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const RunFile& run = runs[i];
     HealthRow sum;
-    double shortest = 0;
-    for (const HealthRow& row : run.health) {
+    for (const HealthRow& row : runs[i].health) {
       sum.steps += row.steps;
       sum.impacts += row.impacts;
       sum.unconverged += row.unconverged;
       sum.left_domain = row.left_domain;
       sum.largest_penetration = std::max(sum.largest_penetration, row.largest_penetration);
-      if (row.shortest_dt > 0 && (shortest == 0 || row.shortest_dt < shortest))
-        shortest = row.shortest_dt;
+      if (row.shortest_dt > 0 && (sum.shortest_dt == 0 || row.shortest_dt < sum.shortest_dt))
+        sum.shortest_dt = row.shortest_dt;
+      for (std::size_t k = 0; k < sum.cuts.size(); ++k) sum.cuts[k] += row.cuts[k];
     }
-    rows.push_back({xml_escaped(names[i]), xml_escaped(run.info.status),
-                    n_of(texts, text(run.info.time, 4), text(run.info.duration, 4)),
-                    std::to_string(sum.steps), text(shortest, 3), std::to_string(sum.impacts),
-                    std::to_string(sum.unconverged), text(sum.largest_penetration, 3),
-                    std::to_string(sum.left_domain)});
+    all.push_back({names[i], runs[i].info, sum});
   }
-  return html_table(texts.list("health.counter_heads"), rows,
-                    {false, false, true, true, true, true, true, true, true});
+  return all;
 }
 
-std::string cut_table(const Texts& texts, const std::vector<RunFile>& runs,
-                      const std::vector<std::string>& names) {
-  std::vector<std::string> heads = {texts.of("health.run")};
-  heads.insert(heads.end(), substep_cut_names.begin(), substep_cut_names.end());
-  std::vector<std::vector<std::string>> rows;
-  bool any = false;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    std::vector<std::string>& row = rows.emplace_back(1, xml_escaped(names[i]));
-    for (std::size_t k = 0; k < substep_cut_names.size(); ++k) {
-      std::int64_t n = 0;
-      for (const HealthRow& health : runs[i].health) n += health.cuts[k];
-      row.push_back(std::to_string(n));
-      any |= n > 0;
-    }
-  }
-  std::vector<bool> is_number(heads.size(), true);
-  is_number[0] = false;
-  return any ? html_table(heads, rows, is_number) : "";
+const std::vector<Field<RunHealth>>& counter_fields() {
+  using Run = const RunHealth&;
+  static const std::vector<Field<RunHealth>> fields = {
+      {"run", "", "run", [](Run r) -> Value { return r.name; }, words},
+      {"status", "", "status", [](Run r) -> Value { return r.info.status; }, words},
+      {"time_s", "s", "time reached", [](Run r) -> Value { return r.info.time; }},
+      {"duration_s", "s", "of", [](Run r) -> Value { return r.info.duration; }},
+      {"steps", "", "steps", [](Run r) -> Value { return r.whole.steps; }, whole},
+      {"shortest_dt_s", "s", "shortest step", [](Run r) -> Value { return r.whole.shortest_dt; }},
+      {"impacts", "", "impacts", [](Run r) -> Value { return r.whole.impacts; }, whole},
+      {"unconverged", "", "block steps accepted unconverged",
+       [](Run r) -> Value { return r.whole.unconverged; }, whole},
+      {"largest_penetration_m", "m", "largest penetration",
+       [](Run r) -> Value { return r.whole.largest_penetration; }},
+      {"left_domain", "", "blocks that left the terrain",
+       [](Run r) -> Value { return r.whole.left_domain; }, whole}};
+  return fields;
 }
 
-std::string deep_table(const Texts& texts, const std::vector<RunFile>& runs,
-                       const std::vector<std::string>& names) {
-  std::vector<std::vector<std::string>> rows;
+const std::vector<Field<RunHealth>>& cut_fields() {
+  static const std::vector<Field<RunHealth>> fields =
+      fields_of_cuts(std::make_index_sequence<substep_cut_names.size()>());
+  return fields;
+}
+
+std::vector<DeepOfRun> deep_of_runs(const std::vector<RunFile>& runs,
+                                    const std::vector<std::string>& names) {
+  std::vector<DeepOfRun> all;
   for (std::size_t i = 0; i < runs.size(); ++i)
-    for (const DeepRow& deep : runs[i].deep) {
-      const Vec3 at = deep.place + runs[i].info.origin;
-      std::string matters;
-      const auto add = [&](int is_so, const char* what) {
-        if (is_so != 0) matters += (matters.empty() ? "" : ", ") + texts.of(what);
-      };
-      add(deep.ends_in_toe, "health.ends_in_toe");
-      add(deep.met_fence, "health.met_fence");
-      add(deep.is_too_fast, "health.too_fast");
-      rows.push_back({xml_escaped(names[i]), std::to_string(deep.block),
-                      xml_escaped(partner_name(deep, runs[i].lines)), text(deep.depth, 3),
-                      text(deep.thickness, 3), std::to_string(deep.steps), text(deep.time, 4),
-                      text(at.x(), 9), text(at.y(), 9), text(at.z(), 6),
-                      text(100 * deep.mass_share, 3), matters});
-    }
-  if (rows.empty()) return "";
-  return html_table(texts.list("health.deep_heads"), rows,
-                    {false, true, false, true, true, true, true, true, true, true, true, false});
+    for (const DeepRow& row : runs[i].deep) all.push_back({names[i], runs[i], row});
+  return all;
+}
+
+const std::vector<Field<DeepOfRun>>& deep_fields() {
+  using Deep = const DeepOfRun&;
+  static const std::vector<Field<DeepOfRun>> fields = {
+      {"run", "", "run", [](Deep d) -> Value { return d.name; }, words},
+      {"block", "", "block", [](Deep d) -> Value { return d.row.block; }, whole},
+      {"in", "", "in", [](Deep d) -> Value { return partner_name(d.row, d.run.lines); }, words},
+      {"depth_m", "m", "depth", [](Deep d) -> Value { return d.row.depth; }},
+      {"thickness_m", "m", "thickness", [](Deep d) -> Value { return d.row.thickness; }},
+      {"steps", "", "steps", [](Deep d) -> Value { return d.row.steps; }, whole},
+      {"time_s", "s", "deepest at", [](Deep d) -> Value { return d.row.time; }},
+      {"x_m", "m", "x", [](Deep d) -> Value { return map_metre(d, 0); }, whole},
+      {"y_m", "m", "y", [](Deep d) -> Value { return map_metre(d, 1); }, whole},
+      {"z_m", "m", "z", [](Deep d) -> Value { return map_metre(d, 2); }, whole},
+      {"mass_percent", "%", "of the mass", [](Deep d) -> Value { return 100 * d.row.mass_share; }},
+      {"ends_in_toe", "", "ends in the toe",
+       [](Deep d) -> Value { return d.row.ends_in_toe != 0 ? "yes" : ""; }, words},
+      {"met_fence", "", "met a fence",
+       [](Deep d) -> Value { return d.row.met_fence != 0 ? "yes" : ""; }, words},
+      {"too_fast", "", "too fast for its fall",
+       [](Deep d) -> Value { return d.row.is_too_fast != 0 ? "yes" : ""; }, words}};
+  return fields;
 }
 
 }  // namespace talus

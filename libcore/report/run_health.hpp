@@ -1,14 +1,15 @@
 // libcore/report/run_health.hpp: public
-// Whether runs kept to their limits, and what went on inside of them, as tables of a page.
+// Whether runs kept to their limits, and what went on inside of them.
 // in:    checks of the registry, health of the run files
-// out:   HTML
+// out:   rows of tables, each with the list of its fields
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "base/fields.hpp"
 #include "record/run_file.hpp"
-#include "report/texts.hpp"
 #include "store/runs.hpp"
 
 namespace talus {
@@ -19,6 +20,7 @@ struct LimitOverRuns {
   double worst = 0, limit = 0;  ///< in the unit that the name ends in
   int n_failed = 0;             ///< runs beyond it
 };
+[[nodiscard]] const std::vector<Field<LimitOverRuns>>& limit_fields();
 
 /// Takes in the checks of one more run.
 void add_limits(const std::vector<RunCheck>& checks, std::vector<LimitOverRuns>& limits);
@@ -27,21 +29,27 @@ void add_limits(const std::vector<RunCheck>& checks, std::vector<LimitOverRuns>&
 [[nodiscard]] bool all_pass(const std::vector<RunFile>& runs,
                             const std::vector<LimitOverRuns>& limits);
 
-/// A row a limit.
-[[nodiscard]] std::string limit_table(const Texts& texts, const std::vector<LimitOverRuns>& limits,
-                                      std::size_t n_runs);
+/// How far a run came, its steps, and what was not as it should be.
+struct RunHealth {
+  const std::string& name;
+  const RunInfo& info;
+  HealthRow whole;  ///< counts and cuts summed, the largest penetration, the shortest step
+};
+/// `names`: one a run.
+[[nodiscard]] std::vector<RunHealth> health_of(const std::vector<RunFile>& runs,
+                                               const std::vector<std::string>& names);
+[[nodiscard]] const std::vector<Field<RunHealth>>& counter_fields();
+/// How often islands made a substep again, by reason (docs/theory/theory.md, stage 8).
+[[nodiscard]] const std::vector<Field<RunHealth>>& cut_fields();
 
-/// A row a run: how far it came, its steps, and what was not as it should be. `names`: one a run.
-[[nodiscard]] std::string counter_table(const Texts& texts, const std::vector<RunFile>& runs,
-                                        const std::vector<std::string>& names);
-
-/// A row a run: how often islands made a substep again, by reason (docs/theory/theory.md, stage 8);
-/// empty when none did.
-[[nodiscard]] std::string cut_table(const Texts& texts, const std::vector<RunFile>& runs,
-                                    const std::vector<std::string>& names);
-
-/// A row a block that was deep in something; empty when there was none. `names`: one a run.
-[[nodiscard]] std::string deep_table(const Texts& texts, const std::vector<RunFile>& runs,
-                                     const std::vector<std::string>& names);
+/// A block that was deep in something.
+struct DeepOfRun {
+  const std::string& name;  ///< of the run
+  const RunFile& run;
+  const DeepRow& row;
+};
+[[nodiscard]] std::vector<DeepOfRun> deep_of_runs(const std::vector<RunFile>& runs,
+                                                  const std::vector<std::string>& names);
+[[nodiscard]] const std::vector<Field<DeepOfRun>>& deep_fields();
 
 }  // namespace talus

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <string>
@@ -29,12 +30,24 @@ class Texts {
   void add(const std::string& key, Entry entry);
 
   /// Takes the texts of `other` in place of its own. Returns the keys that `other` lacks. Throws
-  /// InputError for a key, a kind, a length of a list or a {name} that is not here too.
+  /// InputError for a key (but in [said]), a kind, a length of a list or a {name} that is not here
+  /// too. `page.sections` may have any length: what it leaves out is not shown.
   std::vector<std::string> replace_by(const Texts& other);
 
   /// {name} and what stands in its place, as HTML.
   using Values = std::initializer_list<std::pair<std::string_view, std::string>>;
   [[nodiscard]] std::string of(const std::string& key, Values values = {}) const;
+  /// The same; `value_of` gives what stands in the place of a name.
+  [[nodiscard]] std::string filled(
+      const std::string& key, const std::function<std::string(const std::string&)>& value_of) const;
+  [[nodiscard]] bool has(const std::string& key) const { return entries_.contains(key); }
+
+  /// Words of a result in the page's language. Section [said] has them, in English with {name}
+  /// where they differ, each with its translation; what it lacks stays as it is.
+  [[nodiscard]] std::string said(const std::string& words) const;
+  /// A number as this language writes it: [number] has the decimal sign and what parts thousands.
+  [[nodiscard]] std::string number(const std::string& text) const;
+
   /// One of two texts by a number, which is their {n}.
   [[nodiscard]] std::string counted(std::int64_t n, const std::string& one,
                                     const std::string& several) const;

@@ -8,6 +8,8 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
+#include "post/runout/runout_fields.hpp"
 #include "report/encode.hpp"
 
 namespace talus {
@@ -193,6 +195,93 @@ std::string fences_json(const RunFile& run, const std::vector<double>& height, d
   return "[" + out + "]";
 }
 
+// A point each half cell along a line, on the ground; where it is unknown, none.
+std::string draped_json(const std::vector<Vec2>& line, const Trn& trn, double z_origin) {
+  std::string points;
+  const auto add = [&](const Vec2& p) {
+    const double z = contains(trn, p.x(), p.y()) ? elevation_at(trn, p.x(), p.y()) : std::nan("");
+    if (!std::isnan(z))
+      points += (points.empty() ? "[" : ",[") + text(p.x(), 6) + "," + text(p.y(), 6) + "," +
+                text(z - z_origin, 6) + "]";
+  };
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vec2 along = line[i + 1] - line[i];
+    const int n = std::max(1, static_cast<int>(std::ceil(along.norm() / (0.5 * trn.cell_size))));
+    for (int k = 0; k < n; ++k) add(line[i] + along * k / n);
+  }
+  add(line.back());
+  return "[" + points + "]";
+}
+
+// Lines and outlines; a point is a circle.
+std::string objects_json(const RunFile& run, const Trn& trn, double z_origin) {
+  std::string out;
+  for (const RecordObject& object : run.objects) {
+    std::string lines;
+    for (const ObjectPart& part : object.parts) {
+      if (part.points.empty()) continue;
+      std::vector<Vec2> line = part.points;
+      const bool is_point = line.size() == 1;
+      if (is_point) {
+        line.clear();
+        for (int k = 0; k < 16; ++k)
+          line.push_back(part.points[0] +
+                         std::max(object.radius, 1.0) *
+                             Vec2(std::cos(22.5 * k * degree), std::sin(22.5 * k * degree)));
+      }
+      if (part.is_area || is_point) line.push_back(Vec2(line.front()));
+      lines += (lines.empty() ? "" : ",") + draped_json(line, trn, z_origin);
+    }
+    out += (out.empty() ? "{" : ",{") + std::string("\"name\":") + json_string(object.name) +
+           ",\"lines_m\":[" + lines + "]}";
+  }
+  return "[" + out + "]";
+}
+
+// Trajectories of the blocks that came farthest, with every field of their points.
+std::string paths_json(const RunFile& run, const Trn& trn, const Texts* texts, double z_origin,
+                       std::size_t max_points) {
+  constexpr double tolerance = 0.05;          // [m]
+  std::vector<std::pair<double, int>> order;  // by length, the longest first
+  std::vector<TimedPath> paths;
+  for (int b = 0; b < n_blocks(run); ++b) {
+    paths.push_back(shown_path(run, b, trn, tolerance));
+    order.emplace_back(-paths.back().distance.back(), b);
+  }
+  std::sort(order.begin(), order.end());
+  const auto& fields = path_point_fields();
+  std::vector<std::vector<double>> columns(fields.size() + 1);  // the last: elevation
+  std::vector<std::uint32_t> blocks, n_points;
+  for (const auto& [length, b] : order) {
+    const TimedPath& path = paths[b];
+    if (columns[0].size() + path.point.size() > max_points) break;
+    blocks.push_back(b);
+    n_points.push_back(static_cast<std::uint32_t>(path.point.size()));
+    for (std::size_t i = 0; i < path.point.size(); ++i) {
+      for (std::size_t c = 0; c < fields.size(); ++c)
+        columns[c].push_back(std::get<double>(fields[c].get({path, i})));
+      columns.back().push_back(path.point[i].z() - z_origin);
+    }
+  }
+  std::string out;
+  const auto add = [&](const std::vector<double>& values, const char* name, const char* unit,
+                       const std::string& title) {
+    Packing packing;
+    for (const double value : values) packing.hold(value);
+    std::vector<std::uint16_t> words;
+    for (const double value : values) words.push_back(packing.word(value));
+    out += (out.empty() ? "{" : ",{") + std::string("\"name\":") + json_string(name) +
+           ",\"unit\":" + json_string(unit) +
+           ",\"title\":" + json_string(texts == nullptr ? title : texts->said(title)) +
+           ",\"packing\":" + packing.json() + ",\"values\":\"" + base64(words) + "\"}";
+  };
+  for (std::size_t c = 0; c < fields.size(); ++c)
+    add(columns[c], fields[c].name, fields[c].unit, fields[c].title);
+  add(columns.back(), "z_m", "m", "Elevation of the centroid");
+  return "{\"blocks\":" + counts_json(blocks) + ",\"n_points\":" + counts_json(n_points) +
+         ",\"columns\":[" + out + "]}";
+}
+
 // Every k-th trail, so that all runs are drawn alike.
 std::string trails_json(const std::vector<std::vector<Vec3>>& trails, double z_origin,
                         std::size_t max_points) {
@@ -225,8 +314,12 @@ std::string viewer_scene(const RunFile& run, const Trn& trn, const ViewerPlaces&
          ",\n\"blocks\":" + blocks_json(run.blocks, n_blocks(run)) +
          ",\n\"frames\":" + frames_json(run, z_origin, limits.max_pose_bytes) +
          ",\n\"fences\":" + fences_json(run, places.fence_height, z_origin) +
+         ",\n\"objects\":" + objects_json(run, trn, z_origin) +
+         ",\n\"paths\":" + paths_json(run, trn, places.texts, z_origin, limits.max_path_points) +
          ",\n\"trails\":" + trails_json(places.trails, z_origin, limits.max_trail_points) +
-         ",\n\"contour_m\":" + text(places.contour_interval) + "}";
+         ",\n\"sheet\":{\"west_m\":" + text(places.map_corner.x()) +
+         ",\"north_m\":" + text(places.map_corner.y()) +
+         "},\n\"contour_m\":" + text(places.contour_interval) + "}";
 }
 
 }  // namespace talus

@@ -47,7 +47,7 @@ function talusMaps() {
     const value = isInside ? map.values[row * map.n_cols + col] : NaN;
     if (Number.isNaN(value) || value === 0) return '\u2013';
     if (map.labels[value]) return map.labels[value];
-    return Number(value.toPrecision(3)).toLocaleString('en') + (map.unit === '1' ? '' : ' ' + map.unit);
+    return Number(value.toPrecision(3)).toLocaleString(document.documentElement.lang) + (map.unit === '1' ? '' : ' ' + map.unit);
   };
 
   for (const sheet of sheets) {
@@ -69,7 +69,7 @@ function talusMaps() {
         asked = true;
         valuesOf(script).then((made) => { map = made; tell(e); });
       }
-      const round = (value) => Math.round(value).toLocaleString('en');
+      const round = (value) => Math.round(value).toLocaleString(document.documentElement.lang);
       out.textContent = (map ? wordsOf(map, x, y) + ' {{maps.at}} ' : '') + round(Number(place.west) + x * place.metres) + ' E, ' +
           round(Number(place.north) - y * place.metres) + ' N';
     };

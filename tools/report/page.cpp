@@ -1,26 +1,504 @@
 #include "tools/report/page.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
 #include <utility>
 
+#include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "base/units.hpp"
+#include "base/words.hpp"
+#include "post/moved.hpp"
+#include "post/statistics.hpp"
 #include "report/doubts_html.hpp"
-#include "report/html.hpp"
-#include "tools/report/basis.hpp"
-#include "tools/report/course.hpp"
-#include "tools/report/fences.hpp"
-#include "tools/report/hazard.hpp"
-#include "tools/report/json.hpp"
-#include "tools/report/maps.hpp"
-#include "tools/report/objects.hpp"
-#include "tools/report/result.hpp"
-#include "tools/report/runout.hpp"
-#include "tools/report/search.hpp"
-#include "tools/report/trees.hpp"
-#include "tools/report/uncertainty.hpp"
-#include "tools/report/viewer.hpp"
+#include "report/encode.hpp"
+#include "report/page_template.hpp"
+#include "report/provenance.hpp"
+#include "sampling/sensitivity.hpp"
+#include "site/soils.hpp"
+#include "site/uncertainty.hpp"
+#include "tools/frame/row_json.hpp"
+#include "tools/report/pictures.hpp"
 
 namespace talus {
+
+Json value_at(const Json& json, std::initializer_list<const char*> keys) {
+  const Json* here = &json;
+  for (const char* key : keys) {
+    if (!here->is_object() || !here->contains(key)) return nullptr;
+    here = &(*here)[key];
+  }
+  return *here;
+}
+
+std::string remark_of(const ReportData& data) { return headline(data.faults); }
+
+std::string fence_remark_of(const ReportData& data) {
+  const Json remark = value_at(data.fence, {"tags", "REMARK"});
+  return remark.is_string() ? remark.get<std::string>() : remark_of(data);
+}
+
+std::vector<std::string> hazard_maps_of(const Json& hazard) {
+  std::vector<std::string> names;
+  const Json layers = value_at(hazard, {"layers"});
+  if (!layers.is_array()) return names;
+  for (const Json& layer : layers)
+    if (const Json file = value_at(layer, {"file"}); file.is_string())
+      names.push_back(std::filesystem::path(file.get<std::string>()).stem().string());
+  std::reverse(names.begin(), names.end());  // the class first
+  return names;
+}
+
 namespace {
+
+double number_or(const Json& value, double otherwise) {
+  return value.is_number() ? value.get<double>() : otherwise;
+}
+
+// The entries of a list; none where it is something else.
+Json list_or_none(const Json& value) { return value.is_array() ? value : Json::array(); }
+
+std::string shown(const Texts& texts, double value, int digits = shown_digits) {
+  return texts.number(grouped_text(value, digits));
+}
+
+// A table as the part "table" of the template shows it.
+template <class Row>
+Json table_of_rows(const Texts& texts, const std::vector<Field<Row>>& fields,
+                   const std::vector<Row>& rows) {
+  Json out = {{"heads", Json::array()}, {"rows", Json::array()}};
+  const auto is_number = [](const Field<Row>& field) { return field.type != FieldType::text; };
+  for (const Field<Row>& field : fields)
+    out["heads"].push_back(
+        {{"title", field.title}, {"unit", field.unit}, {"is_number", is_number(field)}});
+  for (const Row& row : rows) {
+    Json cells = Json::array();
+    for (const Field<Row>& field : fields) {
+      const Json value = json_of(field.get(row));
+      cells.push_back(
+          {{"is_number", is_number(field)},
+           {"text", value.is_string() ? xml_escaped(texts.said(value.get<std::string>()))
+                    : value.is_number()
+                        ? shown(texts, value.get<double>(), value.is_number_integer() ? 9 : 3)
+                        : "&ndash;"}});
+    }
+    out["rows"].push_back(std::move(cells));
+  }
+  return out;
+}
+
+// --- result --------------------------------------------------------------------------------------
+
+// Runs of the run-out for which `holds`.
+template <class Test>
+int count_runs(const Json& runout, const Test& holds) {
+  const Json runs = list_or_none(value_at(runout, {"runs"}));
+  return static_cast<int>(std::count_if(runs.begin(), runs.end(), holds));
+}
+
+std::string runs_text(const Texts& texts, std::int64_t n) {
+  return texts.counted(n, "words.run", "words.runs");
+}
+
+// "largest of 10 runs", "largest of the 17 runs that moved", "of one run"
+std::string over_runs(const Texts& texts, const Json& runout, const std::string& which) {
+  const int n_all = count_runs(runout, [](const Json&) { return true; });
+  const int n = count_runs(runout, [](const Json& run) {
+    return value_at(run, {"event", "L_path_m"}).is_number();
+  });
+  if (n_all == 1) return texts.of("result.of_one_run");
+  return texts.of(n < n_all ? "result.of_moved_runs" : "result.of_runs",
+                  {{"which", texts.of(which)}, {"runs", runs_text(texts, n)}});
+}
+
+// "; still moving at the end in 2 runs"
+std::string unsettled(const Texts& texts, const Json& runout) {
+  std::string out;
+  for (const auto& [fate, words] : {std::pair{"moving", "result.still_moving"},
+                                    std::pair{"left_domain", "result.left_terrain"}}) {
+    const int n = count_runs(
+        runout, [fate = fate](const Json& run) { return value_at(run, {"toe_fate"}) == fate; });
+    if (n > 0) out += texts.of(words, {{"runs", runs_text(texts, n)}});
+  }
+  return out;
+}
+
+// "; p95 over the runs 95.2 m" where they are enough for one.
+std::string extreme_percentile(const Texts& texts, const Json& runout, const char* result,
+                               const char* percentile, const char* unit) {
+  const Json spread = value_at(runout, {"spread_over_runs", result});
+  if (number_or(value_at(spread, {"n"}), 0) < smallest_sample(0.95)) return "";
+  return texts.of("result.percentile",
+                  {{"percentile", percentile},
+                   {"value", shown(texts, number_or(value_at(spread, {percentile}), 0)) + unit}});
+}
+
+// Tiles of what went wrong, or is no event.
+Json trouble_of(const ReportData& data) {
+  const Texts& texts = data.texts;
+  Json tiles = Json::array();
+  const auto tile = [&](std::int64_t n, std::int64_t n_all, const std::string& what) {
+    if (n > 0)
+      tiles.push_back({{"kind", "bad"},
+                       {"value", texts.of("words.n_of", {{"n", std::to_string(n)},
+                                                         {"all", runs_text(texts, n_all)}})},
+                       {"what", what}});
+  };
+  const auto n_failed = std::ssize(data.faults.failed);
+  tile(n_failed, data.faults.n_runs,
+       texts.of(n_failed == 1 ? "result.one_failed" : "result.several_failed"));
+  const int n_all = count_runs(data.runout, [](const Json&) { return true; });
+  const auto n_with = [&data](bool moved, bool event) {
+    return count_runs(data.runout, [&](const Json& run) {
+      return value_at(run, {"did_move"}) == Json(moved) &&
+             (!moved || value_at(run, {"is_event"}) == Json(event));
+    });
+  };
+  tile(n_with(false, false), n_all, texts.of("result.did_not_move", {{"metres", text(moved_m)}}));
+  tile(n_with(true, false), n_all, texts.of("result.moved_little"));
+  const Json chance = value_at(data.runout, {"event_probability"});
+  if (n_with(false, false) + n_with(true, false) > 0 && chance.is_number())
+    tiles.push_back({{"value", texts.number(percent(chance.get<double>()))},
+                     {"what", texts.of("result.events")}});
+  return tiles;
+}
+
+// Speed of any block, path of the centre of mass.
+Json motion_of(const Json& runout) {
+  double fastest = 0, path = 0;
+  int n = 0;
+  for (const Json& run : list_or_none(value_at(runout, {"runs"}))) {
+    fastest = std::max(fastest, number_or(value_at(run, {"max_speed_m_s"}), 0));
+    const Json length = value_at(run, {"centre_of_mass", "L_path_m"});
+    if (!length.is_number()) continue;
+    path += length.get<double>();
+    ++n;
+  }
+  return {{"speed_m_s", fastest}, {"centre_m", n > 0 ? Json(path / n) : Json()}};
+}
+
+// The text that says how little of the mass moved; "" where it is enough.
+std::string standing_of(const Json& runout) {
+  if (!(number_or(value_at(runout, {"moved", "share_moved_1_m"}), 1) < least_moved)) return "";
+  const bool any = number_or(value_at(runout, {"moved", "displacement_max_m"}), 0) > moved_m;
+  return any ? "half_moved" : "nothing_moved";
+}
+
+void add_result(const ReportData& data, Json& out) {
+  const Texts& texts = data.texts;
+  const Json& r = data.runout;
+  out["trouble"] = trouble_of(data);
+  out["motion"] = motion_of(r);
+  out["standing"] = standing_of(r);
+  out["repeats"] = data.repeats;
+  out["over"] = {{"largest", over_runs(texts, r, "result.largest")},
+                 {"smallest", over_runs(texts, r, "result.smallest")},
+                 {"mean", over_runs(texts, r, "result.mean")},
+                 {"fate", unsettled(texts, r)},
+                 {"p95", extreme_percentile(texts, r, "L_path_m", "p95", " m")},
+                 {"p05", extreme_percentile(texts, r, "reach_angle_path_deg", "p05", "&deg;")}};
+  out["left_out"] = runs_text(texts, std::ssize(list_or_none(value_at(r, {"left_out_runs"}))));
+  out["faults"] = Json::array();
+  for (const RunFault& fault : data.faults.failed)
+    out["faults"].push_back({{"name", fault.name}, {"words", fault.words}});
+}
+
+// --- run-out -------------------------------------------------------------------------------------
+
+// What H/L of the centre of mass is compared with: tan(phi) of the ground, as the runs had it.
+std::string friction_of(const ReportData& data) {
+  const Texts& texts = data.texts;
+  std::map<std::string, std::pair<double, double>> grounds;  // least and most friction [deg]
+  for (const RunFile& run : data.runs)
+    for (const GroundSettings& ground : parse_site(run.info.config, run.info.run_id).grounds) {
+      auto& [low, high] =
+          grounds.try_emplace(ground.name, ground.friction_deg, ground.friction_deg).first->second;
+      low = std::min(low, ground.friction_deg);
+      high = std::max(high, ground.friction_deg);
+    }
+  const auto tangent = [&](double degrees) { return shown(texts, std::tan(degrees * degree)); };
+  const auto range = [&texts](const std::string& low, const std::string& high) {
+    return texts.of("words.range", {{"low", low}, {"high", high}});
+  };
+  std::string list;
+  for (const auto& [name, friction] : grounds) {
+    const auto& [low, high] = friction;
+    list += (list.empty() ? "" : "; ") + xml_escaped(name) + ": " +
+            (low == high ? texts.of("runout.tangent",
+                                    {{"degrees", shown(texts, low, 4)}, {"tangent", tangent(low)}})
+                         : texts.of("runout.tangents",
+                                    {{"tangents", range(tangent(low), tangent(high))},
+                                     {"degrees", range(shown(texts, low), shown(texts, high))}}));
+  }
+  return list;
+}
+
+// Of the run of the animation, the farthest one.
+Json energy_line_of(const ReportData& data) {
+  for (const Json& run : list_or_none(value_at(data.runout, {"runs"})))
+    if (run.value("run_id", "") == data.shown.info.run_id) return value_at(run, {"energy_line"});
+  return {};
+}
+
+// --- fences --------------------------------------------------------------------------------------
+
+// "1 stopped, 56 did not reach it"
+std::string verdict_counts(const Texts& texts, const Json& fence) {
+  std::string out;
+  const Json verdicts = value_at(fence, {"verdicts"});
+  if (!verdicts.is_object()) return "";
+  for (const auto& [name, verdict] : verdicts.items()) {
+    const double n = number_or(value_at(verdict, {"n"}), 0);
+    const std::string key = name == "not_reached" ? "fences.not_reached" : "passage." + name;
+    if (n > 0)
+      out += (out.empty() ? "" : ", ") + shown(texts, n, 9) + " " +
+             (texts.has(key) ? texts.of(key) : xml_escaped(name));
+  }
+  return out;
+}
+
+// Fences of a report with what their part of the template asks for besides.
+Json fences_of(const Texts& texts, const Json& report) {
+  Json fences = Json::array();
+  for (Json fence : list_or_none(value_at(report, {"fences"}))) {
+    if (!fence.is_object()) continue;
+    const Json code = value_at(fence, {"design", "code"});
+    const Json standing = value_at(fence, {"standing"});
+    fence["code"] =
+        code.is_string() ? std::filesystem::path(code.get<std::string>()).stem().string() : "";
+    fence["verdict_counts"] = verdict_counts(texts, fence);
+    fence["is_rigid"] = standing == Json(true) && !value_at(fence, {"capacity_kj"}).is_number();
+    fence["has_kept"] = value_at(fence, {"kept_from_passing_m3"}).is_number();
+    std::string guessed;
+    for (const Json& name : list_or_none(value_at(fence, {"design", "from_memory"})))
+      if (name.is_string())
+        guessed += (guessed.empty() ? "" : ", ") + xml_escaped(name.get<std::string>());
+    fence["from_memory"] = guessed;
+    if (value_at(fence, {"design", "whole", "derivation"}).is_array())
+      for (Json& step : fence["design"]["whole"]["derivation"]) {
+        const Json symbol = value_at(step, {"symbol"});
+        if (step.is_object()) step["is_needed"] = symbol == "E_req" || symbol == "h_req";
+      }
+    fences.push_back(std::move(fence));
+  }
+  return fences;
+}
+
+void add_fences(const ReportData& data, Json& out) {
+  out["fence"] = {{"fences", fences_of(data.texts, data.fence)}};
+  out["case_fences"] = Json::array();
+  for (const auto& [name, report] : data.case_fences)
+    out["case_fences"].push_back({{"case", name}, {"fences", fences_of(data.texts, report)}});
+  out["cases_alone"] =
+      !data.case_fences.empty() && value_at(data.runout, {"cases_weighed"}) != Json(true);
+}
+
+// --- search, objects
+// -------------------------------------------------------------------------------
+
+Json searches_of(const ReportData& data) {
+  constexpr std::size_t most_rows = 12;  // of the curve
+  Json searches = list_or_none(value_at(data.search, {"searches"}));
+  for (std::size_t s = 0; s < searches.size(); ++s) {
+    Json& search = searches[s];
+    const Json curve = list_or_none(value_at(search, {"curve"}));
+    const std::size_t step = (curve.size() + most_rows - 1) / most_rows;
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < curve.size(); ++i)
+      if (i % step == 0 || i + 1 == curve.size()) {
+        rows.push_back(curve[i]);
+        rows.back()["option"] = i + 1;
+      }
+    search["curve"] = std::move(rows);
+    search["is_fence"] = value_at(search, {"verdict"}) == "fence";
+    search["map"] = proposal_map(data, list_or_none(value_at(search, {"proposals"})));
+    const std::string& svg = s < data.search_svgs.size() ? data.search_svgs[s] : "";
+    search["chart"] = svg.empty() ? "" : data_address("image/svg+xml", svg);
+  }
+  return searches;
+}
+
+bool any_by_cells(const Json& trace) {
+  const Json objects = list_or_none(value_at(trace, {"objects"}));
+  return std::any_of(objects.begin(), objects.end(),
+                     [](const Json& object) { return value_at(object, {"method"}) != "recorded"; });
+}
+
+// --- uncertainty ---------------------------------------------------------------------------------
+
+// The runs with what they drew; all stand in runs.csv.
+Json drawn_of(const Json& runout) {
+  constexpr std::size_t most = 200;
+  const Json runs = list_or_none(value_at(runout, {"runs"}));
+  Json rows = Json::array(), names = Json::array();
+  for (const Json& run : runs) {
+    const Json drawn = value_at(run, {"drawn"});
+    if (!drawn.is_object() || !drawn.contains("sample")) continue;
+    if (names.empty())
+      for (const auto& [name, value] : drawn.items()) names.push_back(name);
+    if (rows.size() < most)
+      rows.push_back({{"seed", value_at(run, {"seed"})},
+                      {"length", value_at(run, {"event", "L_path_m"})},
+                      {"drawn", drawn}});
+  }
+  if (rows.empty()) return {};
+  std::sort(rows.begin(), rows.end(), [](const Json& a, const Json& b) {
+    return number_or(a["seed"], 0) < number_or(b["seed"], 0);
+  });
+  const std::size_t n = rows.size();
+  return {{"names", names},
+          {"rows", std::move(rows)},
+          {"n", n},
+          {"all", runs.size()},
+          {"more", runs.size() > n}};
+}
+
+// "L_path_m" in words.
+std::string result_words(const Texts& texts, const std::string& result) {
+  static const std::map<std::string, std::string> words = {
+      {"L_path_m", "uncertainty.length"},
+      {"reach_angle_path_deg", "uncertainty.angle"},
+      {"L95_m", "uncertainty.length_95"},
+      {"share_moved_1_m", "uncertainty.moved"}};
+  if (const auto found = words.find(result); found != words.end()) return texts.of(found->second);
+  return texts.of(
+      result.starts_with("crossed.") ? "uncertainty.crossed" : "uncertainty.largest_energy",
+      {{"line", xml_escaped(result.substr(result.find('.') + 1))}});
+}
+
+// A part a result, with its rows and pictures.
+Json sensitivity_of(const Texts& texts, const Json& runout) {
+  Json parts = Json::array();
+  std::string before;
+  for (const Json& row : list_or_none(value_at(runout, {"sensitivity"}))) {
+    const std::string result = row.value("result", "");
+    if (parts.empty() || result != before)
+      parts.push_back({{"title", result_words(texts, result)},
+                       {"rows", Json::array()},
+                       {"is_enough", false},
+                       {"needed", least_runs_for_sensitivity}});
+    before = result;
+    parts.back()["rows"].push_back(row);
+    if (value_at(row, {"first_order"}).is_number()) parts.back()["is_enough"] = true;
+  }
+  for (Json& part : parts)
+    for (const auto& [name, key, title] :
+         {std::tuple{"shares", "first_order", "uncertainty.shares"},
+          {"ranks", "rank_correlation", "uncertainty.ranks"}}) {
+      std::vector<Bar> bars;
+      for (const Json& row : part["rows"])
+        if (const Json value = value_at(row, {key}); value.is_number())
+          bars.push_back({row.value("quantity", ""), value.get<double>()});
+      part[name] = bar_picture(bars, texts.of(title));
+    }
+  return parts;
+}
+
+void add_uncertainty(const ReportData& data, Json& out) {
+  const UncertaintySettings& u = data.site.uncertainty;
+  out["quantities"] = Json::array();
+  for (const QuantitySettings& quantity : data.site.quantities)
+    out["quantities"].push_back({{"name", quantity.name},
+                                 {"drawn_from", text_of(data.site, quantity)},
+                                 {"is_rock", is_rock(quantity)}});
+  out["is_drawn"] = !data.site.quantities.empty() || u.rock_masses > 0;
+  out["rock_masses"] = u.rock_masses;
+  out["terrain_rmse_m"] = u.terrain_rmse_m;
+  out["drawn"] = drawn_of(data.runout);
+  out["sensitivity"] = sensitivity_of(data.texts, data.runout);
+}
+
+// --- checks, assumptions, provenance -------------------------------------------------------------
+
+void add_health(const ReportData& data, Json& out) {
+  const Texts& texts = data.texts;
+  const std::vector<RunHealth> runs = health_of(data.runs, data.run_names);
+  const bool any_cut = std::any_of(runs.begin(), runs.end(), [](const RunHealth& run) {
+    return std::any_of(run.whole.cuts.begin(), run.whole.cuts.end(), [](auto n) { return n > 0; });
+  });
+  Json failed = Json::array();
+  for (std::size_t i = 0; i < data.runs.size(); ++i)
+    if (const std::string& reason = data.runs[i].info.reason; !reason.empty())
+      failed.push_back({{"name", data.run_names[i]}, {"words", reason}});
+  out["all_pass"] = all_pass(data.runs, data.limits);
+  out["health"] = {
+      {"limits", table_of_rows(texts, limit_fields(), data.limits)},
+      {"failed", std::move(failed)},
+      {"counters", table_of_rows(texts, counter_fields(), runs)},
+      {"cuts", table_of_rows(texts, cut_fields(), any_cut ? runs : std::vector<RunHealth>())},
+      {"deep", table_of_rows(texts, deep_fields(), deep_of_runs(data.runs, data.run_names))}};
+}
+
+// The plane that a daylighting failure surface was found to be; null for other surfaces.
+Json failure_plane(const Json& blocks) {
+  const Json planes = value_at(blocks, {"cut", "failure_planes"});
+  for (const Json& plane : list_or_none(value_at(planes, {"sets"})))
+    if (value_at(plane, {"set"}) == value_at(planes, {"taken"})) return plane;
+  return {};
+}
+
+// What the bodies of a section look like.
+std::string shape_of(const Texts& texts, const BodySettings& placed) {
+  if (placed.shape.empty()) return texts.of("assumed.meshes", {{"file", xml_escaped(placed.file)}});
+  std::string size;
+  for (const double edge : placed.size_m)
+    size += (size.empty() ? ", " : " x ") + shown(texts, edge);
+  if (!size.empty()) size += " m";
+  if (placed.shape == "rock")
+    return texts.of("assumed.rocks", {{"n", std::to_string(placed.n_points)}}) + size;
+  if (placed.shape == "prism")
+    return texts.of("assumed.prisms", {{"n", std::to_string(placed.n_sides)}}) + size;
+  return xml_escaped(texts.said(placed.shape)) + size;
+}
+
+Json settings_of(const Site& site, bool defaults) {
+  Json rows = Json::array();
+  for (const EffectiveValue& value : effective_values(site))
+    if (!value.value.empty() && (value.source == "default") == defaults)
+      rows.push_back({{"key", value.section + "." + value.key}, {"value", value.value}});
+  return {{"rows", std::move(rows)}};
+}
+
+void add_assumptions(const ReportData& data, Json& out) {
+  out["runs_to_add"] = data.runs_to_add;
+  out["failure_plane"] = failure_plane(data.blocks);
+  out["soils"] = out["placed"] = Json::array();
+  for (const GroundSettings& ground : data.site.grounds)
+    if (const Soil* soil = soil_named(ground.soil))
+      out["soils"].push_back({{"ground", ground.name},
+                              {"soil", soil->name},
+                              {"mark", soil->mark},
+                              {"source", soil->source}});
+  const auto say_shape = [&](const BodySettings& body) {
+    out["placed"].push_back({{"blocks", body.name}, {"shape", shape_of(data.texts, body)}});
+  };
+  for (const PlacedSettings& placed : data.site.blocks) say_shape(placed);
+  for (const RockfallSettings& rocks : data.site.rockfalls) say_shape(rocks);
+  out["settings"] = {{"given", settings_of(data.site, false)},
+                     {"defaults", settings_of(data.site, true)}};
+  out["plan"] = list_or_none(Json::parse_or_null(data.shown.info.plan));
+}
+
+void add_provenance(const ReportData& data, Json& out) {
+  const auto files = [](const std::vector<StepFile>& list) {
+    Json rows = Json::array();
+    for (const StepFile& file : list) rows.push_back({{"path", file.path}, {"sha", file.sha}});
+    return rows;
+  };
+  out["steps"] = Json::array();
+  for (const ProvenanceStep& step : provenance_steps(data.steps, data.site.file))
+    out["steps"].push_back({{"command", step.command},
+                            {"version", step.version},
+                            {"run_id", step.run_id},
+                            {"notes", step.notes},
+                            {"read", files(step.read)},
+                            {"wrote", files(step.wrote)}});
+  out["n_steps"] = out["steps"].size();
+}
+
+// --- scripts -------------------------------------------------------------------------------------
 
 // Within the quotation marks of a script.
 std::string in_script(const std::string& words) {
@@ -45,112 +523,79 @@ std::string with_texts(const std::string& script, const Texts& texts) {
   return out + script.substr(done);
 }
 
-std::string page_head(const ReportData& data, const std::string& style) {
-  const SiteInfo& info = data.site.info;
-  const Texts& texts = data.texts;
-  std::string out = "<!DOCTYPE html>\n<html lang=\"" + texts.of("page.language") +
-                    "\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
-                    "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-                    texts.of("page.title", {{"site", xml_escaped(info.name)}}) +
-                    "</title>\n<link rel=\"icon\" "
-                    "href=\"data:,\">\n<style>\n" +
-                    style + "</style>\n</head>\n<body>\n<header>\n<h1>" + xml_escaped(info.name) +
-                    "</h1>\n";
-  if (!info.description.empty()) out += html_paragraph(xml_escaped(info.description));
-  out += "<p class=\"soft\">" +
-         texts.of("page.made_by", {{"version", xml_escaped(data.version)},
-                                   {"run_id", data.run_id},
-                                   {"crs", word_text(value_at(data.trn, {"grid", "crs"}))}}) +
-         "<span id=\"written\"></span></p>\n<nav>";
-  for (const auto& [id, title] : {std::pair{"result", "nav.result"},
-                                  {"maps", "nav.maps"},
-                                  {"animation", "nav.animation"},
-                                  {"runout", "nav.runout"},
-                                  {"hazard", "nav.hazard"},
-                                  {"objects", "nav.objects"},
-                                  {"search", "nav.search"},
-                                  {"fences", "nav.fences"},
-                                  {"trees", "nav.trees"},
-                                  {"uncertainty", "nav.uncertainty"},
-                                  {"curves", "nav.curves"},
-                                  {"health", "nav.health"},
-                                  {"doubts", "nav.doubts"},
-                                  {"assumed", "nav.assumed"},
-                                  {"plan", "nav.plan"},
-                                  {"provenance", "nav.provenance"}}) {
-    if (id == std::string("trees") && tree_section(data).empty()) continue;
-    if (id == std::string("uncertainty") && uncertainty_section(data).empty()) continue;
-    if (id == std::string("hazard") && hazard_section(data).empty()) continue;
-    if (id == std::string("objects") && object_section(data).empty()) continue;
-    if (id == std::string("search") && search_section(data).empty()) continue;
-    if (id == std::string("fences") && fence_section(data).empty()) continue;
-    out += std::string("<a href=\"#") + id + "\">" + texts.of(title) + "</a>";
-  }
-  return out + "</nav>\n</header>\n<main>\n";
+Json files_of(const PageFiles& files, const Texts& texts) {
+  return {
+      {"style", files.style},
+      {"viewer", with_texts(files.viewer, texts)},
+      {"profile", with_texts(files.profile, texts)},
+      {"maps", with_texts(files.maps, texts)},
+      {"written", in_script(texts.of("page.file_written",
+                                     {{"time",
+                                       "${changed.getFullYear()}-${two(changed.getMonth() + "
+                                       "1)}-${two(changed.getDate())} ${two(changed.getHours())}:"
+                                       "${two(changed.getMinutes())}"}}))}};
 }
 
-// Shows when the file was written, which its bytes do not tell, and opens what is folded for print.
-std::string page_script(const Texts& texts) {
-  return "<script>\n"
-         "const changed = new Date(document.lastModified), two = (n) => String(n).padStart(2, "
-         "'0');\n"
-         "document.getElementById('written').textContent = `" +
-         in_script(texts.of(
-             "page.file_written",
-             {{"time",
-               "${changed.getFullYear()}-${two(changed.getMonth() + 1)}-${two(changed.getDate())} "
-               "${two(changed.getHours())}:${two(changed.getMinutes())}"}})) +
-         "`;\n"
-         "addEventListener('beforeprint', () => "
-         "document.querySelectorAll('details').forEach((d) => { d.open = true; }));\n"
-         "</script>\n";
-}
-
-// The remark as a head that a browser repeats on every printed page, since the heading of a section
-// may stand pages before. On a screen the frame is not seen.
-std::string in_print_frame(const std::string& content, const std::string& remark) {
-  if (remark.empty()) return content;
-  return "<table class=\"print-frame\"><thead><tr><td><div class=\"banner\">" +
-         xml_escaped(remark) + "</div></td></tr></thead><tbody><tr><td>\n" + content +
-         "</td></tr></tbody></table>\n";
+Json data_of(const ReportData& data, const PageFiles& files) {
+  const std::size_t n_runs = data.runs.size();
+  const std::string remark = remark_of(data), fence_remark = fence_remark_of(data);
+  Json classes = list_or_none(value_at(data.hazard, {"classes"}));
+  std::reverse(classes.begin(), classes.end());  // the strongest first
+  const Json forests = list_or_none(value_at(data.runout, {"trees", "forests"}));
+  Json out = {
+      {"site", {{"name", data.site.info.name}, {"description", data.site.info.description}}},
+      {"version", data.version},
+      {"run_id", data.run_id},
+      {"crs", value_at(data.trn, {"grid", "crs"})},
+      {"remark", remark},
+      {"fence_remark", fence_remark},
+      {"first_remark", remark.empty() ? fence_remark : remark},
+      {"files", files_of(files, data.texts)},
+      {"pictures", pictures_of(data)},
+      {"scene", scene_of(data)},
+      {"doubts", doubts_html(data.doubts, data.texts.of("doubts.none"))},
+      {"runout", data.runout},
+      {"blocks", data.blocks},
+      {"trn", data.trn},
+      {"tin", data.tin},
+      {"hazard", data.hazard},
+      {"hazard_classes", classes},
+      {"trace", data.trace},
+      {"places", data.places},
+      {"searches", searches_of(data)},
+      {"objects_by_cells", any_by_cells(data.trace)},
+      {"n_runs", n_runs},
+      {"few_runs", n_runs < 10},
+      {"few_curves", n_runs < 3},
+      {"has_cases", !list_or_none(value_at(data.runout, {"cases"})).empty()},
+      {"has_lines", !data.sheet.places.lines.empty()},
+      {"has_objects", !data.shown.objects.empty()},
+      {"has_frames", !data.shown.reach},
+      {"has_trails", !data.trails.empty()},
+      {"shown", {{"name", data.shown_name}}},
+      {"contour_m", data.sheet.ground.contour_interval},
+      {"all_events", value_at(data.runout, {"n_events"}) == value_at(data.runout, {"n_runs"})},
+      {"energy_line", energy_line_of(data)},
+      {"friction", friction_of(data)},
+      {"n_stems_shown", list_or_none(value_at(data.runout, {"trees", "stems"})).size()},
+      {"rocks_alone", std::any_of(forests.begin(), forests.end(), [](const Json& forest) {
+         return !value_at(forest, {"n_rocks"}).is_null();
+       })}};
+  add_result(data, out);
+  add_fences(data, out);
+  add_uncertainty(data, out);
+  add_health(data, out);
+  add_assumptions(data, out);
+  add_provenance(data, out);
+  return out;
 }
 
 }  // namespace
 
-std::string remark_of(const ReportData& data) { return headline(data.faults); }
-
-std::string fence_remark_of(const ReportData& data) {
-  const Json remark = value_at(data.fence, {"tags", "REMARK"});
-  return remark.is_string() ? remark.get<std::string>() : remark_of(data);
-}
-
 std::string report_page(const ReportData& data, const PageFiles& files) {
-  const std::string remark = remark_of(data), fence_remark = fence_remark_of(data);
-  std::string main;
-  for (const std::string& section : {map_section(data), viewer_section(data), runout_section(data)})
-    main += html_marked(section, xml_escaped(remark));
-  for (const std::string& section :
-       {hazard_section(data), object_section(data), search_section(data)})
-    if (!section.empty()) main += html_marked(section, xml_escaped(remark));
-  main += html_marked(fence_section(data), xml_escaped(fence_remark));
-  if (const std::string trees = tree_section(data); !trees.empty())
-    main += html_marked(trees, xml_escaped(remark));
-  if (const std::string drawn = uncertainty_section(data); !drawn.empty())
-    main += html_marked(drawn, xml_escaped(remark));
-  for (const std::string& section :
-       {curve_section(data), health_section(data),
-        html_section("doubts", data.texts.of("doubts.title"),
-                     html_note(data.texts.of("doubts.what")) +
-                         doubts_html(data.doubts, data.texts.of("doubts.none"))),
-        assumption_section(data), plan_section(data), provenance_section(data)})
-    main += html_marked(section, xml_escaped(remark));
-  const std::string first = remark.empty() ? fence_remark : remark;
-  main = html_marked(result_section(data), xml_escaped(first)) + main;
-  return page_head(data, files.style) + sheet_definitions(data.texts, data.sheet) +
-         in_print_frame(main, first) + "</main>\n<footer>" + data.texts.of("page.footer") +
-         "</footer>\n" + viewer_script(data, with_texts(files.viewer, data.texts)) + "<script>\n" +
-         with_texts(files.maps, data.texts) + "\ntalusMaps();\n</script>\n" +
-         page_script(data.texts) + "</body>\n</html>\n";
+  return filled_page("page.html", files.page,
+                     data_of(data, files).dump(),
+                     data.texts);
 }
 
 }  // namespace talus

@@ -1,17 +1,25 @@
 // tools/report/page.hpp
-// A report as one HTML file: head, chapters, scripts.
+// The page: what its template (page.html) and its texts do not say themselves.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/report/data.hpp"
 
 namespace talus {
 
-/// What is shipped with the tool.
+/// Files that are built in.
 struct PageFiles {
-  std::string style, viewer, maps;  ///< CSS, scripts of the 3-D viewer and of the maps
+  std::string page, style, viewer, profile, maps;  ///< template, CSS, scripts
 };
+
 [[nodiscard]] std::string report_page(const ReportData& data, const PageFiles& files);
+
+/// Names of the rasters of hazard.json, the class first.
+[[nodiscard]] std::vector<std::string> hazard_maps_of(const Json& hazard);
+
+/// The value at a path of keys; null where any is missing.
+[[nodiscard]] Json value_at(const Json& json, std::initializer_list<const char*> keys);
 
 }  // namespace talus

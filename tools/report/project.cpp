@@ -19,8 +19,7 @@
 #include "report/plan_view.hpp"
 #include "report/styles_gdal.hpp"
 #include "site/site_layers.hpp"
-#include "tools/report/hazard.hpp"
-#include "tools/report/json.hpp"
+#include "tools/report/page.hpp"
 
 namespace talus {
 namespace {
@@ -322,7 +321,8 @@ QgisProject project_of(const ReportData& data, const std::string& file,
     project.layers.push_back(raster_layer(file, folder, "change", "Fences", "Change by the fence"));
   add_objects(project, file, folder, data);
   // Footprints of many runs would cover the maps.
-  std::set<std::string> hidden = {"path_points", "impacts", "paths", "envelope", "runs", "tree_hits"};
+  std::set<std::string> hidden = {"path_points", "impacts", "paths",
+                                  "envelope",    "runs",    "tree_hits"};
   if (data.runs.size() > 1) hidden.insert("deposit");
   add_package(project, file, folder, "runout.gpkg", "Paths", hidden);
   if (data.runs.size() > 1) show_farthest(project, data);

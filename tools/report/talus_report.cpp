@@ -1,6 +1,7 @@
 // tools/report/talus_report.cpp
 // The results of a site as one HTML file and as a QGIS project. Page: docs/tools/talus-report.md
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iterator>
 #include <limits>
@@ -36,7 +37,6 @@
 #include "tools/frame/whole_runs.hpp"
 #include "tools/report/data.hpp"
 #include "tools/report/folder.hpp"
-#include "tools/report/hazard.hpp"
 #include "tools/report/page.hpp"
 #include "tools/report/project.hpp"
 
@@ -44,6 +44,9 @@ namespace {
 
 using namespace talus;  // NOLINT: a program of its own
 namespace fs = std::filesystem;
+
+// Of the page; file texts.LANGUAGE.toml.
+constexpr std::array shipped_languages = {"de", "fr", "it"};
 
 struct Options {
   std::string dir, out, qgis, qgis_template, texts;
@@ -398,6 +401,8 @@ void read_maps(const ResultFolder& folder, ReportData& data) {
     for (MapPicture& picture : picture_of(folder, "hazard/" + name, sheet))
       data.hazard_maps.push_back(std::move(picture));
   hatch_class_map(folder, data);
+  for (MapPicture& map : data.hazard_maps)
+    for (auto& [code, label] : map.map.labels) label = data.texts.said(label);
   data.change_map = picture_of(folder, "change", sheet);
 }
 
@@ -416,17 +421,27 @@ std::vector<std::vector<Vec3>> trails_in(const ResultFolder& folder, const Vec3&
   return trails;
 }
 
-// The words of the page, those of a file in place of the shipped ones.
-Texts page_texts(Tool& tool, const std::string& file) {
+// The words of the page: English ones, and those of a shipped language or of a file in place of
+// them.
+Texts page_texts(Tool& tool, const std::string& language_or_file) {
   Texts texts = parse_texts(shipped_data("texts.toml"), "texts.toml");
-  if (file.empty()) return texts;
-  const std::vector<std::string> missing = texts.replace_by(parse_texts(read_file(file), file));
+  const auto& shipped = shipped_languages;
+  if (language_or_file.empty() || language_or_file == "en") return texts;
+  if (std::find(shipped.begin(), shipped.end(), language_or_file) != shipped.end()) {
+    const std::string name = "texts." + language_or_file + ".toml";
+    static_cast<void>(texts.replace_by(parse_texts(shipped_data(name), name)));
+    return texts;
+  }
+  tool.read_also("texts", language_or_file);
+  const std::vector<std::string> missing =
+      texts.replace_by(parse_texts(read_file(language_or_file), language_or_file));
   if (missing.empty()) return texts;
   std::string first;
   for (std::size_t i = 0; i < std::min<std::size_t>(missing.size(), 3); ++i)
     first += (first.empty() ? "" : ", ") + missing[i];
-  tool.warn(file + ": lacks " + counted(std::ssize(missing), "text") + " of the page (" + first +
-            (missing.size() > 3 ? ", ..." : "") + "): there the shipped ones stand");
+  tool.warn(language_or_file + ": lacks " + counted(std::ssize(missing), "text") +
+            " of the page (" + first + (missing.size() > 3 ? ", ..." : "") +
+            "): there the shipped ones stand");
   return texts;
 }
 
@@ -489,7 +504,8 @@ void run_tool(Tool& tool, const Options& o, const Site& site) {
   progress(0.9);
   std::string qgs;
   if (!o.qgis.empty()) qgs = qgis_project_xml(project_of(data, o.qgis, folder), qgis_template(o));
-  tool.write_text(o.out, report_page(data, {shipped_data("report.css"), shipped_data("viewer.js"),
+  tool.write_text(o.out, report_page(data, {shipped_data("page.html"), shipped_data("report.css"),
+                                            shipped_data("viewer.js"), shipped_data("profile.js"),
                                             shipped_data("maps.js")}));
   if (!o.qgis.empty())
     tool.write_text(o.qgis, zip_archive({{fs::path(o.qgis).stem().string() + ".qgs", qgs}}));
@@ -518,9 +534,9 @@ int main(int argc, char** argv) {
              "project (QGS or QGZ) saved by QGIS 3.22 or later, whose layouts and settings the "
              "project takes in place of the shipped ones: share/talus/report/project.qgs")
       .needs(qgis);
-  tool.input("--texts", o.texts,
-             "words of the page (TOML) in place of those shipped, all or some: share/talus/report/"
-             "texts.toml has all");
+  tool.option("--texts", o.texts,
+              "language of the page (en, de, fr, it), or a file (TOML) with words in place "
+              "of those shipped, all or some: share/talus/report/texts.toml has all");
   tool.footer(
       "Example:\n  talus-report site.toml --dir out -o out/report.html --qgis out/site.qgz");
   return tool.run(argc, argv, [&] { run_tool(tool, o, site.load()); });

@@ -1,12 +1,13 @@
 // tools/report/viewer.js
 // The 3-D viewer of the HTML report: terrain, blocks and fences over time, in plain WebGL2.
 // in:  talusViewer(element, scene); scene as talus-report writes it (docs/reference/formats.md#viewer):
-//      terrain, blocks, frames, fences, trails, contour_m; arrays are base64, little-endian
+//      terrain, blocks, frames, fences, objects, trails, contour_m; arrays are base64, little-endian;
+//      the ground and the cells of the page's maps are laid over the terrain; onPick(block)
 // The poses of all frames lie in one texture; the vertex shader takes two frames and interpolates,
 // so that a frame costs one draw call however many blocks there are. z is up.
 'use strict';
 
-function talusViewer(root, scene) {
+function talusViewer(root, scene, onPick = () => {}) {
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
   const floats = (text) => new Float32Array(bytes(text));
   const words = (text) => new Uint16Array(bytes(text));
@@ -23,7 +24,9 @@ function talusViewer(root, scene) {
       <label>{{viewer.pace}} <select class="viewer-pace"><option value="0.25">&frac14;</option><option value="1" selected>1</option>
         <option value="4">4</option><option value="16">16</option></select></label>
       <label><input type="checkbox" class="viewer-fences" checked> {{viewer.fences}}</label>
+      <label class="viewer-objects-label"><input type="checkbox" class="viewer-objects" checked> {{viewer.objects}}</label>
       <label class="viewer-trails-label"><input type="checkbox" class="viewer-trails"> <span>{{viewer.trails}}</span></label>
+      <label>{{viewer.ground}} <select class="viewer-ground"><option value="">{{viewer.hillshade}}</option></select></label>
     </div>
     <div class="viewer-legend"><span>0</span><i></i><span class="viewer-top"></span></div>
     <div class="viewer-block" aria-live="polite">{{viewer.click}}</div>`;
@@ -89,9 +92,13 @@ function talusViewer(root, scene) {
   const ground = program(
       `in vec3 position; uniform mat4 view; out vec3 p;
        void main() { p = position; gl_Position = view * vec4(position, 1.0); }`,
-      `in vec3 p; out vec4 colour; uniform vec4 tint; uniform float interval, zero;${light}
+      `in vec3 p; out vec4 colour; uniform vec4 tint, drapeAt; uniform float interval, zero; uniform sampler2D drape;${light}
        void main() {
-         colour = vec4(lit(tint.rgb, p), tint.a);
+         vec2 place = vec2(p.x - drapeAt.x, drapeAt.y - p.y) * drapeAt.zw;  // west, north, 1 / width, 1 / height
+         vec4 seen = texture(drape, place);
+         vec3 plain = lit(tint.rgb, p);
+         bool isOver = all(greaterThan(place, vec2(0.0))) && all(lessThan(place, vec2(1.0)));
+         colour = vec4(isOver ? mix(plain, seen.rgb, seen.a) : plain, tint.a);
          if (interval <= 0.0) return;
          float level = (p.z + zero) / interval, from = abs(fract(level + 0.5) - 0.5), pixel = fwidth(level);
          bool five = mod(round(level), 5.0) == 0.0;
@@ -168,15 +175,38 @@ function talusViewer(root, scene) {
     return mesh(ground, [['position', points, 3]], new Uint32Array(triangles));
   };
 
-  const fenceMesh = () => {
+  // Lines [[x, y, z]] as walls of their heights.
+  const wallMesh = (walls) => {
     const corners = [];
-    for (const fence of scene.fences)
-      for (let i = 0; i + 1 < fence.points_m.length; ++i) {
-        const a = fence.points_m[i], b = fence.points_m[i + 1];
-        const up = (p) => [p[0], p[1], p[2] + fence.height_m];
+    for (const {line, height} of walls)
+      for (let i = 0; i + 1 < line.length; ++i) {
+        const a = line[i], b = line[i + 1];
+        const up = (p) => [p[0], p[1], p[2] + height];
         corners.push(...a, ...b, ...up(b), ...a, ...up(b), ...up(a));
       }
-    return mesh(ground, [['position', new Float32Array(corners), 3]]);
+    return mesh(lines, [['position', new Float32Array(corners), 3]]);
+  };
+
+  // The ground of the maps, and the cells of one of them, as a texture over the terrain.
+  const whole = document.querySelector('svg.plan')?.viewBox.baseVal, size = whole && [whole.width, whole.height];
+  const draped = (cells) => {
+    const made = {texture: gl.createTexture(), at: [0, 0, 0, 0]}, picture = new Image();
+    gl.bindTexture(gl.TEXTURE_2D, made.texture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    if (!size || !scene.sheet) return made;
+    const metres = Number(document.getElementById('sheet').dataset.metres || 1), [w, h] = size;
+    picture.onload = () => {
+      gl.bindTexture(gl.TEXTURE_2D, made.texture);
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, picture);
+      for (const [name, to] of [[gl.TEXTURE_MIN_FILTER, gl.LINEAR], [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE], [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE]])
+        gl.texParameteri(gl.TEXTURE_2D, name, to);
+      made.at = [scene.sheet.west_m, scene.sheet.north_m, 1 / (metres * w), 1 / (metres * h)];
+      ask();
+    };
+    picture.src = URL.createObjectURL(new Blob([`<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"
+      viewBox="0 0 ${w} ${h}" width="2048" height="${Math.round(2048 * h / w)}">${document.getElementById('map-ground').outerHTML}
+      ${cells ? `<g opacity="0.75">${cells.outerHTML}</g>` : ''}</svg>`], {type: 'image/svg+xml'}));
+    return made;
   };
 
   // Faces as fans of triangles in body axes; beside each corner the block that it belongs to.
@@ -208,7 +238,9 @@ function talusViewer(root, scene) {
   if (trails.n === 0) find('.viewer-trails-label').remove();
   else if (scene.trails.n < scene.trails.n_all)
     find('.viewer-trails-label span').textContent = `{{viewer.trails}} (${scene.trails.n} {{viewer.of}} ${scene.trails.n_all})`;
-  const fences = fenceMesh();
+  const fences = wallMesh(scene.fences.map((fence) => ({line: fence.points_m, height: fence.height_m})));
+  const objects = wallMesh(scene.objects.flatMap((object) => object.lines_m.map((line) => ({line, height: 2.5}))));
+  if (objects.n === 0) find('.viewer-objects-label').remove();
   const blocks = blockMesh();
 
   const width = 2048;
@@ -286,6 +318,7 @@ function talusViewer(root, scene) {
   const drawBlocks = (matrix, picking) => {
     const {frame, share} = moment();
     gl.useProgram(rock.made);
+    gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.uniformMatrix4fv(rock.uniforms.view, false, matrix);
     gl.uniform1i(rock.uniforms.width, width);
     gl.uniform1i(rock.uniforms.count, nBlocks);
@@ -297,22 +330,24 @@ function talusViewer(root, scene) {
     drawMesh(blocks);
   };
 
-  const drawGround = (made, matrix, tint, interval) => {
+  const drawGround = (matrix) => {
     gl.useProgram(ground.made);
     gl.uniformMatrix4fv(ground.uniforms.view, false, matrix);
-    gl.uniform4fv(ground.uniforms.tint, tint);
-    gl.uniform1f(ground.uniforms.interval, interval);
+    gl.uniform4fv(ground.uniforms.tint, [0.86, 0.84, 0.78, 1]);
+    gl.uniform1f(ground.uniforms.interval, scene.contour_m);
     gl.uniform1f(ground.uniforms.zero, zero);
-    drawMesh(made);
+    gl.bindTexture(gl.TEXTURE_2D, cover.texture);
+    gl.uniform4fv(ground.uniforms.drapeAt, cover.at);
+    drawMesh(terrain);
   };
   // Heights of the drawing begin at the lowest node: what is left of it above a thick line.
   const zero = scene.contour_m > 0 ? scene.terrain.z_origin_m % (5 * scene.contour_m) : 0;
 
-  const drawTrails = (matrix) => {
+  const drawLines = (made, matrix, tint, kind) => {
     gl.useProgram(lines.made);
     gl.uniformMatrix4fv(lines.uniforms.view, false, matrix);
-    gl.uniform4fv(lines.uniforms.tint, [0.45, 0.08, 0.1, 0.5]);
-    drawMesh(trails, gl.LINES);
+    gl.uniform4fv(lines.uniforms.tint, tint);
+    drawMesh(made, kind);
   };
 
   const draw = () => {
@@ -325,12 +360,13 @@ function talusViewer(root, scene) {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     const {matrix} = viewMatrix();
-    drawGround(terrain, matrix, [0.74, 0.72, 0.66, 1], scene.contour_m);
+    drawGround(matrix);
     drawBlocks(matrix, false);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-    if (find('.viewer-trails')?.checked) drawTrails(matrix);
-    if (find('.viewer-fences').checked) drawGround(fences, matrix, [0.1, 0.6, 0.25, 0.85], 0);
+    if (find('.viewer-trails')?.checked) drawLines(trails, matrix, [0.45, 0.08, 0.1, 0.5], gl.LINES);
+    if (find('.viewer-objects')?.checked) drawLines(objects, matrix, [0.43, 0.16, 0.63, 0.8], gl.TRIANGLES);
+    if (find('.viewer-fences').checked) drawLines(fences, matrix, [0.05, 0.48, 0.2, 0.85], gl.TRIANGLES);
     gl.disable(gl.BLEND);
     const turn = Math.atan2(Math.cos(camera.azimuth), -Math.sin(camera.height) * Math.sin(camera.azimuth));
     find('.viewer-north').style.transform = `rotate(${turn}rad)`;
@@ -388,6 +424,7 @@ function talusViewer(root, scene) {
     gl.readPixels(Math.round(x * scale), Math.round(canvas.height - y * scale), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     chosen = pixel[0] + 256 * pixel[1] + 65536 * pixel[2] - 1;
     if (chosen < 0) find('.viewer-block').textContent = '{{viewer.click}}';
+    else onPick(chosen);
     ask();
   };
 
@@ -466,7 +503,18 @@ function talusViewer(root, scene) {
   });
   find('.viewer-fences').addEventListener('change', ask);
   find('.viewer-trails')?.addEventListener('change', ask);
+  find('.viewer-objects')?.addEventListener('change', ask);
+
+  // What lies over the ground.
+  let cover = draped(null);
+  const maps = [...document.querySelectorAll('svg.plan[aria-label]')].filter((svg) => svg.querySelector('.cells'));
+  maps.forEach((svg, i) => find('.viewer-ground').add(new Option(svg.getAttribute('aria-label'), i)));
+  find('.viewer-ground').addEventListener('change', (e) => {
+    gl.deleteTexture(cover.texture);
+    cover = draped(e.target.value === '' ? null : maps[Number(e.target.value)].querySelector('.cells'));
+    ask();
+  });
   new ResizeObserver(ask).observe(canvas);
   ask();
-  return {play: () => setPlaying(true), seek: (t) => { now = t; ask(); }, pick, state: () => ({now, playing, chosen})};
+  return {play: () => setPlaying(true), seek: (t) => { now = t; ask(); }, choose: (block) => { chosen = block; ask(); }, pick, state: () => ({now, playing, chosen})};
 }

@@ -119,51 +119,19 @@ VectorLayer path_layer(const std::vector<RunoutRun>& runs, const MapPlace& map, 
   return layer;
 }
 
-struct PathPoint {
+// The block that a point of a path is of.
+struct PathOwner {
   Run run;
-  std::size_t block, point;
-  [[nodiscard]] const TimedPath& path() const { return run.paths[block]; }
+  std::size_t block;
 };
-using Point = const PathPoint&;
-
-std::vector<Field<PathPoint>> point_fields(std::vector<Field<PathPoint>> more) {
-  std::vector<Field<PathPoint>> fields = {
-      {"run_id", "", "Run", [](Point p) -> Value { return p.run.member.info.run_id; }, words},
-      {"block", "", "Block", [](Point p) -> Value { return static_cast<std::int64_t>(p.block); },
+const std::vector<Field<PathOwner>>& owner_fields() {
+  using Owner = const PathOwner&;
+  static const std::vector<Field<PathOwner>> fields = {
+      {"run_id", "", "Run", [](Owner o) -> Value { return o.run.member.info.run_id; }, words},
+      {"block", "", "Block", [](Owner o) -> Value { return static_cast<std::int64_t>(o.block); },
        whole},
-      {"volume_m3", "m3", "Volume", [](Point p) -> Value { return p.run.volume[p.block]; }},
-      {"mass_kg", "kg", "Mass", [](Point p) -> Value { return p.run.mass[p.block]; }},
-      {"time_s", "s", "Time", [](Point p) -> Value { return p.path().time[p.point]; }},
-      {"height_m", "m", "Height of the centroid above the ground",
-       [](Point p) -> Value { return p.path().height[p.point]; }}};
-  fields.insert(fields.end(), more.begin(), more.end());
-  return fields;
-}
-
-const std::vector<Field<PathPoint>>& path_point_fields() {
-  static const std::vector<Field<PathPoint>> fields = point_fields(
-      {{"speed_m_s", "m/s", "Speed", [](Point p) -> Value { return p.path().speed[p.point]; }},
-       {"energy_kj", "kJ", "Kinetic energy, with spin",
-        [](Point p) -> Value { return p.path().energy[p.point] / kilo; }},
-       {"spin_rad_s", "rad/s", "Spin", [](Point p) -> Value { return p.path().spin[p.point]; }}});
-  return fields;
-}
-
-// The point before an impact is kept too.
-const std::vector<Field<PathPoint>>& impact_fields() {
-  static const std::vector<Field<PathPoint>> fields =
-      point_fields({{"speed_before_m_s", "m/s", "Speed in the frame before",
-                     [](Point p) -> Value { return p.path().speed[p.point - 1]; }},
-                    {"speed_after_m_s", "m/s", "Speed in the frame after",
-                     [](Point p) -> Value { return p.path().speed[p.point]; }},
-                    {"energy_before_kj", "kJ", "Kinetic energy in the frame before, with spin",
-                     [](Point p) -> Value { return p.path().energy[p.point - 1] / kilo; }},
-                    {"energy_after_kj", "kJ", "Kinetic energy in the frame after, with spin",
-                     [](Point p) -> Value { return p.path().energy[p.point] / kilo; }},
-                    {"spin_before_rad_s", "rad/s", "Spin in the frame before",
-                     [](Point p) -> Value { return p.path().spin[p.point - 1]; }},
-                    {"spin_after_rad_s", "rad/s", "Spin in the frame after",
-                     [](Point p) -> Value { return p.path().spin[p.point]; }}});
+      {"volume_m3", "m3", "Volume", [](Owner o) -> Value { return o.run.volume[o.block]; }},
+      {"mass_kg", "kg", "Mass", [](Owner o) -> Value { return o.run.mass[o.block]; }}};
   return fields;
 }
 
@@ -173,16 +141,19 @@ VectorLayer point_layer(const char* name, const char* what, const Colour& colour
   VectorLayer layer{name,
                     what,
                     GeometryType::point_z,
-                    vector_fields(fields),
+                    vector_fields(owner_fields()),
                     {},
                     vector_qml({SymbolKind::point, "", {{"", "", colour}}, 0.8})};
+  for (VectorField& field : vector_fields(fields)) layer.fields.push_back(std::move(field));
   for (const RunoutRun& r : runs)
     for (std::size_t b = 0; b < r.paths.size(); ++b)
       for (std::size_t i = 0; i < r.paths[b].point.size(); ++i) {
         if (of_impacts && !r.paths[b].is_impact[i]) continue;
         VectorFeature f;
         f.points = {map(r.paths[b].point[i])};
-        f.values = values_of(fields, {r, b, i});
+        f.values = values_of(owner_fields(), {r, b});
+        for (FieldValue& value : values_of(fields, {r.paths[b], i}))
+          f.values.push_back(std::move(value));
         layer.features.push_back(std::move(f));
       }
   return layer;

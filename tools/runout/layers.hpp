@@ -10,8 +10,9 @@
 
 namespace talus {
 
-/// envelope, deposit, paths, path_points, impacts, streamline, reach_points and runs, in this order.
-/// `origin`: map coordinates of the local origin [m]; `tolerance`: of the simplified paths [m].
+/// envelope, deposit, paths, path_points, impacts, streamline, reach_points and runs, in this
+/// order. `origin`: map coordinates of the local origin [m]; `tolerance`: of the simplified paths
+/// [m].
 [[nodiscard]] std::vector<VectorLayer> runout_layers(const RunoutRuns& all, const Vec3& origin,
                                                      double tolerance);
 

@@ -42,7 +42,7 @@ void declare(Tool& tool, Options& o) {
   tool.option("--tolerance", o.site.tolerance, "with --site: share of the answer, or per cent")
       .needs(site);
   tool.option("--quantity", o.site.quantity, "with --site: what must be right")
-      .one_of(quantity_names)
+      .one_of({quantity_names.begin(), quantity_names.end()})
       .needs(site);
   tool.option("--runs", o.site.n_runs, "with --site: runs a setting").between(2, 1000).needs(site);
   tool.flag("--paper", o.site.with_paper, "with --site: law paper too, for comparison").needs(site);

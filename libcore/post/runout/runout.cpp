@@ -234,6 +234,7 @@ TimedPath points_of(const TimedPath& path, const std::vector<int>& kept) {
   keep(path.time, out.time);
   keep(path.point, out.point);
   keep(path.speed, out.speed);
+  keep(path.distance, out.distance);
   keep(path.spin, out.spin);
   keep(path.energy, out.energy);
   keep(path.height, out.height);
@@ -249,9 +250,13 @@ TimedPath simplified(const TimedPath& path, double tolerance) {
 
 TimedPath shown_path(const RunFile& run, int block, const Trn& trn, double tolerance) {
   TimedPath path = block_path(run, block);
-  for (const Vec3& p : path.point)
+  for (std::size_t i = 0; i < path.point.size(); ++i) {
+    const Vec3& p = path.point[i];
     path.height.push_back(contains(trn, p.x(), p.y()) ? p.z() - elevation_at(trn, p.x(), p.y())
                                                       : none);
+    path.distance.push_back(i == 0 ? 0
+                                   : path.distance.back() + plan_distance(path.point[i - 1], p));
+  }
   std::vector<int> kept = simplified(std::span(path.point), tolerance);
   int highest = 0;  // since the last impact
   for (int i = 0; i < static_cast<int>(path.point.size()); ++i) {

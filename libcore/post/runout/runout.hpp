@@ -19,13 +19,14 @@ namespace talus {
 
 /// The path of a point through the frames, and its motion in each.
 struct TimedPath {
-  std::vector<double> time;     ///< [s]                                             (n_points)
-  std::vector<Vec3> point;      ///< local [m]                                       (n_points)
-  std::vector<double> speed;    ///< [m/s]                                           (n_points)
-  std::vector<double> spin;     ///< of a block [rad/s]                     (n_points, or none)
-  std::vector<double> energy;   ///< of a block, with spin [J]              (n_points, or none)
-  std::vector<double> height;   ///< of shown_path(), above the ground; NaN: no ground [m]
-  std::vector<bool> is_impact;  ///< since the frame before; of a block                   (same)
+  std::vector<double> time;      ///< [s]                                             (n_points)
+  std::vector<Vec3> point;       ///< local [m]                                       (n_points)
+  std::vector<double> speed;     ///< [m/s]                                           (n_points)
+  std::vector<double> distance;  ///< of shown_path(), along the whole path in plan [m]
+  std::vector<double> spin;      ///< of a block [rad/s]                     (n_points, or none)
+  std::vector<double> energy;    ///< of a block, with spin [J]              (n_points, or none)
+  std::vector<double> height;    ///< of shown_path(), above the ground; NaN: no ground [m]
+  std::vector<bool> is_impact;   ///< since the frame before; of a block                   (same)
 };
 
 /// An impact lies between two frames if the velocity changed by more than 0.5 m/s, and by more than

@@ -102,6 +102,42 @@ const std::vector<Field<RunoutRun>>& run_fields() {
   return fields;
 }
 
+const std::vector<Field<PathPoint>>& path_point_fields() {
+  using At = const PathPoint&;
+  static const std::vector<Field<PathPoint>> fields = {
+      {"time_s", "s", "Time", [](At p) -> Value { return p.path.time[p.point]; }},
+      {"distance_m", "m", "Distance along the path in plan",
+       [](At p) -> Value { return p.path.distance[p.point]; }},
+      {"height_m", "m", "Height of the centroid above the ground",
+       [](At p) -> Value { return p.path.height[p.point]; }},
+      {"speed_m_s", "m/s", "Speed", [](At p) -> Value { return p.path.speed[p.point]; }},
+      {"energy_kj", "kJ", "Kinetic energy, with spin",
+       [](At p) -> Value { return p.path.energy[p.point] / kilo; }},
+      {"spin_rad_s", "rad/s", "Spin", [](At p) -> Value { return p.path.spin[p.point]; }}};
+  return fields;
+}
+
+const std::vector<Field<PathPoint>>& impact_fields() {
+  using At = const PathPoint&;
+  static const std::vector<Field<PathPoint>> fields = {
+      {"time_s", "s", "Time", [](At p) -> Value { return p.path.time[p.point]; }},
+      {"height_m", "m", "Height of the centroid above the ground",
+       [](At p) -> Value { return p.path.height[p.point]; }},
+      {"speed_before_m_s", "m/s", "Speed in the frame before",
+       [](At p) -> Value { return p.path.speed[p.point - 1]; }},
+      {"speed_after_m_s", "m/s", "Speed in the frame after",
+       [](At p) -> Value { return p.path.speed[p.point]; }},
+      {"energy_before_kj", "kJ", "Kinetic energy in the frame before, with spin",
+       [](At p) -> Value { return p.path.energy[p.point - 1] / kilo; }},
+      {"energy_after_kj", "kJ", "Kinetic energy in the frame after, with spin",
+       [](At p) -> Value { return p.path.energy[p.point] / kilo; }},
+      {"spin_before_rad_s", "rad/s", "Spin in the frame before",
+       [](At p) -> Value { return p.path.spin[p.point - 1]; }},
+      {"spin_after_rad_s", "rad/s", "Spin in the frame after",
+       [](At p) -> Value { return p.path.spin[p.point]; }}};
+  return fields;
+}
+
 const std::vector<Field<CurvePoint>>& curve_fields() {
   static const std::vector<Field<CurvePoint>> fields = {
       {"run_id", "", "Run", [](Point p) -> Value { return p.run.member.info.run_id; }, words},

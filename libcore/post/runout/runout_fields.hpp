@@ -17,6 +17,15 @@ struct RunBlock {
 
 [[nodiscard]] const std::vector<Field<RunoutRun>>& run_fields();
 
+/// A point of a shown_path(): of the layer path_points, and of the report's charts of a trajectory.
+struct PathPoint {
+  const TimedPath& path;
+  std::size_t point;
+};
+[[nodiscard]] const std::vector<Field<PathPoint>>& path_point_fields();
+/// Of a point after an impact; the one before it is that before the impact.
+[[nodiscard]] const std::vector<Field<PathPoint>>& impact_fields();
+
 struct CurvePoint {
   const RunoutRun& run;
   const CurveRow& row;

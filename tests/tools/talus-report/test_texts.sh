@@ -21,24 +21,32 @@ cmp plain.html copy.html || fail 'a copy of the words gives another page'
 
 cat >office.toml <<'END'
 page.language = "de"
+page.sections = ["maps", "result", "health", "runout", "provenance"]
 nav.maps = "Karten"
 [result]
 moved = """
 der Masse bewegte sich
   mehr als 1 m, {far} mehr als 20 m"""
-[health]
-counter_heads = ["Lauf", "Stand", "Zeit [s]", "Schritte", "k&uuml;rzester [s]", "St&ouml;&szlig;e", "nicht konvergiert", "Eindringen [m]", "verlie&szlig;en das Gel&auml;nde"]
+[runout]
+one_run_heads = ["Gr&ouml;&szlig;e", "Zahl"]
+[said]
+"impacts" = "Stöße"
+"blocks that left the terrain" = "verließen das Gelände"
 [maps]
 nearer = "n\\'her'"
 END
 report office 0 --texts office.toml
-n_texts=$(grep -c '^[a-z_0-9]* = ' "$shipped")
-says "office.toml: lacks $((n_texts - 5)) texts of the page (animation.farthest_run, animation.ground, animation.how_to, ...)"
+n_texts=$(grep -c '^[A-Za-z_0-9]* = ' "$shipped")
+says "office.toml: lacks $((n_texts - 6)) texts of the page (animation.farthest_run, animation.ground, animation.how_to, ...)"
 for words in '<html lang="de">' '<a href="#maps">Karten</a>' 'der Masse bewegte sich mehr als 1 m, 50 % mehr als 20 m<' \
-  '<th>Lauf</th>' '<th class="n">verlie&szlig;en das Gel&auml;nde</th>' 'did not move: no block by more than'; do
+  '<th class="n">Stöße</th>' '<th class="n">verließen das Gelände</th>' '<th class="n">Zahl</th>' 'did not move: no block by more than'; do
   grep -qF "$words" office.html || fail "the page does not say: $words"
 done
 grep -qF "aria-label=\"n\\\\\\'her\\'\"" office.html || fail 'words break the script of the maps'
+
+sections=$(grep -o '<section id="[a-z]*"' office.html | tr -d '\n')
+[ "$sections" = '<section id="maps"<section id="result"<section id="health"<section id="runout"<section id="provenance"' ] ||
+  fail "the sections stand in another order: $sections"
 
 # refused TEXT MESSAGE
 refused() {

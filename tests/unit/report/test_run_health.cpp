@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "report/run_health.hpp"
-#include "unit/report/shipped_texts.hpp"
 
 using namespace talus;
 
@@ -14,9 +13,9 @@ TEST(RunHealth, ALimitKeepsTheWorstOfItsRuns) {
   EXPECT_EQ(limits[0].worst, 0.7);
   EXPECT_EQ(limits[0].n_failed, 1);
   EXPECT_EQ(limits[1].n_failed, 0);
-  EXPECT_NE(
-      limit_table(talus::testing::shipped_texts(), limits, 3).find("<td class=\"n\">1 of 3</td>"),
-      std::string::npos);
+  EXPECT_EQ(
+      csv_of(limit_fields(), limits),
+      "limit,worst,largest,n_failed,verdict\npenetration_m,0.7,0.5,1,fail\nlost,0,0,0,pass\n");
 }
 
 TEST(RunHealth, PassesWhenAllRunsAreDoneWithinTheirLimits) {
@@ -35,26 +34,30 @@ TEST(RunHealth, CountersAreThoseOfTheWholeRun) {
   for (HealthRow& row : run.health) row.steps = 100;
   run.health[0].shortest_dt = 0.002;
   run.health[1].shortest_dt = 0.001;
-  const std::string table = counter_table(talus::testing::shipped_texts(), {run}, {"CASE_1"});
-  EXPECT_NE(table.find("<td>CASE_1</td>"), std::string::npos);
-  EXPECT_NE(table.find("<td class=\"n\">300</td><td class=\"n\">0.001</td>"), std::string::npos);
+  const std::vector<RunFile> runs = {run};
+  const std::vector<std::string> names = {"CASE_1"};
+  const std::vector<RunHealth> health = health_of(runs, names);
+  EXPECT_EQ(csv_row(values_of(counter_fields(), health[0])),
+            "CASE_1,running,0,0,300,0.001,0,0,0,0\n");
 }
 
 TEST(RunHealth, CutsAreSummedByReason) {
   RunFile run;
   run.health.resize(2);
-  EXPECT_EQ(cut_table(talus::testing::shipped_texts(), {run}, {"CASE_1"}), "");
   const auto deep = static_cast<std::size_t>(SubstepCut::deep);
   run.health[0].cuts[deep] = 3;
   run.health[1].cuts[deep] = 4;
-  const std::string table = cut_table(talus::testing::shipped_texts(), {run}, {"CASE_1"});
-  EXPECT_NE(table.find("bond_broken"), std::string::npos);
-  EXPECT_NE(table.find("<td class=\"n\">7</td><td class=\"n\">0</td>"), std::string::npos);
+  const std::vector<RunFile> runs = {run};
+  const std::vector<std::string> names = {"CASE_1"};
+  EXPECT_EQ(csv_of(cut_fields(), health_of(runs, names)),
+            "run,yielding_touched,unconverged,deep,hit,inaccurate,bond_broken,woken,"
+            "yielding_used_up\nCASE_1,0,0,7,0,0,0,0,0\n");
 }
 
 TEST(RunHealth, BlocksThatWereDeepAreNamedWithTheirPlaceOnTheMap) {
   std::vector<RunFile> runs(2);
-  EXPECT_EQ(deep_table(talus::testing::shipped_texts(), runs, {"1", "2"}), "");
+  const std::vector<std::string> names = {"1", "2"};
+  EXPECT_TRUE(deep_of_runs(runs, names).empty());
   runs[1].info.origin = {500000, 5000000, 0};
   DeepRow row;
   row.block = 43;
@@ -62,8 +65,6 @@ TEST(RunHealth, BlocksThatWereDeepAreNamedWithTheirPlaceOnTheMap) {
   row.place = {12.5, 7, 900};
   row.met_fence = 1;
   runs[1].deep = {row};
-  const std::string table = deep_table(talus::testing::shipped_texts(), runs, {"1", "2"});
-  EXPECT_NE(table.find("<td>the ground</td><td class=\"n\">0.185</td>"), std::string::npos);
-  EXPECT_NE(table.find("500012.5"), std::string::npos);
-  EXPECT_NE(table.find("met a fence"), std::string::npos);
+  EXPECT_EQ(csv_row(values_of(deep_fields(), deep_of_runs(runs, names).at(0))),
+            "2,43,the ground,0.185,0,0,0,500013,5000007,900,0,,yes,\n");
 }

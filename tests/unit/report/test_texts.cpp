@@ -72,3 +72,34 @@ TEST(Texts, WhatDoesNotFitIsRefusedWithItsLine) {
   EXPECT_EQ(refusal("[maps]\ntitle = 'a'\ntitle = 'b'").substr(0, 14), "office.toml:3:");
   EXPECT_EQ(refusal("[maps]\nplan = 'Lauf {run}'"), "accepted");
 }
+
+TEST(Texts, WordsOfResultsAreTranslatedByTheirNearestForm) {
+  const Texts texts = parse_texts(R"toml(number.decimal = ","
+number.thousands = "."
+[said]
+"pass" = "bestanden"
+"{n} runs" = "{n} Läufe"
+"{n} runs failed: {why}" = "{why} ({n} Läufe)"
+)toml",
+                                  "de.toml");
+  EXPECT_EQ(texts.said("pass"), "bestanden");
+  EXPECT_EQ(texts.said("12,300.5 runs"), "12.300,5 Läufe");
+  EXPECT_EQ(texts.said("3 runs failed: pass"), "bestanden (3 Läufe)");
+  EXPECT_EQ(texts.said("3 blocks"), "3 blocks") << "what is not known stays";
+  EXPECT_EQ(texts.said("version 1.2"), "version 1.2");
+  EXPECT_EQ(texts.number("1.5 - 2,000 of 0.2.0"), "1,5 - 2.000 of 0.2.0");
+  EXPECT_EQ(refusal("said.\"{n} runs\" = \"{m}\""),
+            "office.toml:1: said.{n} runs: has {m}, which the words have not; the same names on "
+            "both sides");
+}
+
+// Each shipped translation says all that the page says, with the same values.
+TEST(Texts, TranslationsAreWhole) {
+  for (const std::string language : {"de", "fr", "it"}) {
+    const std::string path = TALUS_SOURCE_DIR "/tools/report/texts." + language + ".toml";
+    Texts texts = talus::testing::shipped_texts();
+    EXPECT_EQ(texts.replace_by(parse_texts(read_file(path), path)),
+              std::vector<std::string>{"page.sections"});
+    EXPECT_EQ(texts.of("page.language"), language);
+  }
+}

@@ -1,0 +1,24 @@
+// tools/report/pictures.hpp
+// The pictures of the page: maps, charts, and the data of the 3-D view.
+#pragma once
+
+#include "tools/report/data.hpp"
+
+namespace talus {
+
+/// By the names of the template; HTML and SVG, or the address of an image.
+[[nodiscard]] Json pictures_of(const ReportData& data);
+/// Where the proposals of a search stand, on the map of reach; "": nowhere.
+[[nodiscard]] std::string proposal_map(const ReportData& data, const Json& proposals);
+
+struct Bar {
+  std::string name;
+  double value = 0;
+};
+/// The address of a picture with a bar each, from a line at 0; "": there are none.
+[[nodiscard]] std::string bar_picture(const std::vector<Bar>& bars, const std::string& title);
+
+/// What the 3-D view shows, as JSON; "" for a run without frames.
+[[nodiscard]] std::string scene_of(const ReportData& data);
+
+}  // namespace talus
