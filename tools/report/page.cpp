@@ -191,7 +191,9 @@ void add_result(const ReportData& data, Json& out) {
   const Json& r = data.runout;
   out["trouble"] = trouble_of(data);
   out["motion"] = motion_of(r);
-  out["standing"] = standing_of(r);
+  if (!data.runs.empty() && data.runs.front().info.independent)
+    out["motion"]["centre_m"] = nullptr;  // of what falls apart from one another
+  out["standing"] = !data.runs.empty() && data.runs.front().info.independent ? "" : standing_of(r);
   out["repeats"] = data.repeats;
   out["over"] = {{"largest", over_runs(texts, r, "result.largest")},
                  {"smallest", over_runs(texts, r, "result.smallest")},
@@ -536,12 +538,20 @@ Json files_of(const PageFiles& files, const Texts& texts) {
                                        "${two(changed.getMinutes())}"}}))}};
 }
 
+// Of a run in the mean.
+Json released_of(const Json& runout) {
+  const double n = number_or(value_at(runout, {"n_runs"}), 0);
+  if (!(n > 0)) return {};
+  return {{"n", std::llround(number_or(value_at(runout, {"balance", "n_released"}), 0) / n)},
+          {"volume_m3", number_or(value_at(runout, {"balance", "released_m3"}), 0) / n}};
+}
+
 Json data_of(const ReportData& data, const PageFiles& files) {
   const std::size_t n_runs = data.runs.size();
+  const bool rocks_alone = n_runs > 0 && data.runs.front().info.independent;
   const std::string remark = remark_of(data), fence_remark = fence_remark_of(data);
   Json classes = list_or_none(value_at(data.hazard, {"classes"}));
   std::reverse(classes.begin(), classes.end());  // the strongest first
-  const Json forests = list_or_none(value_at(data.runout, {"trees", "forests"}));
   Json out = {
       {"site", {{"name", data.site.info.name}, {"description", data.site.info.description}}},
       {"version", data.version},
@@ -578,9 +588,8 @@ Json data_of(const ReportData& data, const PageFiles& files) {
       {"energy_line", energy_line_of(data)},
       {"friction", friction_of(data)},
       {"n_stems_shown", list_or_none(value_at(data.runout, {"trees", "stems"})).size()},
-      {"rocks_alone", std::any_of(forests.begin(), forests.end(), [](const Json& forest) {
-         return !value_at(forest, {"n_rocks"}).is_null();
-       })}};
+      {"released", released_of(data.runout)},
+      {"rocks_alone", rocks_alone}};
   add_result(data, out);
   add_fences(data, out);
   add_uncertainty(data, out);
@@ -593,9 +602,7 @@ Json data_of(const ReportData& data, const PageFiles& files) {
 }  // namespace
 
 std::string report_page(const ReportData& data, const PageFiles& files) {
-  return filled_page("page.html", files.page,
-                     data_of(data, files).dump(),
-                     data.texts);
+  return filled_page("page.html", files.page, data_of(data, files).dump(), data.texts);
 }
 
 }  // namespace talus
