@@ -45,7 +45,8 @@ void ResultFolder::leave_out(const std::vector<std::string>& names, const std::s
     if (has(name)) found += (found.empty() ? "" : ", ") + name;
     left_out_.insert(name);
   }
-  if (!found.empty()) tool_.warn(path_.string() + ": left out: " + found + ": " + why);
+  if (!found.empty() && !why.empty())
+    tool_.warn(path_.string() + ": left out: " + found + ": " + why);
 }
 
 Json ResultFolder::parsed(const std::string& name, const std::string& content) const {

@@ -29,7 +29,8 @@ class ResultFolder {
   [[nodiscard]] Json glance(const std::string& name) const;
   /// Its path. Throws InputError when there is none.
   std::string required(const std::string& name, const std::string& tool) const;
-  /// From here on as if these files were not there, with a warning that names those that are.
+  /// From here on as if these files were not there, with a warning that names those that are,
+  /// unless `why` is empty.
   void leave_out(const std::vector<std::string>& names, const std::string& why);
 
  private:

@@ -292,7 +292,11 @@ void leave_out_of_other_work(const std::string& db, ResultFolder& folder, Report
     if (by.id == 0 || !tools.contains(by.tool) ||
         std::any_of(by.outputs.begin(), by.outputs.end(), is_read))
       continue;
-    folder.leave_out({name}, "of a run of " + by.tool + " that these results were not made from");
+    // each run has blocks of its own
+    const bool is_expected = by.tool == "talus-blocks" && data.site.uncertainty.rock_masses > 0;
+    folder.leave_out(
+        {name},
+        is_expected ? "" : "of a run of " + by.tool + " that these results were not made from");
   }
   if (!folder.has("tin.json")) data.tin = nullptr;
   if (!folder.has("trn.json")) data.trn = nullptr;
