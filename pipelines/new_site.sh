@@ -2,9 +2,10 @@
 # new_site.sh NAME GROUND [SOURCE [PIPELINES [TOOLS [ROCKFALL]]]]: a folder NAME with site.toml,
 # site.gpkg, Makefile and README.md for a slope: GROUND is an elevation model or a contour map,
 # SOURCE a vector file with the release polygon, both in a projected CRS. ROCKFALL=yes: rocks that
-# fall one by one; GROUND may then be a folder of rasters as of Rockyfor3D. The ground is not copied; site.toml names
-# it where it is. The source becomes a layer of site.gpkg; without one it is drawn there. The tools
-# (folder TOOLS/, or on the search path) measure the slope, and joint sets are assumed to fit.
+# fall one by one; GROUND may then be a folder of rasters as of Rockyfor3D. The ground is not
+# copied; site.toml names it where it is. The source becomes a layer of site.gpkg; without one it is
+# drawn there. The tools (folder TOOLS/, or on the search path) measure the slope, and joint sets are
+# assumed to fit.
 set -eu
 name=${1:-} ground=${2:-} source=${3:-} pipelines=${4:-$(dirname "$0")} tools=${5:-}
 rockfall=${6:-}
@@ -235,8 +236,8 @@ END
 layers= layer_source=$source
 [ -z "$rockfall" ] || layer_source=
 if ! "${tools}talus-source" --help >/dev/null 2>&1; then
-  [ -n "$source$cells" ] || say "the tools are not built (sh pipelines/demo.sh), so no layer can be \
-made to draw the source in: give SOURCE" 1
+  [ -n "$source$cells" ] || say "the tools are not built (sh pipelines/demo.sh), so no layer can \
+be made to draw the source in: give SOURCE" 1
   echo "new-site: the tools are not built (sh pipelines/demo.sh)$([ -n "$rockfall" ] || echo ": \
 joint sets are not fitted to the slope")" >&2
 elif "${tools}talus-site" --new-layers "$part/site.gpkg" --crs-of "$ground" \

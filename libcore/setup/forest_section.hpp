@@ -8,7 +8,7 @@
 #include "base/input_log.hpp"
 #include "scene/forest.hpp"
 #include "scene/stand.hpp"
-#include "setup/value_raster_gdal.hpp"
+#include "setup/map_box.hpp"
 #include "site/site.hpp"
 #include "terrain/trn.hpp"
 

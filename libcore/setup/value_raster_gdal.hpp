@@ -1,30 +1,18 @@
-// libcore/setup/value_raster_gdal.hpp
+// libcore/setup/value_raster_gdal.hpp: public
 // Rasters of values that a section of the site file names, over a part of the terrain: what stands
 // in a cell, no elevations.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "base/input_log.hpp"
+#include "setup/map_box.hpp"
 #include "site/site.hpp"
 #include "terrain/grid_frame.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
-
-/// A box in map coordinates.
-struct MapBox {
-  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
-  Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
-
-  void add(const Vec2& point) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  [[nodiscard]] bool is_empty() const { return (low.array() >= high.array()).any(); }
-};
 
 /// A raster over the cells that a box meets.
 struct ValueRaster {
