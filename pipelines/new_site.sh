@@ -4,8 +4,8 @@
 # SOURCE a vector file with the release polygon, both in a projected CRS. ROCKFALL=yes: rocks that
 # fall one by one; GROUND may then be a folder of rasters as of Rockyfor3D. The ground is not
 # copied; site.toml names it where it is. The source becomes a layer of site.gpkg; without one it is
-# drawn there. The tools (folder TOOLS/, or on the search path) measure the slope, and joint sets are
-# assumed to fit.
+# drawn there. The tools (folder TOOLS/, or on the search path) measure the slope, and joint sets
+# are assumed to fit.
 set -eu
 name=${1:-} ground=${2:-} source=${3:-} pipelines=${4:-$(dirname "$0")} tools=${5:-}
 rockfall=${6:-}

@@ -82,14 +82,6 @@ std::optional<Area> area_of(const ForestSection& s) {
   return area;
 }
 
-MapBox box_of_terrain(const Trn& trn) {
-  const MapWindow window = extent(frame_of(trn));
-  MapBox box;
-  box.add(Vec2(window.x_min, window.y_min));
-  box.add(Vec2(window.x_max, window.y_max));
-  return box;
-}
-
 MapBox box_of(const Area& area, const Trn& trn) {
   const MapBox terrain = box_of_terrain(trn);
   MapBox box;

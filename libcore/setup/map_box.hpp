@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/types.hpp"
+#include "terrain/trn.hpp"
 
 namespace talus {
 
@@ -19,5 +20,14 @@ struct MapBox {
   }
   [[nodiscard]] bool is_empty() const { return (low.array() >= high.array()).any(); }
 };
+
+/// The nodes of a terrain.
+[[nodiscard]] inline MapBox box_of_terrain(const Trn& trn) {
+  const MapWindow window = extent(frame_of(trn));
+  MapBox box;
+  box.add(Vec2(window.x_min, window.y_min));
+  box.add(Vec2(window.x_max, window.y_max));
+  return box;
+}
 
 }  // namespace talus

@@ -12,6 +12,7 @@
 #include "blocks/rock_draws.hpp"
 #include "blocks/shapes.hpp"
 #include "geometry/plan2d.hpp"
+#include "setup/map_box.hpp"
 #include "setup/site_shapes_gdal.hpp"
 #include "setup/value_raster_gdal.hpp"
 #include "site/joint_plan.hpp"
@@ -88,15 +89,6 @@ std::optional<ValueRaster> beside(const ValueRasterContext& of, const char* key,
   return raster;
 }
 
-MapBox box_of(const Trn& ground) {
-  MapBox box;
-  const Vec2 north_west = ground.node0 + ground.origin.head<2>();
-  box.add(north_west);
-  box.add(north_west +
-          ground.cell_size * Vec2(ground.n_cols - 1, -static_cast<double>(ground.n_rows - 1)));
-  return box;
-}
-
 // The density that the raster has must be that of the section's material, which the run has.
 void check_density(const RockfallSection& section, const ValueRaster& density, std::size_t cell) {
   const double expected = section.site
@@ -117,7 +109,7 @@ void add_cells(const RockfallSection& section, std::vector<ReleasePlace>& places
   if (n_extents != 0 && n_extents != 3)
     section.refuse("has some of d1_raster, d2_raster and d3_raster", "give all three, or none");
   const ValueRasterContext of{section.tool, section.site, section.ground, section.path};
-  const MapBox box = box_of(section.ground);
+  const MapBox box = box_of_terrain(section.ground);
   const ValueRaster density = read_values(of, "rockdensity_raster", s.rockdensity_raster, box);
   const std::array<std::optional<ValueRaster>, 3> extents = {
       beside(of, "d1_raster", s.d1_raster, box, density),
