@@ -12,7 +12,6 @@
 #include "base/words.hpp"
 #include "post/moved.hpp"
 #include "post/statistics.hpp"
-#include "report/doubts_html.hpp"
 #include "report/encode.hpp"
 #include "report/page_template.hpp"
 #include "report/provenance.hpp"
@@ -483,6 +482,20 @@ void add_assumptions(const ReportData& data, Json& out) {
   out["plan"] = list_or_none(Json::parse_or_null(data.shown.info.plan));
 }
 
+// What should be looked at, a kind together, as doubts_html() of other pages shows it.
+Json doubt_rows(const ReportData& data) {
+  Json rows = Json::array();
+  for (const DoubtGroup& group : groups_of(data.doubts)) {
+    const Doubt& doubt = *group.first;
+    const bool is_open = doubt.state == DoubtState::in_doubt;
+    rows.push_back({{"kind", doubt.state == DoubtState::refused ? "fail" : "warn"},
+                    {"state", is_open ? "" : text(doubt.state)},
+                    {"finding", sentence_on(group)},
+                    {"hint", doubt.hint}});
+  }
+  return rows;
+}
+
 void add_provenance(const ReportData& data, Json& out) {
   const auto files = [](const std::vector<StepFile>& list) {
     Json rows = Json::array();
@@ -563,7 +576,7 @@ Json data_of(const ReportData& data, const PageFiles& files) {
       {"files", files_of(files, data.texts)},
       {"pictures", pictures_of(data)},
       {"scene", scene_of(data)},
-      {"doubts", doubts_html(data.doubts, data.texts.of("doubts.none"))},
+      {"doubts", doubt_rows(data)},
       {"runout", data.runout},
       {"blocks", data.blocks},
       {"trn", data.trn},

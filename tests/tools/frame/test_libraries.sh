@@ -25,12 +25,12 @@ needs talus-runout cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_seria
 needs talus-fence cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
 needs talus-hazard cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
 needs talus-trace cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
-needs talus-profile crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3
-needs talus-fence-search crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
-needs talus-report crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
+needs talus-profile cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3
+needs talus-fence-search cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-report cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
 needs talus-dda crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
-needs talus-verify crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
-needs talus-blocks crypto gdal gmp hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
-needs talus-check crypto gdal gmp hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
+needs talus-verify cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-blocks cairo crypto gdal glib-2.0 gmp gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-check cairo crypto gdal glib-2.0 gmp gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
 needs talus-source crypto gdal gmp hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
 exit 0
