@@ -202,7 +202,10 @@ void Pen::hatch(const std::vector<PageBox>& boxes, double distance, bool rises,
 void Pen::picture(const PageBox& box, int n_rows, int n_cols,
                   const std::vector<std::uint32_t>& pixels, bool is_sharp) {
   cairo_t* const page = surface_.page;
-  cairo_surface_t* const image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, n_cols, n_rows);
+  const bool is_opaque = std::all_of(pixels.begin(), pixels.end(),
+                                     [](std::uint32_t pixel) { return pixel >> 24 == 255; });
+  cairo_surface_t* const image = cairo_image_surface_create(
+      is_opaque ? CAIRO_FORMAT_RGB24 : CAIRO_FORMAT_ARGB32, n_cols, n_rows);
   cairo_surface_flush(image);
   unsigned char* const bytes = cairo_image_surface_get_data(image);
   const int stride = cairo_image_surface_get_stride(image);

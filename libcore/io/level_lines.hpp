@@ -22,8 +22,8 @@ struct LevelLine {
   std::vector<Vec2> points;  ///< the first again at the end where the line is closed
 };
 
-/// Each line in one piece, linear between samples, by level. Lines go on for half a spacing beyond
-/// the last known sample, and pass a sample of their level a millionth of a spacing beside it.
+/// Each line in one piece, linear between samples, by level; it ends where a sample is unknown.
+/// Lines pass a sample of their level a millionth of a spacing beside it.
 [[nodiscard]] std::vector<LevelLine> level_lines(const SampledField& field,
                                                  const std::vector<double>& levels);
 

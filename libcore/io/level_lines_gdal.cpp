@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -30,6 +31,21 @@ Dataset raster_of(const SampledField& field) {
   return raster;
 }
 
+// Whether a point lies between two known samples; GDAL goes on for half a spacing behind the last.
+bool is_known(const SampledField& field, const Vec2& p) {
+  constexpr double rounding = 1e-5;
+  const Vec2 at = (p - field.corner).cwiseProduct(Vec2(1, field.north)) / field.spacing;
+  const int left = static_cast<int>(std::floor(at.x() + rounding)),
+            right = static_cast<int>(std::ceil(at.x() - rounding)),
+            first = static_cast<int>(std::floor(at.y() + rounding)),
+            last = static_cast<int>(std::ceil(at.y() - rounding));
+  if (left < 0 || first < 0 || right >= field.n_cols || last >= field.n_rows) return false;
+  const auto value = [&field](int row, int col) {
+    return field.value[static_cast<std::size_t>(row) * field.n_cols + col];
+  };
+  return !std::isnan(value(first, left) + value(last, right)) && (left == right || first == last);
+}
+
 }  // namespace
 
 std::vector<LevelLine> level_lines(const SampledField& field, const std::vector<double>& levels) {
@@ -51,8 +67,10 @@ std::vector<LevelLine> level_lines(const SampledField& field, const std::vector<
   std::vector<LevelLine> out;
   for (const auto& feature : layer) {
     out.push_back({feature->GetFieldAsDouble(0), {}});
+    std::vector<Vec2>& points = out.back().points;
     for (const OGRPoint& p : *feature->GetGeometryRef()->toLineString())
-      out.back().points.emplace_back(p.getX(), p.getY());
+      if (const Vec2 at(p.getX(), p.getY()); is_known(field, at)) points.push_back(at);
+    if (points.size() < 2) out.pop_back();
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const LevelLine& a, const LevelLine& b) { return a.level < b.level; });

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "paper/plot.hpp"
+#include "draw/chart.hpp"
 #include "verify/cases/case_run.hpp"
 #include "verify/cases/cases.hpp"
 
@@ -18,6 +18,34 @@ using namespace talus;
 using namespace talus::cases;
 
 const std::string red = "#c1272d", blue = "#0057a8", grey = "#555";
+
+struct Curve {
+  std::string name, colour;
+  std::vector<Vec2> points;  // x, y in the units of the axes
+  bool markers = false;      // circles instead of a line
+};
+
+struct Figure {
+  std::string title, x_label, y_label;  // labels have the unit
+  std::vector<Curve> curves;
+  bool logarithmic_x = false;
+};
+
+std::string file_of(const Figure& figure) {
+  Chart chart{figure.title, figure.x_label, figure.y_label, {}, false, figure.logarithmic_x, 440};
+  for (const Curve& curve : figure.curves) {
+    ChartSeries& series = chart.series.emplace_back();
+    series.name = curve.name;
+    series.colour = curve.colour;
+    series.width = curve.markers ? 0 : 1.5;
+    series.marker = curve.markers ? 3.2 : 0;
+    for (const Vec2& point : curve.points) {
+      series.x.push_back(point.x());
+      series.y.push_back(point.y());
+    }
+  }
+  return chart_file(chart);
+}
 
 CaseSettings law_paper(double dt, double normal_stiffness) {
   CaseSettings settings;
@@ -180,7 +208,7 @@ int main(int argc, char** argv) {
                                                           {"fig12b.svg", restitution_figure}};
   for (const auto& [name, make] : figures) {
     std::ofstream file(folder / name);
-    file << talus::svg_of(make());
+    file << file_of(make());
     if (!file.flush()) {
       std::cerr << "figures: " << (folder / name) << ": cannot be written\n";
       return 1;

@@ -6,8 +6,8 @@
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
-#include "io/style.hpp"
 #include "draw/chart.hpp"
+#include "io/style.hpp"
 
 namespace talus {
 namespace {

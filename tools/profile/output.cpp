@@ -7,8 +7,8 @@
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
-#include "io/style.hpp"
 #include "draw/chart.hpp"
+#include "io/style.hpp"
 #include "tools/frame/row_json.hpp"
 
 namespace talus {

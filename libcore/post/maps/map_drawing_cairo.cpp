@@ -289,7 +289,8 @@ Stroke object_stroke() { return {0.5, {0, 90, 178, 255}, {}, 0.3}; }
 Stroke hatch_stroke(const Colour& colour, double width) { return {width, colour}; }
 
 std::string spaced(double value) {
-  std::string digits = text(value);
+  std::string digits =
+      value == std::round(value) ? std::to_string(std::llround(value)) : text(value);
   const std::size_t begin = digits.starts_with('-') ? 1 : 0;
   const std::size_t end = std::min(digits.find('.'), digits.size());
   for (std::size_t i = end; i > begin + 3; i -= 3) digits.insert(i - 3, "\u202f");

@@ -39,7 +39,7 @@ for link in page.links:
 assert text.count("arrivals for design") == 1, "the fields do not say what their verdict rests on"
 assert "<b>&\"" not in text, "the site's name is markup"
 assert "&lt;b&gt;&amp;&quot; name" in text
-assert text.count('<image class="cells"') == 11, "ten maps and the change by the fence"
+assert text.count('class="cells"') == 11, "ten maps and the change by the fence"
 assert text.count('class="legend"') == 11, "a map without its legend in the page's letters"
 assert text.count('data:image/png') == 12, "the ground is not drawn once for all maps"
 maps = [json.loads(values) for values in re.findall(r'<script type="application/json">(.*?)</script>', text)]

@@ -44,7 +44,7 @@ mkdir folder
 cp dem.asc folder
 cells() { # cells NAME VALUE ELSEWHERE: five cells in the wall have the value
   awk -v v="$2" -v other="$3" 'NR <= 6 { print; next }
-    { for (c = 1; c <= NF; c++) printf "%g ", NR == 16 && c > 15 && c < 21 ? v : other; print "" }' dem.asc >"folder/$1.asc"
+    { for (c = 1; c <= NF; c++) printf "%g ", (NR == 16 && c > 15 && c < 21 ? v : other); print "" }' dem.asc >"folder/$1.asc"
 }
 cells rockdensity 2700 0
 for d in d1 d2 d3; do cells $d 0.8 0; done

@@ -16,13 +16,9 @@ TEST(LevelLines, OfAPlaneStandWhereItHasTheirHeight) {
   EXPECT_EQ(lines[0].level, 4);
   EXPECT_EQ(lines[1].level, 11.5);
   for (const LevelLine& line : lines) {
-    int n_between = 0;
-    for (const Vec2& p : line.points) {
-      if (p.x() < 10 || p.x() > 24 || p.y() > 50 || p.y() < 42) continue;  // beyond the samples
-      ++n_between;
+    EXPECT_GE(line.points.size(), 2U);
+    for (const Vec2& p : line.points)
       EXPECT_NEAR(3 * (p.x() - 10) / 2 + (50 - p.y()) / 2, line.level, 1e-5);
-    }
-    EXPECT_GE(n_between, 2);
   }
 }
 
@@ -49,8 +45,7 @@ TEST(LevelLines, CloseAroundATopAndStopAtUnknownGround) {
   lines = level_lines(cone, {3.3});
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_NE(lines[0].points.front(), lines[0].points.back());
-  for (const Vec2& p : lines[0].points)  // no nearer than half a spacing
-    EXPECT_FALSE(std::abs(p.x() - 17) < 0.49 && std::abs(p.y() + 10) < 0.49) << p.transpose();
+  for (const Vec2& p : lines[0].points) EXPECT_FALSE(p.x() > 16.1 && std::abs(p.y() + 10) < 0.9);
 }
 
 TEST(LevelLines, AreNoneOfNothing) {

@@ -150,6 +150,7 @@ TEST(MapView, GridAndBarFitTheScale) {
   EXPECT_EQ(spaced(1757200), "1\u202f757\u202f200");
   EXPECT_EQ(spaced(-1250.5), "-1\u202f250.5");
   EXPECT_EQ(spaced(999), "999");
+  EXPECT_EQ(spaced(500000), "500\u202f000");
 }
 
 TEST(MapPlaces, KeepOneOfEachNameAndTheFenceThatStood) {
