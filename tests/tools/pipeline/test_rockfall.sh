@@ -55,7 +55,7 @@ cells nrtrees 0 200
 cells dbhmean 25 25
 echo x >folder/net.asc
 gdal_translate -q -ot Float64 -a_srs EPSG:25832 folder/dem.asc crs.tif
-gdalsrsinfo -o wkt_esri EPSG:25832 >folder/dem.prj
+gdalsrsinfo -o wkt_esri EPSG:25832 | sed '/^$/d' >folder/dem.prj
 expect 2 new cells folder "" "$source_dir/pipelines" "" no
 says 'ROCKFALL is no, expected yes'
 expect 1 new cells folder "" "$source_dir/pipelines"
