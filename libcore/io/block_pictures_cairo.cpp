@@ -22,6 +22,8 @@ constexpr std::array<std::uint32_t, 6> colours = {0x1b6ca8, 0xc8553d, 0x3f8f4f,
 constexpr Colour black = rgb(0x000000), grey = rgb(0x555555), slide = rgb(0xc8553d),
                  topple = rgb(0x8a5aa8);
 constexpr std::uint8_t pale = 56;
+// dip whose pole is at the rim, on the side of those of less steep planes
+constexpr double vertical = std::numbers::pi / 2 - 1e-6;
 constexpr double radius = 200, middle = 240;
 const Letters small{13, false, 0, black};
 
@@ -94,7 +96,7 @@ void draw_zones(Pen& pen, const NetZones& zones) {
               pole_zone(
                   zones.aspect + std::numbers::pi, zones.toppling_lateral,
                   [&](double off) { return std::atan(1 / (std::tan(slip) * std::cos(off))); },
-                  [](double) { return std::numbers::pi / 2; }),
+                  [](double) { return vertical; }),
               topple);
   pen.circles({{middle, middle}}, std::numbers::sqrt2 * radius * std::sin(zones.friction / 2),
               {1, grey, {2, 3}});
