@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/types.hpp"
+#include "terrain/grid_frame.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {

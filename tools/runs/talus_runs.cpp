@@ -352,7 +352,8 @@ int main(int argc, char** argv) {
     } else if (adopt->parsed()) {
       adopt_late(tool, db, late.empty() ? talus::late_registries(db) : late);
     } else if (list->parsed()) {
-      Json runs = Json::array();
+      Json report;
+      Json& runs = report["runs"] = Json::array();
       std::string lines =
           "id    content id        tool          started               outcome      cpu       "
           "command";
@@ -360,7 +361,7 @@ int main(int argc, char** argv) {
         runs.push_back(run_as_json(run));
         lines += "\n" + one_line(run);
       }
-      tool.result({{"runs", runs}}, lines);
+      tool.result(report, lines);
     } else if (show->parsed()) {
       const talus::RunRecord run = talus::read_run(db, id);
       tool.result(details_as_json(run), as_text(run));
