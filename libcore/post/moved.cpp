@@ -30,7 +30,9 @@ Moved moved_of(std::vector<WeightedValue> displacement_and_mass, bool of_rocks) 
   return out;
 }
 
-Moved moved_of_run(const RunFile& run) { return moved_of(displacements(run), run.info.independent); }
+Moved moved_of_run(const RunFile& run) {
+  return moved_of(displacements(run), run.info.independent);
+}
 
 std::vector<double> counted_by(const RunFile& run) {
   return run.info.independent ? std::vector<double>(run.blocks.mass.size(), 1) : run.blocks.mass;
