@@ -1,4 +1,4 @@
-// libcore/report/doubts_html.hpp: public
+// libcore/report/doubts_html.hpp
 // Doubts on a page: a numbered line each, a kind together, with its way out. Places of the kind
 // have its number on a map.
 #pragma once
