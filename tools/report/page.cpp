@@ -559,6 +559,13 @@ Json released_of(const Json& runout) {
           {"volume_m3", number_or(value_at(runout, {"balance", "released_m3"}), 0) / n}};
 }
 
+// Of the blocks of all runs that left the known terrain; null where none did.
+Json left_share_of(const Json& runout) {
+  const double n = number_or(value_at(runout, {"balance", "n_left_domain"}), 0),
+               all = number_or(value_at(runout, {"balance", "n_released"}), 0);
+  return n > 0 && all > 0 ? Json(n / all) : Json();
+}
+
 Json data_of(const ReportData& data, const PageFiles& files) {
   const std::size_t n_runs = data.runs.size();
   const bool rocks_alone = n_runs > 0 && data.runs.front().info.independent;
@@ -602,6 +609,7 @@ Json data_of(const ReportData& data, const PageFiles& files) {
       {"friction", friction_of(data)},
       {"n_stems_shown", list_or_none(value_at(data.runout, {"trees", "stems"})).size()},
       {"released", released_of(data.runout)},
+      {"left_share", left_share_of(data.runout)},
       {"rocks_alone", rocks_alone}};
   add_result(data, out);
   add_fences(data, out);
