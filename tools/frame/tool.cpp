@@ -93,7 +93,7 @@ struct Tool::Impl {
   Json result;
   Json layers_read = Json::array();
   std::vector<Doubt> doubts;
-  std::vector<std::pair<std::string, Json>> reports;  // where they are written for now
+  std::vector<std::pair<std::string, Json>> reports;  // staged paths
   std::vector<std::function<void()>> at_end;
   std::string summary;
   bool registered = false;  // to be recorded; record.id is 0 while it has no row
