@@ -105,17 +105,17 @@ std::vector<std::vector<std::vector<Vec2>>> buffer_of(const std::vector<Vec2>& l
   return polygons_of(*area);
 }
 
-std::vector<Ring> rim_of(const std::vector<Ring>& footprints) {
+std::vector<Ring> rim_of(const std::vector<Ring>& footprints, double gap) {
   OGRMultiPolygon pieces;
   for (const Ring& footprint : footprints) {
     const OGRPolygon piece = polygon_of(footprint);
     pieces.addGeometry(&piece);
   }
-  constexpr double half_gap = 0.1, seen = 0.02;
+  constexpr double seen = 0.02;
   constexpr int quadrant = 4;  // pieces of a round corner, which the way back takes off again
   using Shape = std::unique_ptr<OGRGeometry>;
-  const Shape wide(pieces.Buffer(half_gap, quadrant));
-  const Shape narrow(wide ? wide->Buffer(-half_gap, quadrant) : nullptr);
+  const Shape wide(pieces.Buffer(gap / 2, quadrant));
+  const Shape narrow(wide ? wide->Buffer(-gap / 2, quadrant) : nullptr);
   const Shape rim(narrow ? narrow->SimplifyPreserveTopology(seen) : nullptr);
   std::vector<Ring> rings;
   if (rim)

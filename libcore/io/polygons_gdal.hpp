@@ -26,9 +26,9 @@ namespace talus {
 [[nodiscard]] std::vector<std::vector<std::vector<Vec2>>> buffer_of(const std::vector<Vec2>& line,
                                                                     double radius);
 
-/// The rim of the footprints of blocks together, which may overlap and lie up to 0.2 m apart; rings
+/// The rim of the footprints of blocks together, which may overlap and lie up to `gap` apart; rings
 /// without the last point. [m]
 [[nodiscard]] std::vector<std::vector<Vec2>> rim_of(
-    const std::vector<std::vector<Vec2>>& footprints);
+    const std::vector<std::vector<Vec2>>& footprints, double gap = 0.2);
 
 }  // namespace talus

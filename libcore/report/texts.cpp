@@ -133,6 +133,12 @@ std::vector<std::string> Texts::replace_by(const Texts& other) {
   return missing;
 }
 
+void Texts::speak_of_rocks() {
+  constexpr std::string_view of_rocks = "_rocks";
+  for (const auto& [key, entry] : entries_)
+    if (key.ends_with(of_rocks)) entries_.at(key.substr(0, key.size() - of_rocks.size())) = entry;
+}
+
 std::string Texts::of(const std::string& key, Values values) const {
   return filled(key, [&](const std::string& name) {
     const auto* const value = std::find_if(values.begin(), values.end(),

@@ -34,6 +34,9 @@ class Texts {
   /// too. `page.sections` may have any length: what it leaves out is not shown.
   std::vector<std::string> replace_by(const Texts& other);
 
+  /// Where rocks fall one by one: each text KEY_rocks takes the place of KEY.
+  void speak_of_rocks();
+
   /// {name} and what stands in its place, as HTML.
   using Values = std::initializer_list<std::pair<std::string_view, std::string>>;
   [[nodiscard]] std::string of(const std::string& key, Values values = {}) const;

@@ -26,6 +26,8 @@ namespace talus {
 namespace {
 
 constexpr int n_sliders = 60;
+// Rocks that roll and bounce: the least angle of a rockfall shadow, Evans and Hungr (1993) [deg].
+constexpr double rolling_deg = 27.5;
 
 // --- the source --------------------------------------------------------------------------------
 
@@ -230,8 +232,9 @@ void look_at_paths(Look& look) {
   const Site& site = look.work.site;
   SlidingFriction friction;
   friction.tangent.clear();
+  const double most_deg = moves_alone(site) ? rolling_deg : 90;
   for (const GroundSettings& ground : site.grounds)
-    friction.tangent.push_back(std::tan(ground.friction_deg * degree));
+    friction.tangent.push_back(std::tan(std::min(ground.friction_deg, most_deg) * degree));
   friction.cell_class = look.inputs.parts.cell_class;
   const Trn smooth = smoothed(look.work.ground);
   std::vector<double> times;

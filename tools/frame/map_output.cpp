@@ -163,8 +163,11 @@ MapFrame map_frame(RunInputs& runs, const PassageGrid& grid, const PageOptions& 
   const PageLayout layout = layout_of(size_of(pages));
   frame.ground = map_ground(trn, layout, view_of(layout, grid, frame.drawn));
   frame.places = runs.places();
-  frame.places.source = rim_of(frame.places.source);
-  if (!runs.members.empty()) frame.law = runs.members[0].info.law;
+  if (runs.members.empty()) return frame;
+  const RunInfo& info = runs.members[0].info;
+  frame.places.source =
+      rim_of(frame.places.source, source_gap(info.independent, frame.ground.view.scale));
+  frame.law = info.law;
   return frame;
 }
 

@@ -37,6 +37,7 @@ struct ReportData {
   std::vector<std::pair<std::string, Json>> case_fences;  ///< the same, as `fence`
   std::vector<RunFile> runs;  ///< info and health, by seed and name; frames left out    (n_runs)
   std::vector<std::string> run_names;  ///< "1", or "CASE_1"                            (n_runs)
+  bool rocks_alone = false;            ///< the blocks of each run fell one by one
   std::string repeats;                 ///< runs that are the same but for their seed; "": none
   RunFaults faults;                    ///< of these runs
   int n_in_parts = 0;                  ///< of them, without frames of their own

@@ -568,7 +568,6 @@ Json left_share_of(const Json& runout) {
 
 Json data_of(const ReportData& data, const PageFiles& files) {
   const std::size_t n_runs = data.runs.size();
-  const bool rocks_alone = n_runs > 0 && data.runs.front().info.independent;
   const std::string remark = remark_of(data), fence_remark = fence_remark_of(data);
   Json classes = list_or_none(value_at(data.hazard, {"classes"}));
   std::reverse(classes.begin(), classes.end());  // the strongest first
@@ -610,7 +609,7 @@ Json data_of(const ReportData& data, const PageFiles& files) {
       {"n_stems_shown", list_or_none(value_at(data.runout, {"trees", "stems"})).size()},
       {"released", released_of(data.runout)},
       {"left_share", left_share_of(data.runout)},
-      {"rocks_alone", rocks_alone}};
+      {"rocks_alone", data.rocks_alone}};
   add_result(data, out);
   add_fences(data, out);
   add_uncertainty(data, out);

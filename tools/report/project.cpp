@@ -289,7 +289,7 @@ std::map<std::string, std::string> layout_words(const ReportData& data,
       data.hazard.contains("notes") && data.hazard["notes"].is_array())
     for (const Json& note : data.hazard["notes"])
       if (note.is_string()) statement += "\n" + note.get<std::string>();
-  return {{"title", data.site.info.name + ": rockslide hazard" +
+  return {{"title", data.texts.of("page.title", {{"site", data.site.info.name}}) +
                         (project.remark.empty() ? "" : " (" + project.remark + ")")},
           {"site", data.site.info.name},
           {"remark", project.remark},

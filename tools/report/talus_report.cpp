@@ -397,7 +397,8 @@ void read_maps(const ResultFolder& folder, ReportData& data) {
   sheet.ground = map_ground(data.terrain, layout_of(PageSize::a4), view_of_maps(folder, data));
   sheet.origin = data.terrain.origin.head<2>();
   add_places(sheet.places, data.shown);
-  sheet.places.source = rim_of(sheet.places.source);
+  sheet.places.source =
+      rim_of(sheet.places.source, source_gap(data.rocks_alone, sheet.ground.view.scale));
   data.maps = pictures_in(folder, "maps", sheet);
   for (const std::string& name : cases_with(folder, data.runout, "maps/", "/reach.tif"))
     data.case_maps.emplace_back(name, pictures_in(folder, "maps/" + name, sheet));
@@ -481,6 +482,8 @@ ReportData read_data(Tool& tool, const Site& site, const std::string& texts, Res
     data.runs_to_add = tag_of(folder.path("maps/reach.tif").string(), "RUNS_TO_ADD");
   const std::vector<RunPlace> places = evaluated_runs(folder, data.runout);
   read_runs(tool, folder, places, progress, data);
+  data.rocks_alone = !data.runs.empty() && data.runs.front().info.independent;
+  if (data.rocks_alone) data.texts.speak_of_rocks();
   data.bed = read_trn(ground_of(data.shown.info, folder));
   read_maps(folder, data);
   read_registry(tool.registry(), folder, places, progress, data);

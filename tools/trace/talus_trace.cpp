@@ -8,6 +8,7 @@
 #include "base/file_paths.hpp"
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "base/words.hpp"
 #include "post/hazard/hazard_rates.hpp"
 #include "post/reduce.hpp"
 #include "setup/section_state_gdal.hpp"
@@ -224,12 +225,15 @@ Json conservation(const Traced& traced, const std::vector<SourceLink>& links) {
           {"n_hits_and_none", static_cast<double>(sums.hits.size()) + n_none}};
 }
 
-std::string summary_of(const std::string& name, const TracedObject& o, bool has_rate, int n) {
+std::string summary_of(const std::string& name, const TracedObject& o, bool has_rate, int n,
+                       bool rocks_alone) {
   const ObjectTrace& t = o.trace;
-  std::string out = name + ": hit in " + std::to_string(t.n_runs_hit) + " of " + counted(n, "run");
-  if (!std::isnan(t.run_share_interval.high))
-    out += " (95 %: " + text(t.run_share_interval.low, 3) + " - " +
-           text(t.run_share_interval.high, 3) + ")";
+  const Interval& interval = rocks_alone ? t.weight_share_interval : t.run_share_interval;
+  std::string out = name + ": ";
+  out += rocks_alone ? "hit by " + percent(t.weight_share) + " of the rocks"
+                     : "hit in " + std::to_string(t.n_runs_hit) + " of " + counted(n, "run");
+  if (!std::isnan(interval.high))
+    out += " (95 %: " + text(interval.low, 3) + " - " + text(interval.high, 3) + ")";
   if (has_rate && o.rate > 0) out += ", once in " + text(1 / o.rate, 3) + " years";
   if (t.n_hits == 0) return out;
   out += ", " + counted(t.n_hits, "block") + ", up to " + grouped_text(t.energy.largest, 3) + " kJ";
@@ -252,6 +256,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   std::vector<TracedObject> objects;
   Json list = Json::array();
   std::string summary;
+  const bool rocks_alone = !runs.members.empty() && runs.members.front().info.independent;
   for (int i = 0; i < static_cast<int>(sums.objects.size()); ++i) {
     TracedObject object{object_trace(sums, i, basis, links), none, none, none};
     if (!classes.empty()) put_rate(traced, i, object);
@@ -263,7 +268,8 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
                 "many, with the largest energy over these cells");
     list.push_back(object_json(of, object, !classes.empty()));
     list.back()["sources"] = sources_json(traced, i, links, trn.origin);
-    summary += (i > 0 ? "\n" : "") + summary_of(of.name, object, !classes.empty(), n_runs(sums));
+    summary += (i > 0 ? "\n" : "") +
+               summary_of(of.name, object, !classes.empty(), n_runs(sums), rocks_alone);
     objects.push_back(std::move(object));
   }
   MapTags tags = tags_of(runs.members, runs.left_out);

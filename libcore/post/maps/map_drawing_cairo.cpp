@@ -269,11 +269,17 @@ void draw_scale_bar(Pen& pen, const Vec2& at, const MapView& view, double letter
     pen.frame(part, {0.15});
   }
   const bool in_km = length >= 2000;
-  for (const double share : {0.0, 0.5, 1.0})
-    pen.words_about(
-        at + Vec2(share * wide, -2 * letters),
-        text(share * length / (in_km ? 1000 : 1)) + (share == 1 ? in_km ? " km" : " m" : ""),
-        {2.3 * letters, false, 0, {30, 30, 30, 255}, letters > 1});
+  const Letters of_bar{2.3 * letters, false, 0, {30, 30, 30, 255}, letters > 1};
+  const auto words = [&](double share) {
+    return text(share * length / (in_km ? 1000 : 1)) + (share == 1 ? in_km ? " km" : " m" : "");
+  };
+  const auto write = [&](double share) {
+    pen.words_about(at + Vec2(share * wide, -2 * letters), words(share), of_bar);
+  };
+  write(0);
+  write(1);
+  const double of_both = pen.size_of(words(0.5) + " " + words(1), of_bar).x();
+  if (of_both < wide) write(0.5);  // half of each is between their middles
 }
 
 Stroke contour_stroke(bool is_numbered) {

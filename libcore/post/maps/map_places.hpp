@@ -15,6 +15,12 @@ struct MapPlaces {
   std::vector<RecordObject> objects;
 };
 
+/// Up to which distance footprints are drawn as one source: the blocks of a mass nearly touch,
+/// those of rocks one by one lie within 4 mm of a map at 1 : `scale` [m].
+[[nodiscard]] inline double source_gap(bool is_one_by_one, double scale) {
+  return is_one_by_one ? 0.004 * scale : 0.2;
+}
+
 /// Adds what a run has, read with its lines and objects. Of lines and objects of one name the first
 /// is kept, of lines one that stood.
 void add_places(MapPlaces& places, const RunFile& run);

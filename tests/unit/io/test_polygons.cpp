@@ -33,5 +33,6 @@ TEST(RimOf, JoinsFootprintsThatOverlap) {
 TEST(RimOf, ClosesJointsAndKeepsWhatIsApart) {
   EXPECT_EQ(rim_of({box(0, 0, 10, 10), box(10.1, 0, 20, 10)}).size(), 1U);
   EXPECT_EQ(rim_of({box(0, 0, 10, 10), box(10.5, 0, 20, 10)}).size(), 2U);
+  EXPECT_EQ(rim_of({box(0, 0, 10, 10), box(10.5, 0, 20, 10)}, 1).size(), 1U);
   EXPECT_TRUE(rim_of({}).empty());
 }
