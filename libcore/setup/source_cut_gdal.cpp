@@ -265,17 +265,21 @@ void check_discs(const BlocksWork& work, double radius) {
       "cell part nothing");
 }
 
-// The ball around the mass, which the joints must cross.
-void draw_all_joints(const MassMeasure& measure, BlocksWork& work) {
+// Of the ball around the mass, which the joints must cross.
+void draw_all_joints(const MassMeasure& measure, double beside, BlocksWork& work) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& p : measure.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const Vec3 centre = (low + high) / 2;
-  check_discs(work, (high - low).norm() / 2);
-  for (size_t s = 0; s < work.sets.size(); ++s)
+  const double radius = (high - low).norm() / 2;
+  check_discs(work, radius);
+  for (size_t s = 0; s < work.sets.size(); ++s) {
+    const JointSet& set = work.sets[s].set;
+    const double away = beside * set.mean_spacing;
     for (Joint& joint :
-         draw_joints(work.sets[s].set, static_cast<int>(s), centre, (high - low).norm() / 2,
-                     static_cast<std::uint64_t>(work.site.source.seed)))
+         draw_joints(set, static_cast<int>(s), centre + away * pole(set.dip, set.dip_direction),
+                     radius + away, static_cast<std::uint64_t>(work.site.source.seed)))
       work.joints.push_back(std::move(joint));
+  }
 }
 
 std::string why_in_one_piece(const BlocksWork& work) {
@@ -363,13 +367,10 @@ void find_wedges(BlocksWork& work) {
       find_failure_wedges(work.ground, work.area, sets, work.planes.friction, where_of_area(work));
 }
 
-void cut_source(InputLog& log, bool exact, BlocksWork& work) {
-  plan_sets(log, work);
-  find_mass(log, work);
-  const MassMeasure measure = measure_mass(work.ground, work.mass.bed, work.area);
-  warn_of_mass(log, work, measure);
+void cut_by_joints(InputLog& log, bool exact, const MassMeasure& measure, double beside,
+                   BlocksWork& work) {
   check_expected(measure, work);
-  draw_all_joints(measure, work);
+  draw_all_joints(measure, beside, work);
   work.limits = plan_limits(work.site, work.sets, work.mass.volume, work.expected);
   work.limits.exact = exact;
   for (const PlannedSet& planned : work.sets)
@@ -381,6 +382,14 @@ void cut_source(InputLog& log, bool exact, BlocksWork& work) {
                              [&](double share) { progress(0.5 + 0.5 * share); });
   if (complex.n_uncut > 0)
     log.warn(std::to_string(complex.n_uncut) + " cells could not be cut and stayed in one piece");
+}
+
+void cut_source(InputLog& log, bool exact, BlocksWork& work) {
+  plan_sets(log, work);
+  find_mass(log, work);
+  const MassMeasure measure = measure_mass(work.ground, work.mass.bed, work.area);
+  warn_of_mass(log, work, measure);
+  cut_by_joints(log, exact, measure, 0, work);
   if (work.cut.n_dropped > 0)
     log.warn("left out, since they have no neighbour: " + counted(work.cut.n_dropped, "sliver") +
              ", " + text(work.cut.dropped_volume, 3) + " m3 in all");

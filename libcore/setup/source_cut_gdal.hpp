@@ -24,6 +24,12 @@ void find_wedges(BlocksWork& work);
 /// Where the polygon of [source] stands.
 [[nodiscard]] Where where_of_area(const BlocksWork& work);
 
+/// Draws the joints of `work.sets`, cuts the mass by them and puts the blocks into `work.blocks`,
+/// as they are cut (`exact`) or made convex. `beside`: mean spacings from the middle of the mass to
+/// the place that offset_m is from. Throws InputError for more than source.max_blocks.
+void cut_by_joints(InputLog& log, bool exact, const MassMeasure& measure, double beside,
+                   BlocksWork& work);
+
 /// Finds the mass, draws the joints and puts the blocks into `work.blocks`, as they are cut
 /// (`exact`) or made convex. Warns of what was left out or lies below the limits. Throws InputError
 /// for more blocks than source.max_blocks, and where none is left.

@@ -248,10 +248,10 @@ template <> const std::vector<SiteKey<FragmentationSettings>>& keys_of() {
   return table;
 }
 template <class S>
-std::vector<SiteKey<S>> body_keys() {
+std::vector<SiteKey<S>> body_keys(const char* shapes) {
   return {
       {"file", &S::file, "mesh file: OBJ, PLY, OFF or STL, one or many closed bodies"},
-      {"shape", &S::shape, "shape instead of a mesh; eota111, 211 and 221 have their proportions", any, "box|prism|eota|eota111|eota211|eota221|rock"},
+      {"shape", &S::shape, "shape instead of a mesh; eota111, 211 and 221 have their proportions", any, shapes},
       {"size_m", &S::size_m, "box, rock, eota: extents x, y, z; eota111, 211, 221: the longest; prism: diameter, length along y; one number: of all", positive, "", "", 1, 3},
       {"volume_m3", &S::volume_m3, "volume that the body is scaled to", positive},
       {"n_points", &S::n_points, "points of a rock", {4, 500}},
@@ -263,14 +263,14 @@ std::vector<SiteKey<S>> body_keys() {
       {"seed", &S::seed, "seed of what is drawn: shapes, sizes, orientations", not_negative}};
 }
 template <class S>
-std::vector<SiteKey<S>> with_body_keys(std::vector<SiteKey<S>> own) {
-  std::vector<SiteKey<S>> table = body_keys<S>();
+std::vector<SiteKey<S>> with_body_keys(const char* shapes, std::vector<SiteKey<S>> own) {
+  std::vector<SiteKey<S>> table = body_keys<S>(shapes);
   table.insert(table.end(), own.begin(), own.end());
   return table;
 }
 template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
   using S = PlacedSettings;
-  static const std::vector<SiteKey<S>> table = with_body_keys<S>({
+  static const std::vector<SiteKey<S>> table = with_body_keys<S>("box|prism|eota|eota111|eota211|eota221|rock", {
       {"y_up", &S::y_up, "the mesh has y upwards: (x, y, z) becomes (x, -z, y)"},
       {"scale", &S::scale, "factor on the mesh", positive},
       {"n_sides", &S::n_sides, "sides of a prism", {3, 64}},
@@ -283,7 +283,7 @@ template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
 }
 template <> const std::vector<SiteKey<RockfallSettings>>& keys_of() {
   using S = RockfallSettings;
-  static const std::vector<SiteKey<S>> table = with_body_keys<S>({
+  static const std::vector<SiteKey<S>> table = with_body_keys<S>("box|prism|eota|eota111|eota211|eota221|rock|joint_cell", {
       {"rocks", &S::rocks, "rocks that each place releases in a run; another run draws others", {1, 100000}},
       {"release_file", &S::release_file, "vector file of release points, or of lines with release_spacing_m"},
       {"polygon", &S::polygon, "corners of an area that rocks are released all over, map x, y", any, "", "", 3},

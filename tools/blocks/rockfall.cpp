@@ -1,5 +1,6 @@
 #include "tools/blocks/rockfall.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -12,6 +13,7 @@
 #include "blocks/rock_draws.hpp"
 #include "blocks/shapes.hpp"
 #include "geometry/plan2d.hpp"
+#include "setup/joint_cells_gdal.hpp"
 #include "setup/map_box.hpp"
 #include "setup/site_shapes_gdal.hpp"
 #include "setup/value_raster_gdal.hpp"
@@ -213,19 +215,42 @@ void check_sizes(const RockfallSection& section) {
         "volume_m3 is the smallest volume of the power law, below volume_max_m3");
 }
 
+// What rocks with a form of their own are drawn from: bodies of a mesh, all alike, or joint cells.
+JointCells forms_of(const RockfallSection& section) {
+  const RockfallSettings& s = section.settings;
+  const bool of_cells = s.shape == "joint_cell";
+  if (s.file.empty() && !of_cells) return {};
+  if (!s.size_m.empty() || !s.d1_raster.empty() || !s.blshape_raster.empty())
+    section.refuse("has " + std::string(of_cells ? "joint cells" : "a mesh") +
+                       " for its rocks, and the extents of another shape",
+                   "leave out size_m, d1_raster and blshape_raster; volume_m3, volumes_m3 and "
+                   "volume_max_m3 scale them");
+  if (of_cells)
+    return cut_joint_cells(section.tool, section.site, static_cast<std::uint64_t>(s.seed),
+                           section.where());
+  return {mesh_bodies(section, false), {}};
+}
+
+const Body& drawn_form(const JointCells& forms, Random& random) {
+  if (forms.share_up_to.empty()) return forms.cells[random.below(forms.cells.size())];
+  const auto at =
+      std::upper_bound(forms.share_up_to.begin(), forms.share_up_to.end() - 1, random.uniform());
+  return forms.cells[static_cast<std::size_t>(at - forms.share_up_to.begin())];
+}
+
 double drawn_volume(const RockfallSettings& s, Random& random) {
   if (!s.volumes_m3.empty()) return s.volumes_m3[random.below(s.volumes_m3.size())];
   if (std::isnan(s.volume_max_m3)) return s.volume_m3;
   return power_law_volume(random.uniform(), s.volume_m3, s.volume_max_m3, s.volume_exponent);
 }
 
-// One body about its centre of mass: of a mesh file, one of its bodies.
-Body rock_of(const RockfallSection& section, const ReleasePlace& place,
-             const std::vector<Body>& meshes, Random& random) {
+// One body about its centre of mass.
+Body rock_of(const RockfallSection& section, const ReleasePlace& place, const JointCells& forms,
+             Random& random) {
   BodySettings settings = section.settings;
   settings.volume_m3 = drawn_volume(section.settings, random);
-  if (!meshes.empty()) {
-    std::vector<Body> one = {meshes[random.below(meshes.size())]};
+  if (!forms.cells.empty()) {
+    std::vector<Body> one = {drawn_form(forms, random)};
     centre(one);
     if (!std::isnan(settings.volume_m3)) scale_to_volume(one, settings.volume_m3);
     return std::move(one.front());
@@ -248,8 +273,7 @@ void add_section(const RockfallSection& section, BlockSet& set) {
   check_frequency(section);
   check_sizes(section);
   const std::vector<ReleasePlace> places = places_of(section);
-  const std::vector<Body> meshes =
-      s.file.empty() ? std::vector<Body>{} : mesh_bodies(section, false);
+  const JointCells forms = forms_of(section);
   Random random(static_cast<std::uint64_t>(s.seed), "rockfall " + s.name);
   const auto scatter = [&random](double deviation) {
     return deviation > 0 ? Vec3(deviation * Vec3(random.normal(), random.normal(), random.normal()))
@@ -257,7 +281,7 @@ void add_section(const RockfallSection& section, BlockSet& set) {
   };
   for (const ReleasePlace& place : places)
     for (std::int64_t rock = 0; rock < s.rocks; ++rock) {
-      std::vector<Body> bodies = {rock_of(section, place, meshes, random)};
+      std::vector<Body> bodies = {rock_of(section, place, forms, random)};
       Vec3 position = place.position;
       double height = s.height_above_ground_m;
       if (s.height_scatter_m > 0) {

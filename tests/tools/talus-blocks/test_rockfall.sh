@@ -56,6 +56,21 @@ cells blshape 1 5 3
 expect 1 blocks --overwrite
 says '1 is a box, 2 an ellipsoid'
 
+# Rocks of the form of the cells that the joints cut: as they are cut, or scaled.
+joints=$(printf '[joints.%s]\ndip_deg = %s\ndip_direction_deg = %s\nspacing_m = %s\nspacing = "exponential"\n' \
+  bedding 20 90 0.5 east 90 90 0.8 north 90 0 0.8)
+rocks 'shape = "joint_cell"' "$area" 'release_spacing_m = 2' "$joints"
+expect 0 blocks --overwrite --report r.json
+says 'joint cells of '
+holds "$(value r.json largest_m3) > 20 * $(value r.json smallest_m3)"
+expect 0 blocks --overwrite --set rockfall.cliff.volume_m3=0.5 --report r.json
+holds "($(value r.json volume_m3) - 0.5 * $(value r.json n_blocks)) ^ 2 < 1e-16"
+expect 1 blocks --overwrite --set 'rockfall.cliff.size_m=[1, 1, 1]'
+says 'has joint cells for its rocks, and the extents of another shape'
+rocks 'shape = "joint_cell"' "$area"
+expect 1 blocks --overwrite
+says 'three or more make cells'
+
 # Another sample draws other rocks; the same one the same.
 rocks 'shape = "rock"' 'size_m = [1, 0.8, 0.6]' 'position_m = [500020, 5200020]' 'rocks = 5' \
   'height_scatter_m = 1' 'velocity_scatter_m_s = 0.5'
