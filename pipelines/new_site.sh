@@ -88,9 +88,10 @@ END
   else
     [ -z "$source" ] || echo "polygon_file = \"$(seen_from_site "$source")\""
     [ -n "$source" ] ||
-      echo "# its areas are drawn in the layer release_areas of site.gpkg, named cliff"
+      echo "# its areas are drawn in the layer release_areas of site.gpkg, named cliff; without \
+them all steep ground releases rocks"
     cat <<END
-min_slope_deg = 40            # flatter ground of the areas releases none
+min_slope_deg = 40            # flatter ground releases none
 shape = "rock"                # the hull of points on an ellipsoid; or eota111, eota211, eota221
 size_m = [1.2, 1.0, 0.8]      # proportions
 volume_m3 = 0.2               # from this volume

@@ -28,13 +28,16 @@ void add_grid_crossings(const Trn& trn, const Vec3& a, const Vec3& b, std::vecto
   cross_family(from.x() - from.y(), to.x() - to.y());  // the diagonals, south = east
 }
 
-// Calls visit(corners) for the triangles whose middle lies in the area.
+// Calls visit(corners, is_steep) for the triangles of the area.
 template <class Visit>
-void for_each_triangle(const Trn& ground, const Area& area, Visit visit) {
+void for_each_triangle(const Trn& ground, const ReleaseArea& release, Visit visit) {
+  const double steep = std::tan(release.min_slope);
   for (int t = 0; t < n_triangles(ground); ++t) {
+    if (!is_known(ground, t)) continue;
     const auto p = triangle_corners(ground, t);
     const Vec3 middle = (p[0] + p[1] + p[2]) / 3;
-    if (is_known(ground, t) && contains(area, Vec2(middle.x(), middle.y()))) visit(p);
+    if (release.area.rings.empty() || contains(release.area, middle.head<2>()))
+      visit(p, triangle_gradient(ground, t).norm() >= steep);
   }
 }
 
@@ -68,16 +71,17 @@ std::vector<Vec2> points_along(const std::vector<Vec2>& line, double spacing) {
   return points;
 }
 
-std::vector<Vec2> points_over(const Trn& ground, const Area& area, double spacing) {
+std::vector<Vec2> points_over(const Trn& ground, const ReleaseArea& release, double spacing) {
   std::vector<Vec2> points;
   double sum = 0.5 * spacing * spacing;  // the first point after half a share
   // R2 sequence: steps by the plastic number fill the unit square evenly.
   constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
   double u = 0.5, v = 0.5;
-  for_each_triangle(ground, area, [&](const std::array<Vec3, 3>& p) {
+  for_each_triangle(ground, release, [&](const std::array<Vec3, 3>& p, bool is_steep) {
     sum += triangle_area(p);
     for (; sum >= spacing * spacing; sum -= spacing * spacing) {
       u = std::fmod(u + step_u, 1), v = std::fmod(v + step_v, 1);
+      if (!is_steep) continue;
       const bool fold = u + v > 1;
       const double a = fold ? 1 - u : u, b = fold ? 1 - v : v;
       const Vec3 at = p[0] + a * (p[1] - p[0]) + b * (p[2] - p[0]);
@@ -87,9 +91,13 @@ std::vector<Vec2> points_over(const Trn& ground, const Area& area, double spacin
   return points;
 }
 
-double sloping_area(const Trn& ground, const Area& area) {
-  double sum = 0;
-  for_each_triangle(ground, area, [&](const std::array<Vec3, 3>& p) { sum += triangle_area(p); });
+SlopingArea sloping_area(const Trn& ground, const ReleaseArea& release) {
+  SlopingArea sum;
+  for_each_triangle(ground, release, [&](const std::array<Vec3, 3>& p, bool is_steep) {
+    const double area = triangle_area(p);
+    sum.all += area;
+    if (is_steep) sum.steep += area;
+  });
   return sum;
 }
 

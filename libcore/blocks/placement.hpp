@@ -14,13 +14,24 @@ namespace talus {
 /// Points along a polyline every `spacing`, from its first vertex on; its last when it falls on it.
 [[nodiscard]] std::vector<Vec2> points_along(const std::vector<Vec2>& line, double spacing);
 
+/// Ground that releases rocks: triangles whose middle lies in the area, of all ground without
+/// rings. Points stand only where it is as steep as this.
+struct ReleaseArea {
+  Area area;
+  double min_slope = 0;  ///< [rad]
+};
+
 /// One point for every spacing^2 of sloping ground in the area: triangle after triangle, a point
 /// wherever the summed true area passes a multiple, placed in the triangle by the R2 sequence:
-/// even, but no grid. Triangles whose middle lies in the area count.
-[[nodiscard]] std::vector<Vec2> points_over(const Trn& ground, const Area& area, double spacing);
+/// even, but no grid. Those on flatter ground are left out.
+[[nodiscard]] std::vector<Vec2> points_over(const Trn& ground, const ReleaseArea& release,
+                                            double spacing);
 
-/// True area of those triangles [m2].
-[[nodiscard]] double sloping_area(const Trn& ground, const Area& area);
+/// True area of the triangles, and of those that are steep enough [m2].
+struct SlopingArea {
+  double all = 0, steep = 0;
+};
+[[nodiscard]] SlopingArea sloping_area(const Trn& ground, const ReleaseArea& release);
 
 /// Smallest vertical distance of the body's lower side above the ground, exact for the triangles of
 /// the TRN: at the body's vertices, at nodes below it, and where edges cross in plan. Negative when

@@ -289,7 +289,7 @@ template <> const std::vector<SiteKey<RockfallSettings>>& keys_of() {
       {"polygon", &S::polygon, "corners of an area that rocks are released all over, map x, y", any, "", "", 3},
       {"polygon_file", &S::polygon_file, "vector file with such areas: polygons, or closed lines"},
       {"release_spacing_m", &S::release_spacing_m, "spacing along release lines; in areas over the sloping ground, a cell of the TRN when not given", positive},
-      {"min_slope_deg", &S::min_slope_deg, "ground of the areas that is flatter releases no rocks", angle_below_90},
+      {"min_slope_deg", &S::min_slope_deg, "flatter ground of the areas, or without a place of all the terrain, releases no rocks", angle_below_90},
       {"rockdensity_raster", &S::rockdensity_raster, "raster of source cells as of Rockyfor3D: density of the rock [kg/m3], 0 elsewhere"},
       {"d1_raster", &S::d1_raster, "raster of extents of the rocks [m], with d2_raster and d3_raster"},
       {"d2_raster", &S::d2_raster, "see d1_raster"},

@@ -155,17 +155,27 @@ std::vector<Vec3> each_place_once(const BodySection& section, const std::vector<
   return kept;
 }
 
-void put(const BodySection& section, const Mat3& turn, const Vec3& position, double height,
-         std::vector<Body>& bodies) {
+namespace {
+
+std::string body_at(const BodySection& section, const Vec3& position) {
   const Vec3 place = position + section.ground.origin;
-  const std::string words = "a body at (" + text(place.x(), 10) + ", " + text(place.y(), 10) + ")";
+  return "a body at (" + text(place.x(), 10) + ", " + text(place.y(), 10) + ")";
+}
+
+}  // namespace
+
+bool put(const BodySection& section, const Mat3& turn, const Vec3& position, double height,
+         std::vector<Body>& bodies) {
   const double depth = put_on_ground(bodies, section.ground, {turn, position, height});
-  if (std::isnan(depth))
-    throw InputError(section.where(), words + " does not lie over known ground",
-                     "move it, or make the terrain larger");
   if (depth > 0)
-    section.tool.warn(section.path + ": " + words + " reaches " + text(depth, 3) +
-                      " m into the ground");
+    section.tool.warn(section.path + ": " + body_at(section, position) + " reaches " +
+                      text(depth, 3) + " m into the ground");
+  return !std::isnan(depth);
+}
+
+void refuse_place(const BodySection& section, const Vec3& position) {
+  throw InputError(section.where(), body_at(section, position) + " does not lie over known ground",
+                   "move it, or make the terrain larger");
 }
 
 void add_bodies(const BodySection& section, const Vec3& velocity, const Vec3& spin, double weight,

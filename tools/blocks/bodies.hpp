@@ -43,9 +43,12 @@ void check_number(const BodySection& section, double n_bodies);
                                                 const std::vector<Vec3>& positions);
 
 /// Turns the bodies, moves them to the place and, unless its height is given, sets them on the
-/// ground so high above it [m]. Throws InputError where there is none.
-void put(const BodySection& section, const Mat3& turn, const Vec3& position, double height,
-         std::vector<Body>& bodies);
+/// ground so high above it [m]. False where some of them do not lie over known ground.
+[[nodiscard]] bool put(const BodySection& section, const Mat3& turn, const Vec3& position,
+                       double height, std::vector<Body>& bodies);
+
+/// Throws InputError: a body there does not lie over known ground.
+[[noreturn]] void refuse_place(const BodySection& section, const Vec3& position);
 
 /// Gives the bodies the material of the section and their motion.
 void add_bodies(const BodySection& section, const Vec3& velocity, const Vec3& spin, double weight,

@@ -59,8 +59,9 @@ void add_section(const BodySection& section, const PlacedSettings& settings, Blo
   for (const Vec3& position : positions) {
     std::vector<Body> bodies = meshes;
     if (bodies.empty()) bodies.emplace_back().parts = {shape_of(section, random)};
-    put(section, settings.random_orientation ? random_rotation(random) : fixed, position,
-        settings.height_above_ground_m, bodies);
+    if (!put(section, settings.random_orientation ? random_rotation(random) : fixed, position,
+             settings.height_above_ground_m, bodies))
+      refuse_place(section, position);
     add_bodies(section, velocity, spin, 1, std::move(bodies), set);
   }
 }

@@ -8,6 +8,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 #include "blocks/placed_bodies.hpp"
 #include "blocks/placement.hpp"
 #include "blocks/rock_draws.hpp"
@@ -59,27 +60,32 @@ double slope_deg_at(const Trn& ground, const Vec2& at) {
   return std::atan(gradient.norm()) / degree;
 }
 
+// Without any place the steep ground of all the terrain releases rocks.
+bool is_everywhere(const RockfallSettings& s) {
+  return s.min_slope_deg > 0 && s.position_m.empty() && s.release_file.empty() &&
+         s.polygon.empty() && s.polygon_file.empty() && s.rockdensity_raster.empty();
+}
+
 void add_areas(const RockfallSection& section, std::vector<ReleasePlace>& places) {
   const RockfallSettings& s = section.settings;
   const SitePlace where = areas_of(s);
-  if (where.file.empty() && where.points.empty()) return;
-  Area area{shapes_in_plan(section.tool, section.site, section.ground, where)};
-  area = without_repeated_corners(std::move(area));
-  check_area(area, section.ground.origin, section.where());
+  ReleaseArea release{{}, s.min_slope_deg * degree};
+  if (!is_everywhere(s)) {
+    if (where.file.empty() && where.points.empty()) return;
+    release.area = without_repeated_corners(
+        {shapes_in_plan(section.tool, section.site, section.ground, where)});
+    check_area(release.area, section.ground.origin, section.where());
+  }
   const double spacing =
       std::isnan(s.release_spacing_m) ? section.ground.cell_size : s.release_spacing_m;
-  check_number(section, sloping_area(section.ground, area) / (spacing * spacing));
-  std::size_t n_flat = 0;
-  for (const Vec2& p : points_over(section.ground, area, spacing)) {
-    if (slope_deg_at(section.ground, p) >= s.min_slope_deg)
-      places.push_back({Vec3(p.x(), p.y(), NAN), spacing * spacing});
-    else
-      ++n_flat;
-  }
+  const SlopingArea area = sloping_area(section.ground, release);
+  check_number(section, area.steep / (spacing * spacing));
+  for (const Vec2& p : points_over(section.ground, release, spacing))
+    places.push_back({Vec3(p.x(), p.y(), NAN), spacing * spacing});
   if (s.min_slope_deg > 0)
-    section.tool.info(section.path + ": " + std::to_string(n_flat) + " of " +
-                      std::to_string(n_flat + places.size()) +
-                      " places in areas are flatter than " + text(s.min_slope_deg) + " deg");
+    section.tool.info(section.path + ": " + percent(area.steep / area.all) + " of the ground of " +
+                      (is_everywhere(s) ? "the terrain" : "its areas") + " is " +
+                      text(s.min_slope_deg) + " deg steep or more");
 }
 
 std::optional<ValueRaster> beside(const ValueRasterContext& of, const char* key,
@@ -160,8 +166,8 @@ std::vector<ReleasePlace> places_of(const RockfallSection& section) {
   add_cells(section, places);
   if (places.empty())
     section.refuse("no place releases rocks",
-                   "give position_m, release_file, polygon_file or rockdensity_raster, and a "
-                   "min_slope_deg that its ground reaches");
+                   "give position_m, release_file, polygon_file or rockdensity_raster; a "
+                   "min_slope_deg that the ground reaches, alone or of areas");
   check_number(section,
                static_cast<double>(places.size()) * static_cast<double>(section.settings.rocks));
   return places;
@@ -279,6 +285,7 @@ void add_section(const RockfallSection& section, BlockSet& set) {
     return deviation > 0 ? Vec3(deviation * Vec3(random.normal(), random.normal(), random.normal()))
                          : Vec3::Zero();
   };
+  int n_at_rim = 0;
   for (const ReleasePlace& place : places)
     for (std::int64_t rock = 0; rock < s.rocks; ++rock) {
       std::vector<Body> bodies = {rock_of(section, place, forms, random)};
@@ -291,13 +298,20 @@ void add_section(const RockfallSection& section, BlockSet& set) {
         else
           height = (std::isnan(height) ? 0 : height) + higher;
       }
-      put(section, random_rotation(random), position, height, bodies);
+      if (!put(section, random_rotation(random), position, height, bodies)) {
+        if (!is_everywhere(s)) refuse_place(section, position);
+        ++n_at_rim;
+        continue;
+      }
       add_bodies(section, vector_of(s.velocity_m_s) + scatter(s.velocity_scatter_m_s),
                  vector_of(s.spin_rad_s) + scatter(s.spin_scatter_rad_s),
                  weight_of(section, place, places.size()), std::move(bodies), set);
       // once a year is a frequency too
       if (has_frequency(s) && set.weight.empty()) set.weight.assign(set.volume.size(), 1);
     }
+  if (n_at_rim > 0)
+    section.tool.info(section.path + ": " + counted(n_at_rim, "rock") +
+                      " at the rim of the known ground left out");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ END
 expect 0 new wall dem.tif cliff.geojson "$source_dir/pipelines" "" yes
 prints "edit $work/wall/site.toml (rocks, soils)"
 expect 0 make -C wall BIN= blocks
-says 'are flatter than 40 deg'
+says 'of the ground of its areas is 40 deg steep or more'
 # a path below the wall, and how often: the goal computes ten runs of different rocks, maps, classes and the report
 cat >>wall/site.toml <<'END'
 [object.road]

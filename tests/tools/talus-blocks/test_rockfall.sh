@@ -8,7 +8,7 @@ area='polygon = [[500010, 5200010], [500030, 5200010], [500030, 5200030], [50001
 # The terrain dips about 40 degrees: all places of an area are steeper than 30, none than 60.
 rocks 'shape = "eota221"' 'volume_m3 = 0.5' "$area" 'release_spacing_m = 4' 'min_slope_deg = 30'
 expect 0 blocks --report r.json
-says ' 0 of '
+says '100 % of the ground of its areas is 30 deg steep or more'
 all=$(value r.json n_blocks)
 holds "$all > 30 && ($(value r.json volume_m3) - 0.5 * $all) ^ 2 < 1e-16"
 expect 1 blocks --overwrite --set rockfall.cliff.min_slope_deg=60

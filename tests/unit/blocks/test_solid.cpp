@@ -274,11 +274,19 @@ TEST(Placement, PointsOverAnAreaFollowTheSlopingArea) {
   const Trn ground =
       grid(41, 41, 1, [&](double x, double) { return x < 20 ? 0 : slope * (x - 20); });
   const Area whole{{{{0, 0}, {40, 0}, {40, 40}, {0, 40}}}};
-  const auto points = points_over(ground, whole, 1.5);
+  const auto points = points_over(ground, {whole}, 1.5);
   const auto n_steep =
       std::count_if(points.begin(), points.end(), [](const Vec2& p) { return p.x() > 20; });
   EXPECT_NEAR(static_cast<double>(points.size()), (800 + 800 * std::sqrt(2)) / 2.25, 1.5);
   EXPECT_NEAR(static_cast<double>(n_steep), 800 * std::sqrt(2) / 2.25, 20);
+  // of all ground, the steep part: the same points
+  const ReleaseArea steep{{}, 0.7};
+  std::vector<Vec2> expected;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(expected),
+               [](const Vec2& p) { return p.x() > 20; });
+  EXPECT_EQ(points_over(ground, steep, 1.5), expected);
+  EXPECT_NEAR(sloping_area(ground, steep).steep, 800 * std::sqrt(2), 1e-9);
+  EXPECT_NEAR(sloping_area(ground, steep).all, 800 + 800 * std::sqrt(2), 1e-9);
 }
 
 // Brute force: the lower side above the ground on a fine grid of points in plan.
