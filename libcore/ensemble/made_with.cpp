@@ -113,6 +113,26 @@ bool is_drawn(const EffectiveValue& value) {
   return value.source.starts_with("sample ") || value.source.starts_with("rock mass ");
 }
 
+bool draws_for_all(const MadeWith& settings) {
+  const auto is_set = [&settings](const std::string& name) {
+    return number_of(settings, name) != 0;
+  };
+  if (is_set("solver.friction_scatter_deg") || is_set("solver.cor_scatter") ||
+      is_set("solver.rolling_scatter"))
+    return true;
+  if (is_set("uncertainty.terrain_rmse_m") && sample_of(settings) != 0) return true;
+  const auto is_true = [&settings](const std::string& name) {
+    const auto at = settings.values.find(name);
+    return at != settings.values.end() && at->second.value == "true";
+  };
+  return std::any_of(settings.values.begin(), settings.values.end(), [&](const auto& entry) {
+    const EffectiveValue& value = entry.second;
+    return value.source.starts_with("sample ") ||
+           (value.key == "new_stand_per_run" && is_true(entry.first) &&
+            is_true(value.section + ".active"));
+  });
+}
+
 bool is_of_command_line(const EffectiveValue& value) { return value.source == "cli"; }
 
 std::vector<SettingDifference> differences(

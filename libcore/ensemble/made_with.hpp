@@ -24,6 +24,9 @@ struct MadeWith {
 
 /// Given by [uncertainty] to one sample or rock mass.
 [[nodiscard]] bool is_drawn(const EffectiveValue& value);
+/// Whether anything was drawn for a run as a whole, which all of its blocks share: by
+/// [uncertainty], by scatter between runs, a stand of trees.
+[[nodiscard]] bool draws_for_all(const MadeWith& settings);
 /// Given by an option, such as --set of a case.
 [[nodiscard]] bool is_of_command_line(const EffectiveValue& value);
 

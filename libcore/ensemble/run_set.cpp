@@ -68,19 +68,17 @@ std::string text_of(const PassageGrid& grid) {
          text(grid.corner.y());
 }
 
-template <class Field>
-auto sum_of(const std::vector<RunMember>& runs, Field field) {
-  auto total = runs.empty() ? decltype(runs[0].*field){} : runs[0].*field;
-  for (std::size_t i = 1; i < runs.size(); ++i) total += runs[i].*field;
-  return total;
-}
-
 }  // namespace
 
 RunMember member_of(const std::string& file, const RunFile& run) {
-  RunMember member{file, run.info, run.grid, n_blocks(run),  0, 0, 0, 0, 0,
-                   0,    0,        "",       run.run_weight, ""};
+  RunMember member;
+  member.file = file;
+  member.info = run.info;
+  member.grid = run.grid;
+  member.n_blocks = n_blocks(run);
+  member.run_weight = run.run_weight;
   member.settings = settings_digest(run.info);
+  member.draws_for_all = draws_for_all(made_with(run.info.config, ""));
   for (std::string* words : {&member.info.config, &member.info.made_with, &member.info.plan})
     std::string().swap(*words);
   for (int block = 0; block < member.n_blocks; ++block) member.weight += weight_of(run, block);
@@ -92,6 +90,13 @@ RunMember member_of(const std::string& file, const RunFile& run) {
     member.not_finite = row.not_finite;
   }
   return member;
+}
+
+void add_release_cells(RunMember& member, const RunFile& run, const Trn& trn) {
+  if (!run.info.independent) return;
+  member.block_weight = run.blocks.weight;
+  for (const Pose& rest : run.blocks.rest)
+    member.release_cell.push_back(triangle_at(trn, rest.position.x(), rest.position.y()) / 2);
 }
 
 std::vector<CaseWeight> cases_of(const std::vector<RunMember>& runs,
@@ -215,7 +220,7 @@ std::vector<int> numbered(const std::vector<std::string>& keys, std::size_t& n) 
 }
 
 // Equal for runs that are the same but for a seed that draws nothing.
-std::vector<std::string> sameness(const std::vector<RunMember>& runs) {
+std::vector<std::string> sameness(std::span<const RunMember> runs) {
   std::vector<std::string> keys;
   for (const RunMember& run : runs)
     keys.push_back(run.info.seed_draws ? "run " + std::to_string(keys.size()) : run.settings);
@@ -224,7 +229,7 @@ std::vector<std::string> sameness(const std::vector<RunMember>& runs) {
 
 }  // namespace
 
-std::vector<int> units_of(const std::vector<RunMember>& runs) {
+std::vector<int> units_of(std::span<const RunMember> runs) {
   std::size_t n = 0;
   std::vector<std::string> masses;
   for (const RunMember& run : runs)
@@ -314,47 +319,6 @@ std::vector<std::string> warnings_of(const std::vector<RunMember>& runs) {
     for (std::string line; std::getline(text, line);) lines.insert(line);
   }
   return {lines.begin(), lines.end()};
-}
-
-std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMember>& runs,
-                                                         const std::vector<RunMember>& left_out) {
-  const RunFaults faults = faults_of(runs, left_out);
-  double weight = 0, penetration = 0;
-  for (const int i : order_by_id(runs)) {
-    weight += runs[i].weight;
-    penetration = std::max(penetration, runs[i].largest_penetration);
-  }
-  const std::string n_runs = std::to_string(runs.size());
-  std::vector<std::pair<std::string, std::string>> tags = {
-      {"N_RUNS", n_runs},
-      {"N_FAILED", std::to_string(faults.failed.size() + faults.left_out.size())},
-      {"DENOMINATOR", "N = " + text(weight, 9) + ", the statistical weight of all " +
-                          std::to_string(sum_of(runs, &RunMember::n_blocks)) +
-                          " blocks released in " + n_runs + (runs.size() == 1 ? " run" : " runs")}};
-  if (!runs.empty()) {
-    tags.emplace_back("SITE", runs[0].info.site);
-    tags.emplace_back("VERSION", runs[0].info.version);
-  }
-  tags.emplace_back("N_MOVING_AT_END", std::to_string(sum_of(runs, &RunMember::n_moving)));
-  if (const std::vector<CaseWeight> cases = case_shares(runs); cases.size() > 1)
-    tags.emplace_back("CASES", text(cases));
-  if (!left_out.empty()) tags.emplace_back("N_LEFT_OUT", std::to_string(left_out.size()));
-  if (const int n = n_repeats(runs); n > 0) tags.emplace_back("N_REPEATS", std::to_string(n));
-  const std::string wrong = text(faults), left_out_words = left_out_text(faults);
-  const std::string health = wrong.empty() ? "all runs finished within their limits" : wrong;
-  tags.emplace_back("HEALTH",
-                    left_out_words.empty() ? health : left_out_words + "; of the rest: " + health);
-  tags.emplace_back("HEALTH_LARGEST_PENETRATION_M", text(penetration, 4));
-  tags.emplace_back("HEALTH_UNCONVERGED_STEPS",
-                    std::to_string(sum_of(runs, &RunMember::unconverged)));
-  tags.emplace_back("HEALTH_LEFT_DOMAIN", std::to_string(sum_of(runs, &RunMember::left_domain)));
-  tags.emplace_back("HEALTH_FELL_THROUGH", std::to_string(sum_of(runs, &RunMember::fell_through)));
-  tags.emplace_back("HEALTH_NOT_FINITE", std::to_string(sum_of(runs, &RunMember::not_finite)));
-  const std::vector<std::string> warnings = warnings_of(runs);
-  std::string words;
-  for (const std::string& line : warnings) words += (words.empty() ? "" : "; ") + line;
-  if (!words.empty()) tags.emplace_back("WARNINGS", words);
-  return tags;
 }
 
 }  // namespace talus

@@ -1,14 +1,16 @@
 // libcore/ensemble/run_set.hpp: public
 // Runs that are evaluated together: what must agree, in which order they stand, how sound they are.
 // in:    run files in any order
-// out:   their order by run id, the sum of their health, tags for every output
+// out:   their order by run id, their health and faults
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "record/run_file.hpp"
+#include "terrain/trn.hpp"
 
 namespace talus {
 
@@ -26,13 +28,19 @@ struct RunMember {
   std::int64_t left_domain = 0;                   ///< blocks
   std::int64_t fell_through = 0, not_finite = 0;  ///< steps
   std::string part;                               ///< file of the part that it stands in; "": none
-  double run_weight = 1;  ///< how much it counts among the others, 1 on average [-]
-  std::string settings;   ///< settings_digest()
+  double run_weight = 1;       ///< how much it counts among the others, 1 on average [-]
+  std::string settings;        ///< settings_digest()
+  bool draws_for_all = false;  ///< something was drawn for all blocks of the run (made_with.hpp)
+  // of blocks that moved alone, by add_release_cells()
+  std::vector<int> release_cell;     ///< of the terrain, by its number                 (n_blocks)
+  std::vector<double> block_weight;  ///< without that of the run; empty: 1 each        (n_blocks)
 };
 /// What messages name.
 [[nodiscard]] std::string where_of(const RunMember& run);
 /// Of a run read in any parts; health, blocks and weight as far as they were read.
 [[nodiscard]] RunMember member_of(const std::string& file, const RunFile& run);
+/// Adds the cells of the terrain that its blocks were released in, where each moved alone.
+void add_release_cells(RunMember& member, const RunFile& run, const Trn& trn);
 
 /// What a case counts among others.
 struct CaseWeight {
@@ -68,7 +76,7 @@ void check_member(const RunMember& run, const RunMember& first, const RunSetOpti
 /// Which runs count as one, for they move the same one of several rock masses, or have the same
 /// settings and a seed that draws nothing: a number from 0 for each run. Empty where each run
 /// counts for itself, as those of one mass alone do. (n_runs)
-[[nodiscard]] std::vector<int> units_of(const std::vector<RunMember>& runs);
+[[nodiscard]] std::vector<int> units_of(std::span<const RunMember> runs);
 
 /// The file's name without folder and ending; with the folder where two of the runs share it.
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<RunMember>& runs);
@@ -114,10 +122,5 @@ struct FailedShare {
 
 /// What the runs were warned of, each once, sorted.
 [[nodiscard]] std::vector<std::string> warnings_of(const std::vector<RunMember>& runs);
-
-/// Tags N_RUNS, N_FAILED, DENOMINATOR, VERSION, SITE, HEALTH, HEALTH_* and, where
-/// there are any, N_LEFT_OUT, N_REPEATS and WARNINGS; the same in whatever order the runs come.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> tags_of(
-    const std::vector<RunMember>& runs, const std::vector<RunMember>& left_out = {});
 
 }  // namespace talus

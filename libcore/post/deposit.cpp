@@ -206,14 +206,12 @@ void add(DepositSums& sums, const DepositSums& other) {
   for (const auto& [cell, value] : other.volume) sums.volume[cell] += value;
 }
 
-MapLayer deposit_layer(const DepositSums& sums, double cell_size, const Released& released) {
+MapLayer deposit_layer(const DepositSums& sums, double cell_size, const ShareBasis& basis) {
   MapLayer layer{"", {}, {}};
   for (const auto& [cell, volume] : sums.volume) layer.cell.push_back(cell);
   for (const auto& [cell, count] : sums.count)
     if (!sums.volume.contains(cell)) layer.cell.push_back(cell);
   std::sort(layer.cell.begin(), layer.cell.end());
-  double total = 0;
-  for (const double w : released.weight) total += w;
   const auto fill = [&](const std::string& name, const std::string& unit,
                         const std::string& description,
                         const std::map<std::uint32_t, double>& values, double divisor) {
@@ -226,16 +224,16 @@ MapLayer deposit_layer(const DepositSums& sums, double cell_size, const Released
     }
     layer.bands.push_back(std::move(band));
   };
-  const double n_runs = static_cast<double>(released.weight.size());
+  const double n = n_runs(basis.clusters);
   fill("n_deposit", "1", "number of blocks of all runs at rest with their centroid in the cell",
        sums.count, 1);
   fill("deposit_fraction", "1",
        "weight of the blocks at rest with their centroid in the cell / weight of all released "
        "blocks",
-       sums.weight, total);
+       sums.weight, basis.over.whole);
   fill("deposit_thickness", "m",
        "volume of the blocks at rest over the cell / cell area, mean over the runs", sums.volume,
-       cell_size * cell_size * n_runs);
+       cell_size * cell_size * n);
   return layer;
 }
 

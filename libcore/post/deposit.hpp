@@ -54,6 +54,6 @@ void add(DepositSums& sums, const DepositSums& other);
 
 /// n_deposit, deposit_fraction, deposit_thickness (mean over runs).
 [[nodiscard]] MapLayer deposit_layer(const DepositSums& sums, double cell_size,
-                                     const Released& released);
+                                     const ShareBasis& basis);
 
 }  // namespace talus

@@ -57,8 +57,8 @@ std::vector<std::uint8_t> cells_touched(const PassageGrid& grid, const PlaceRing
   return cells;
 }
 
-double weight_reaching(const Place& place, const RunFile& run,
-                       const std::vector<Passage>& passages) {
+void add_reaching(std::vector<BlockWeight>& blocks, const Place& place, const RunFile& run,
+                  int index, const std::vector<Passage>& passages) {
   std::vector<std::uint8_t> reaches(static_cast<std::size_t>(n_blocks(run)), 0);
   if (!place.cells.empty()) {
     for (const Passage& passage : passages)
@@ -68,42 +68,27 @@ double weight_reaching(const Place& place, const RunFile& run,
       if (!crossing.beside && is_of_line(run.lines[crossing.line].name, place.line))
         reaches[crossing.block] = 1;
   }
-  double weight = 0;
   for (int b = 0; b < n_blocks(run); ++b)
-    if (reaches[b] != 0) weight += weight_of(run, b);
-  return weight;
+    if (reaches[b] != 0) blocks.push_back({index, b, weight_of(run, b)});
 }
 
-PlaceReach place_reach(const Place& place, const Released& released,
-                       const std::vector<double>& weight) {
-  const ShareBasis basis = share_basis_of(released);
-  const int n_runs = static_cast<int>(weight.size());
-  std::vector<RunWeight> parts;
-  double reached = 0, total = 0, runs_hit = 0;
-  for (int run = 0; run < n_runs; ++run) {
-    total += released.weight[run];
-    if (weight[run] == 0) continue;
-    parts.push_back({run, weight[run]});
-    reached += weight[run];
-    runs_hit += basis.run_weight[run];
-  }
+PlaceReach place_reach(const Place& place, const ShareBasis& basis,
+                       const std::vector<BlockWeight>& blocks) {
   PlaceReach out;
-  out.share = total > 0 ? std::min(1.0, reached / total) : 0;
-  out.interval = parts.empty() ? interval_of_none_or_all(basis, false)
-                               : share_interval(basis, parts, out.share);
-  out.n_runs_hit = static_cast<int>(parts.size());
-  out.share_of_runs = std::min(1.0, runs_hit / basis.runs.whole);
-  out.interval_of_runs = run_share_interval(basis, parts);
-  out.half_width = (out.interval.high - out.interval.low) / 2;
-  out.lacks_masses = std::isnan(out.half_width) && !released.unit.empty();
-  if (out.lacks_masses) return out;
-  if (std::isnan(out.half_width)) {  // not before the intervals begin
-    out.runs_to_add = std::max(1, least_runs_to_resample - n_runs);
-    return out;
+  double reached = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    reached += blocks[i].weight;
+    out.n_runs_hit += i == 0 || blocks[i].run != blocks[i - 1].run;
   }
+  out.share = basis.over.whole > 0 ? std::min(1.0, reached / basis.over.whole) : 0;
+  out.interval = blocks.empty() ? interval_of_none_or_all(basis, false)
+                                : share_interval(basis, blocks, out.share);
+  out.share_of_runs = talus::share_of_runs(basis, blocks);
+  out.interval_of_runs = run_share_interval(basis, blocks);
+  out.half_width = (out.interval.high - out.interval.low) / 2;
   if (out.half_width <= place.half_width) return out;
-  out.runs_to_add = std::max(
-      1, runs_to_add(n_runs, trials_of(basis, parts, out.share), out.share, place.half_width));
+  out.to_add = runs_to_add(basis, blocks, out.share, place.half_width);
+  if (out.to_add.help) out.to_add.n = std::max(1, out.to_add.n);
   return out;
 }
 

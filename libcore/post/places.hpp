@@ -30,22 +30,22 @@ struct Place {
   std::string line;                 ///< its name, or that of its parts before the dot
 };
 
-/// Weight of the blocks of one run that reach the place. `passages`: all of that run.
-[[nodiscard]] double weight_reaching(const Place& place, const RunFile& run,
-                                     const std::vector<Passage>& passages);
+/// Adds the blocks of one run that reach the place; `index`: its place among the runs. `passages`:
+/// all of that run.
+void add_reaching(std::vector<BlockWeight>& blocks, const Place& place, const RunFile& run,
+                  int index, const std::vector<Passage>& passages);
 
 struct PlaceReach {
   double share = 0;          ///< of the weight of all released blocks
-  Interval interval;         ///< 95 %; NaN where there are too few runs
+  Interval interval;         ///< 95 %; NaN where there are too few clusters
   int n_runs_hit = 0;        ///< in which any block reaches it
   double share_of_runs = 0;  ///< of all, each with its weight
   Interval interval_of_runs;
-  double half_width = 0;      ///< of `interval`
-  int runs_to_add = 0;        ///< until it is as narrow as wanted
-  bool lacks_masses = false;  ///< too few rock masses for an interval, however many runs
+  double half_width = 0;  ///< of `interval`
+  RunsToAdd to_add;       ///< until it is as narrow as wanted
 };
-/// `weight`: weight_reaching() of each run.                                           (n_runs)
-[[nodiscard]] PlaceReach place_reach(const Place& place, const Released& released,
-                                     const std::vector<double>& weight);
+/// `blocks`: of add_reaching(), run by run.
+[[nodiscard]] PlaceReach place_reach(const Place& place, const ShareBasis& basis,
+                                     const std::vector<BlockWeight>& blocks);
 
 }  // namespace talus

@@ -11,33 +11,25 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double rounding = 1e-24;  // of squares of weights: what is smaller is no variance
-constexpr double whole_run = 1 - 1e-12;
+constexpr double whole_cluster = 1 - 1e-12;
 
-// A share of blocks is at most that of the runs with any, and at least that of the runs with all.
-Interval within_runs(const Interval& interval, const ShareBasis& basis,
-                     std::span<const RunShare> some) {
+// A share of blocks is at most that of the clusters with any, and at least that of the clusters
+// with all.
+Interval within_clusters(const Interval& interval, const ShareOver& over,
+                         std::span<const ClusterShare> some) {
   double any = 0, all = 0;
-  for (const RunShare& run : some) {
-    any += run.whole;
-    if (run.part >= run.whole * whole_run) all += run.whole;
+  for (const ClusterShare& cluster : some) {
+    any += cluster.whole;
+    if (cluster.part >= cluster.whole * whole_cluster) all += cluster.whole;
   }
-  const auto of_runs = [&](double weight) {
-    return wilson_interval(std::min(1.0, weight / basis.over.whole), basis.n_eff);
+  const double n_eff = effective_size(over.whole, over.squares);
+  const auto of_clusters = [&](double weight) {
+    return wilson_interval(std::min(1.0, weight / over.whole), n_eff);
   };
   Interval out = interval;
-  if (static_cast<int>(some.size()) < basis.over.n_runs)
-    out.high = std::min(out.high, of_runs(any).high);
-  if (all > 0) out.low = std::max(out.low, of_runs(all).low);
+  if (static_cast<int>(some.size()) < over.n) out.high = std::min(out.high, of_clusters(any).high);
+  if (all > 0) out.low = std::max(out.low, of_clusters(all).low);
   return out;
-}
-
-// Sums over the units; the same where each run is its own.
-std::vector<double> by_unit(std::span<const double> of_run, const std::vector<int>& unit) {
-  if (unit.empty()) return {of_run.begin(), of_run.end()};
-  std::vector<double> sums(static_cast<std::size_t>(*std::max_element(unit.begin(), unit.end())) +
-                           1);
-  for (std::size_t run = 0; run < unit.size(); ++run) sums[unit[run]] += of_run[run];
-  return sums;
 }
 
 ShareOver over_of(const std::vector<double>& weights) {
@@ -49,41 +41,94 @@ ShareOver over_of(const std::vector<double>& weights) {
   return over;
 }
 
-// The runs with any part.
-std::vector<RunShare> shares_of(const ShareBasis& basis, std::span<const RunWeight> parts) {
-  std::vector<RunShare> some;
-  if (!basis.unit.empty()) {
-    std::vector<double> of_unit(basis.released.size(), 0);
-    for (const RunWeight& part : parts) of_unit[basis.unit[part.run]] += part.weight;
-    for (std::size_t u = 0; u < of_unit.size(); ++u)
-      if (of_unit[u] > 0) some.push_back({of_unit[u], basis.released[u]});
-    return some;
+double effective_number(const ShareOver& over) { return effective_size(over.whole, over.squares); }
+
+Interval interval_over(const ShareOver& over, std::span<const ClusterShare> some, double share) {
+  return within_clusters(sample_interval(share_sample(over, some, share), share), over, some);
+}
+
+template <class Take>
+void for_each_run(std::span<const BlockWeight> blocks, const Take& take) {
+  int last = -1;
+  for (const BlockWeight& block : blocks) {
+    if (block.run != last) take(block.run);
+    last = block.run;
   }
-  some.reserve(parts.size());
-  for (const RunWeight& part : parts)
-    if (part.weight > 0) some.push_back({part.weight, basis.released[part.run]});
+}
+
+// The clusters with any part.
+struct NumberedShare {
+  int cluster = 0;
+  ClusterShare share;
+};
+std::vector<NumberedShare> numbered_shares(const Clusters& clusters,
+                                           std::span<const BlockWeight> blocks) {
+  std::vector<ClusterWeight> parts;
+  parts.reserve(blocks.size());
+  for (const BlockWeight& block : blocks)
+    if (block.weight > 0)
+      parts.push_back({cluster_of(clusters, block.run, block.block), block.weight});
+  const auto before = [](const ClusterWeight& a, const ClusterWeight& b) {
+    return a.cluster < b.cluster;
+  };
+  if (!std::is_sorted(parts.begin(), parts.end(), before))
+    std::stable_sort(parts.begin(), parts.end(), before);
+  std::vector<NumberedShare> out;
+  for (const ClusterWeight& part : parts) {
+    if (out.empty() || out.back().cluster != part.cluster)
+      out.push_back({part.cluster, {0, clusters.weight[part.cluster]}});
+    out.back().share.part += part.weight;
+  }
+  return out;
+}
+
+std::vector<ClusterShare> shares_of(const Clusters& clusters, std::span<const BlockWeight> blocks) {
+  std::vector<ClusterShare> some;
+  for (const NumberedShare& one : numbered_shares(clusters, blocks)) some.push_back(one.share);
   return some;
+}
+
+// How many trials a share is worth (share_sample).
+double trials_of(const ShareBasis& basis, std::span<const BlockWeight> blocks, double share) {
+  if (basis.single_blocks) return effective_number(basis.over);
+  return share_sample(basis.over, shares_of(basis.clusters, blocks), share).n_trials;
+}
+
+// Variance of a share that is within clusters: between blocks of one. What differs between clusters
+// of one block may all be such.
+double variance_within(const ShareBasis& basis, std::span<const BlockWeight> blocks, double share) {
+  double sum = 0;
+  std::vector<bool> has_any(static_cast<std::size_t>(basis.over.n), false);
+  const auto square = [](double x) { return x * x; };
+  for (const NumberedShare& one : numbered_shares(basis.clusters, blocks)) {
+    has_any[one.cluster] = true;
+    const auto [part, whole] = one.share;
+    const int n = basis.clusters.n_blocks[one.cluster];
+    sum += n < 2 ? square(part - share * whole) : part * std::max(0.0, whole - part) / (n - 1);
+  }
+  for (int c = 0; c < basis.over.n; ++c)
+    if (!has_any[c] && basis.clusters.n_blocks[c] < 2)
+      sum += square(share * basis.clusters.weight[c]);
+  return sum / square(basis.over.whole);
 }
 
 }  // namespace
 
-ShareSample share_sample(const ShareOver& over, std::span<const RunShare> some, double share) {
-  const double n = over.n_runs;
+ShareSample share_sample(const ShareOver& over, std::span<const ClusterShare> some, double share) {
+  const double n = over.n;
   double squares = 0, squares_of_some = 0;
   int n_all = 0;
-  for (const RunShare& run : some) {
-    const double off = run.part - share * run.whole;
+  for (const ClusterShare& cluster : some) {
+    const double off = cluster.part - share * cluster.whole;
     squares += off * off;
-    squares_of_some += run.whole * run.whole;
-    n_all += run.part >= run.whole * whole_run;
+    squares_of_some += cluster.whole * cluster.whole;
+    n_all += cluster.part >= cluster.whole * whole_cluster;
   }
   const int n_some = static_cast<int>(some.size());
-  if (n_some < over.n_runs)
-    squares += share * share * std::max(0.0, over.squares - squares_of_some);
-  if (over.n_runs < 2 || squares <= rounding * over.squares)
-    return {effective_size(over.whole, over.squares), 0};
+  if (n_some < over.n) squares += share * share * std::max(0.0, over.squares - squares_of_some);
+  if (over.n < 2 || squares <= rounding * over.squares) return {effective_number(over), 0};
   const double variance = n / (n - 1) * squares / (over.whole * over.whole);
-  return {share * (1 - share) / variance, std::max(1, std::min(n_some, over.n_runs - n_all))};
+  return {share * (1 - share) / variance, std::max(1, std::min(n_some, over.n - n_all))};
 }
 
 Interval sample_interval(const ShareSample& sample, double share, double p) {
@@ -93,59 +138,59 @@ Interval sample_interval(const ShareSample& sample, double share, double p) {
   return wilson_interval(share, n, z);
 }
 
-ShareBasis share_basis(std::span<const double> released, bool single_blocks, double failed_share,
-                       const std::vector<int>& unit) {
+ShareBasis share_basis(Clusters clusters, double failed_share) {
   ShareBasis basis;
-  basis.unit = unit;
-  basis.released = by_unit(released, unit);
-  basis.single_blocks = single_blocks && unit.empty();
-  basis.over = over_of(basis.released);
-  basis.bounded = basis.single_blocks || basis.over.n_runs >= least_runs_to_resample;
-  basis.n_eff = effective_size(basis.over.whole, basis.over.squares);
+  basis.single_blocks =
+      std::all_of(clusters.n_blocks.begin(), clusters.n_blocks.end(), [](int n) { return n <= 1; });
+  basis.over = over_of(clusters.weight);
+  basis.bounded = basis.single_blocks || basis.over.n >= least_clusters;
   basis.failed_share = failed_share;
-  weigh_runs_of(basis, std::vector<double>(released.size(), 1.0));
+  for (std::size_t run = 0; run < clusters.of_run.size(); ++run) {
+    const auto at = static_cast<std::size_t>(clusters.of_run[run]);
+    if (at >= basis.run_weight.size()) basis.run_weight.resize(at + 1);
+    basis.run_weight[at] += clusters.run_weight[run];
+  }
+  basis.runs = over_of(basis.run_weight);
+  basis.clusters = std::move(clusters);
   return basis;
 }
 
-void weigh_runs_of(ShareBasis& basis, std::span<const double> run_weight) {
-  basis.run_weight.assign(run_weight.begin(), run_weight.end());
-  basis.runs = over_of(by_unit(run_weight, basis.unit));
-}
-
-Interval share_interval(const ShareBasis& basis, std::span<const RunWeight> parts, double share) {
+Interval share_interval(const ShareBasis& basis, std::span<const BlockWeight> blocks,
+                        double share) {
   if (!basis.bounded) return {none, none};
   if (basis.single_blocks)
-    return with_failed(wilson_interval(share, basis.n_eff), basis.failed_share);
-  const std::vector<RunShare> some = shares_of(basis, parts);
-  const Interval interval = sample_interval(share_sample(basis.over, some, share), share);
-  return with_failed(within_runs(interval, basis, some), basis.failed_share);
-}
-
-double trials_of(const ShareBasis& basis, std::span<const RunWeight> parts, double share) {
-  if (!basis.bounded) return none;
-  if (basis.single_blocks) return basis.n_eff;
-  return share_sample(basis.over, shares_of(basis, parts), share).n_trials;
+    return with_failed(wilson_interval(share, effective_number(basis.over)), basis.failed_share);
+  return with_failed(interval_over(basis.over, shares_of(basis.clusters, blocks), share),
+                     basis.failed_share);
 }
 
 Interval interval_of_none_or_all(const ShareBasis& basis, bool all) {
   if (!basis.bounded) return {none, none};
-  return with_failed(wilson_interval(all ? 1 : 0, basis.n_eff), basis.failed_share);
-}
-
-Interval run_share_interval(const ShareBasis& basis, double share) {
-  return with_failed(wilson_interval(share, effective_size(basis.runs.whole, basis.runs.squares)),
+  return with_failed(wilson_interval(all ? 1 : 0, effective_number(basis.over)),
                      basis.failed_share);
 }
 
-Interval run_share_interval(const ShareBasis& basis, std::span<const RunWeight> hit) {
+double share_of_runs(const ShareBasis& basis, std::span<const BlockWeight> blocks) {
   double weight = 0;
-  for (const RunWeight& run : hit) weight += basis.run_weight[run.run];
-  const double share = std::min(1.0, weight / basis.runs.whole);
-  if (basis.unit.empty()) return run_share_interval(basis, share);
-  std::vector<RunWeight> parts;
-  for (const RunWeight& run : hit) parts.push_back({run.run, basis.run_weight[run.run]});
-  return share_interval(share_basis(basis.run_weight, false, basis.failed_share, basis.unit), parts,
-                        share);
+  for_each_run(blocks, [&](int run) { weight += basis.clusters.run_weight[run]; });
+  return std::min(1.0, weight / basis.runs.whole);
+}
+
+Interval run_share_interval(const ShareBasis& basis, double share) {
+  return with_failed(wilson_interval(share, effective_number(basis.runs)), basis.failed_share);
+}
+
+Interval run_share_interval(const ShareBasis& basis, std::span<const BlockWeight> blocks) {
+  const double share = share_of_runs(basis, blocks);
+  if (basis.runs.n == n_runs(basis.clusters)) return run_share_interval(basis, share);
+  if (basis.runs.n < least_clusters) return {none, none};
+  std::vector<double> hit(basis.run_weight.size(), 0);
+  for_each_run(blocks,
+               [&](int run) { hit[basis.clusters.of_run[run]] += basis.clusters.run_weight[run]; });
+  std::vector<ClusterShare> some;
+  for (std::size_t u = 0; u < hit.size(); ++u)
+    if (hit[u] > 0) some.push_back({hit[u], basis.run_weight[u]});
+  return with_failed(interval_over(basis.runs, some, share), basis.failed_share);
 }
 
 Interval with_failed(const Interval& interval, double failed_share) {
@@ -166,10 +211,22 @@ double trials_for(double share, double half) {
   return high;
 }
 
-int runs_to_add(int n_runs, double n_trials, double share, double half) {
-  const double trials = std::ceil(trials_for(share, half) * (1 - 1e-12));
-  const double wanted = std::ceil(n_runs * trials / n_trials * (1 - 1e-12));
-  return static_cast<int>(std::clamp(wanted - n_runs, 0.0, 1e9));
+RunsToAdd runs_to_add(const ShareBasis& basis, std::span<const BlockWeight> blocks, double share,
+                      double half) {
+  const int n = n_runs(basis.clusters);
+  if (!basis.bounded)
+    return basis.runs.n < n ? RunsToAdd{0, false} : RunsToAdd{std::max(1, least_clusters - n)};
+  const double wanted = std::ceil(trials_for(share, half) * (1 - 1e-12));
+  const double trials = trials_of(basis, blocks, share);
+  double factor = wanted / trials;
+  if (basis.clusters.kind == Clusters::Kind::release_cell && factor > 1) {
+    const double binomial = share * (1 - share), variance = binomial / trials;
+    const double within = std::min(variance, variance_within(basis, blocks, share));
+    const double left = binomial / wanted - (variance - within);  // for what is within
+    if (!(left > 0)) return {0, false};
+    factor = within / left;
+  }
+  return {static_cast<int>(std::clamp(std::ceil(n * factor * (1 - 1e-12)) - n, 0.0, 1e9)), true};
 }
 
 }  // namespace talus

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "base/error.hpp"
@@ -61,9 +62,9 @@ constexpr int lanes = 16;
 
 // sum[b] += weight * count[b] for all resamples.
 template <class T>
-void add_to_resamples(T* sum, const RunResamples& resamples, int run, T weight) {
+void add_to_resamples(T* sum, const ClusterResamples& resamples, int cluster, T weight) {
   const std::uint16_t* count =
-      resamples.count.data() + static_cast<std::size_t>(run) * resamples.stride;
+      resamples.count.data() + static_cast<std::size_t>(cluster) * resamples.stride;
   for (int b = 0; b < resamples.stride; b += lanes, sum += lanes, count += lanes)
     for (int k = 0; k < lanes; ++k) sum[k] += weight * static_cast<T>(count[k]);
 }
@@ -81,13 +82,16 @@ int count_above(const std::vector<T>& sum, const std::vector<T>& limit) {
 // The p-percentile of a resample is the first value, from the largest down, that with those above
 // it holds more than the share 1 - p of the weight.
 template <class T>
-std::vector<int> places_of(std::span<const RunWeight> descending, const RunResamples& resamples,
-                           std::span<const double> levels, double confidence, double unit) {
+std::vector<int> places_of(std::span<const ClusterWeight> descending,
+                           const ClusterResamples& resamples, std::span<const double> levels,
+                           double confidence, double unit) {
   const auto n = static_cast<std::size_t>(resamples.stride);
-  std::vector<T> of_run(static_cast<std::size_t>(resamples.n_runs), T{}), total(n, T{});
-  for (const RunWeight& item : descending) of_run[item.run] += static_cast<T>(item.weight / unit);
-  for (int run = 0; run < resamples.n_runs; ++run)
-    if (of_run[run] > 0) add_to_resamples(total.data(), resamples, run, of_run[run]);
+  std::vector<T> total(n, T{});
+  std::map<int, T> of_cluster;
+  for (const ClusterWeight& item : descending)
+    of_cluster[item.cluster] += static_cast<T>(item.weight / unit);
+  for (const auto& [cluster, weight] : of_cluster)
+    if (weight > 0) add_to_resamples(total.data(), resamples, cluster, weight);
   const auto n_valid = static_cast<std::size_t>(
       std::count_if(total.begin(), total.end(), [](T t) { return t > 0; }));
   std::vector<int> places(levels.size(), -1);
@@ -102,7 +106,7 @@ std::vector<int> places_of(std::span<const RunWeight> descending, const RunResam
   };
   set_limits();
   for (std::size_t i = 0; i < descending.size(); ++i) {
-    add_to_resamples(above.data(), resamples, descending[i].run,
+    add_to_resamples(above.data(), resamples, descending[i].cluster,
                      static_cast<T>(descending[i].weight / unit));
     while (count_above(above, limit) >= needed) {
       places[level] = static_cast<int>(i);
@@ -167,19 +171,20 @@ double student_quantile(int degrees, double p) {
   return z * (1 + (a + (b + (c + d / n) / n) / n) / n);
 }
 
-RunResamples resample_runs(int n_runs, int n_resamples, std::uint64_t seed) {
-  TALUS_ASSERT(n_runs > 0 && n_resamples > 0);
-  RunResamples resamples{n_runs, n_resamples, (n_resamples + lanes - 1) / lanes * lanes, {}};
-  resamples.count.assign(static_cast<std::size_t>(n_runs) * resamples.stride, 0);
+ClusterResamples resample_clusters(int n_clusters, int n_resamples, std::uint64_t seed) {
+  TALUS_ASSERT(n_clusters > 0 && n_resamples > 0);
+  ClusterResamples resamples{
+      n_clusters, n_resamples, (n_resamples + lanes - 1) / lanes * lanes, {}};
+  resamples.count.assign(static_cast<std::size_t>(n_clusters) * resamples.stride, 0);
   Random random(seed, "bootstrap over runs");
   for (int b = 0; b < n_resamples; ++b)
-    for (int draw = 0; draw < n_runs; ++draw)
-      ++resamples.count[random.below(n_runs) * resamples.stride + b];
+    for (int draw = 0; draw < n_clusters; ++draw)
+      ++resamples.count[random.below(n_clusters) * resamples.stride + b];
   return resamples;
 }
 
-std::vector<int> bootstrap_upper_places(std::span<const RunWeight> descending,
-                                        const RunResamples& resamples,
+std::vector<int> bootstrap_upper_places(std::span<const ClusterWeight> descending,
+                                        const ClusterResamples& resamples,
                                         std::span<const double> levels, double confidence) {
   TALUS_ASSERT(std::is_sorted(levels.rbegin(), levels.rend()));
   if (descending.empty() || levels.empty()) return std::vector<int>(levels.size(), -1);

@@ -1,6 +1,6 @@
 // libcore/post/statistics.hpp: public
 // What a sample of blocks or runs says about a quantity, and how sure it is.
-// in:    values with weights; counts; the run that each value came from
+// in:    values with weights; counts; the cluster that each value came from (ensemble/clusters.hpp)
 // out:   percentiles, confidence bounds, effective sample size
 // Every result depends on the values alone, not on their order in the input.
 #pragma once
@@ -24,9 +24,6 @@ inline constexpr std::array<PercentileLevel, 4> percentile_levels = {
     {{0.5, "p50"}, {0.9, "p90"}, {0.95, "p95"}, {0.99, "p99"}}};
 inline constexpr std::size_t place_of_p95 = 2;  ///< in percentile_levels
 static_assert(percentile_levels[place_of_p95].p == 0.95);
-
-/// Fewer runs give no bound by the bootstrap over runs.
-inline constexpr int least_runs_to_resample = 10;
 
 /// Kish's effective sample size (sum w)^2 / sum w^2; 0 for no weight.
 [[nodiscard]] double effective_size(double sum_of_weights, double sum_of_squared_weights);
@@ -58,32 +55,33 @@ struct RankInterval {
 /// probability p, 0.5 to 0.999; to 1e-9.
 [[nodiscard]] double student_quantile(int degrees, double p);
 
-/// How often each run stands in each resample of all runs, drawn with replacement: the bootstrap
-/// over runs, which keeps together the blocks of one run because they are not independent.
-struct RunResamples {
-  int n_runs = 0, n_resamples = 0;
+/// How often each cluster stands in each resample of all clusters, drawn with replacement: the
+/// bootstrap over clusters, which keeps together blocks that are not independent.
+struct ClusterResamples {
+  int n_clusters = 0, n_resamples = 0;
   int stride = 0;                    ///< n_resamples, rounded up to whole vectors of processors
-  std::vector<std::uint16_t> count;  ///< at [run * stride + resample]; 0 in the padding
+  std::vector<std::uint16_t> count;  ///< at [cluster * stride + resample]; 0 in the padding
 
-  [[nodiscard]] std::span<const std::uint16_t> of_run(int run) const {
-    return std::span(count).subspan(static_cast<std::size_t>(run) * stride, n_resamples);
+  [[nodiscard]] std::span<const std::uint16_t> of_cluster(int cluster) const {
+    return std::span(count).subspan(static_cast<std::size_t>(cluster) * stride, n_resamples);
   }
 };
-[[nodiscard]] RunResamples resample_runs(int n_runs, int n_resamples, std::uint64_t seed);
+[[nodiscard]] ClusterResamples resample_clusters(int n_clusters, int n_resamples,
+                                                 std::uint64_t seed);
 
-/// What one run adds to a sum, or the weight and run of one value.
-struct RunWeight {
-  int run = 0;
+/// The weight and cluster of one value.
+struct ClusterWeight {
+  int cluster = 0;
   double weight = 0;
 };
 
-/// Where in a list of values the upper bounds of its percentiles stand, by the bootstrap over runs:
-/// each bound is the `confidence`-percentile of the percentiles of all resamples that hold any
-/// weight. `descending`: run and weight (>= 0) of each value, the largest value first. `levels`:
-/// the percentiles wanted, the largest first. All are found in one pass from the largest value down
-/// to the lowest bound. -1: no resample holds any weight                            (n_levels)
-[[nodiscard]] std::vector<int> bootstrap_upper_places(std::span<const RunWeight> descending,
-                                                      const RunResamples& resamples,
+/// Where in a list of values the upper bounds of its percentiles stand, by the bootstrap over
+/// clusters: each bound is the `confidence`-percentile of the percentiles of all resamples that
+/// hold any weight. `descending`: cluster and weight (>= 0) of each value, the largest value first.
+/// `levels`: the percentiles wanted, the largest first. All are found in one pass from the largest
+/// value down to the lowest bound. -1: no resample holds any weight (n_levels)
+[[nodiscard]] std::vector<int> bootstrap_upper_places(std::span<const ClusterWeight> descending,
+                                                      const ClusterResamples& resamples,
                                                       std::span<const double> levels,
                                                       double confidence = 0.95);
 

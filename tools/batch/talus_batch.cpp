@@ -306,8 +306,13 @@ void reduce(Tool& tool, const BatchPlan& plan) {
   run_through(tool, words);
 }
 
-// How many runs more [place.*] want, told by those that are there; 0: none.
-int runs_that_lack(const BatchPlan& plan) {
+// What [place.*] want, told by the runs that are there.
+struct RunsThatLack {
+  int n = 0;
+  bool help = true;  // else no number of runs makes the intervals narrow enough
+  std::string over;  // what intervals are made over
+};
+RunsThatLack runs_that_lack(const BatchPlan& plan) {
   Ensemble now = plan.ensemble;
   now.folder = (fs::path(plan.folder) / ".auto").string();
   now.parts.clear();
@@ -320,12 +325,12 @@ int runs_that_lack(const BatchPlan& plan) {
     words.push_back(word);
   const Json places = output_of(words);
   fs::remove_all(now.folder);
-  const int lacking = places.at("runs_to_add").get<int>();
   for (const Json& place : places.at("places"))
-    if (lacking == 0 && place.at("half_width").is_null())
+    if (place.at("half_width").is_null() && !place.at("more_runs_help").get<bool>())
       throw InputError({plan.site_file}, "--runs auto: more runs give no interval",
                        "raise rock_masses to 10 or more");
-  return lacking;
+  return {places.at("runs_to_add").get<int>(), places.at("more_runs_help").get<bool>(),
+          places.at("intervals_over").get<std::string>()};
 }
 
 // Members of the part.
@@ -411,12 +416,15 @@ void make_as_many_as_needed(Tool& tool, BatchPlan& plan, int n_jobs, int most) {
   for (int n = std::min(50, most);; n = std::min(2 * n, most)) {
     set_runs(plan, n);
     make_part_or_all(tool, plan, n_jobs);
-    const int lacking = runs_that_lack(plan);
-    if (lacking == 0) return tool.info("--runs auto: " + counted(n, "run") + " do");
+    const RunsThatLack lacking = runs_that_lack(plan);
+    const std::string words = "--runs auto: " + counted(n, "run") + " do",
+                      over = ", intervals over " + lacking.over;
+    if (lacking.n == 0 && lacking.help) return tool.info(words + over);
+    if (lacking.n == 0) return tool.warn(words + " not do" + over + ", and more runs do not help");
     if (n < most) continue;
-    return tool.info("--runs auto: " + counted(n, "run") + " do not do, " +
-                     std::to_string(lacking) + " more would be needed: --most " +
-                     std::to_string(n + lacking) + " allows them");
+    return tool.info(words + " not do" + over + ", " + std::to_string(lacking.n) +
+                     " more would be needed: --most " + std::to_string(n + lacking.n) +
+                     " allows them");
   }
 }
 

@@ -98,13 +98,9 @@ std::vector<double> touches_of(const RunFile& run, int object) {
 void add_run(SearchCase& of, const RunFile& run, int index, const std::string& file) {
   const std::vector<double> touched = touches_of(run, object_in(run, of.object, file));
   SearchRuns& runs = of.runs;
-  runs.weight.push_back(0);
-  runs.n_hits.push_back(0);
-  for (int b = 0; b < n_blocks(run); ++b) {
-    if (!std::isfinite(touched[b])) continue;
-    runs.weight.back() += weight_of(run, b);
-    ++runs.n_hits.back();
-  }
+  for (int b = 0; b < n_blocks(run); ++b)
+    if (std::isfinite(touched[b]))
+      runs.on_object.push_back({{index, b, weight_of(run, b)}, runs.n_blocks + b});
   for (SearchLine& line : of.lines) {
     const int at = candidate_of(run, line, file, of.settings->name);
     Fence fence = line.fence;
@@ -141,7 +137,7 @@ std::vector<double> class_factors(const std::vector<HazardRuns>& classes,
   return often;
 }
 
-void weigh_classes(RunInputs& runs, std::vector<HazardRuns>& classes, std::vector<double>& released,
+void weigh_classes(RunInputs& runs, std::vector<HazardRuns>& classes,
                    std::vector<SearchCase>& cases) {
   std::vector<int> n;
   for (const HazardRuns& of : classes) n.push_back(of.n);
@@ -151,16 +147,16 @@ void weigh_classes(RunInputs& runs, std::vector<HazardRuns>& classes, std::vecto
     factor.insert(factor.end(), static_cast<std::size_t>(n[c]), factors[c]);
   for (std::size_t c = 0; c < classes.size(); ++c) {  // shares of what is weighed below
     ShareBasis& basis = classes[c].basis;
-    for (double& weight : basis.released) weight *= factors[c];
+    for (double& weight : basis.clusters.weight) weight *= factors[c];
     basis.over.whole *= factors[c];
     basis.over.squares *= factors[c] * factors[c];
   }
   for (std::size_t r = 0; r < factor.size(); ++r) {
     runs.members[r].run_weight *= factor[r];
     runs.members[r].weight *= factor[r];
-    released[r] *= factor[r];
-    for (SearchCase& search : cases) search.runs.weight[r] *= factor[r];
   }
+  for (SearchCase& search : cases)
+    for (BlockOnObject& block : search.runs.on_object) block.of.weight *= factor[block.of.run];
   for (SearchCase& search : cases)
     for (SearchLine& line : search.lines)
       for (SearchHit& hit : line.hits)
@@ -268,10 +264,8 @@ void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
                       std::vector<SearchCase>& cases) {
   const std::vector<HazardClass> classes = hazard_classes(site);
   Rock rock;
-  std::vector<double> released;
   std::vector<HazardRuns> rates;
   std::set<std::string> standing;
-  bool single = true;
   for (const RunSet& set : runs.of_classes(classes)) {
     const HazardClass kind = class_at(classes, rates.size());
     const int first = static_cast<int>(runs.members.size());
@@ -286,20 +280,14 @@ void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
       }
       for (const RecordLine& line : run.lines)
         if (line.standing) standing.insert(line.name);
-      released.push_back(member.weight);
-      single = single && member.n_blocks <= 1;
     });
     rates.push_back(hazard_runs(kind, runs.members, first, runs.last_failed_share()));
   }
   warn_of_standing(tool, standing);
-  if (!classes.empty()) weigh_classes(runs, rates, released, cases);
-  const std::vector<int> units = units_of(runs.members);
-  std::vector<double> run_weight;
-  for (const RunMember& member : runs.members) run_weight.push_back(member.run_weight);
+  if (!classes.empty()) weigh_classes(runs, rates, cases);
+  const ShareBasis basis = share_basis(clusters_of(runs.members), runs.failed_share());
   for (SearchCase& search : cases) {
-    search.runs.unit = units;
-    search.runs.basis = share_basis(released, single, runs.failed_share(), units);
-    weigh_runs_of(search.runs.basis, run_weight);
+    search.runs.basis = basis;
     search.runs.density = rock.mass / rock.volume;
     search.runs.mean_block_size = rock.sizes / static_cast<double>(rock.n);
     if (!classes.empty()) search.classes = rates;
@@ -318,7 +306,6 @@ VerifiedFence read_verified(RunInputs& runs, const std::string& name,
   }
   const std::size_t before = runs.members.size();
   std::vector<double> hits;  // on the object, by run
-  bool single = true;
   const auto take = [&](RunFile& run, int index) {
     const RunMember& member = runs.members[static_cast<std::size_t>(index)];
     const std::string file = where_of(member);
@@ -341,29 +328,23 @@ VerifiedFence read_verified(RunInputs& runs, const std::string& name,
     hits.push_back(0);
     for (int block = 0; block < n_blocks(run); ++block)
       if (std::isfinite(touched[block])) hits.back() += weight_of(run, block);
-    single = single && member.n_blocks <= 1;
   };
   runs.read(runs.set_of(paths, "verified." + name), "verified." + name, wanted, take,
             RunSettings::with_other_fences);
-  const std::vector<RunMember> members(runs.members.begin() + static_cast<std::ptrdiff_t>(before),
-                                       runs.members.end());
+  std::vector<RunMember> members(runs.members.begin() + static_cast<std::ptrdiff_t>(before),
+                                 runs.members.end());
   const std::vector<double> factor = verified_factors(members, search.classes);
   VerifiedFence out;
   out.n_runs = static_cast<int>(members.size());
-  std::vector<RunWeight> hit;
-  std::vector<double> released, weights;
-  double weight = 0;
+  std::vector<BlockWeight> hit;  // a block of each run that has any
   for (int r = 0; r < out.n_runs; ++r) {
-    released.push_back(factor[r] * members[r].weight);
-    weights.push_back(factor[r] * members[r].run_weight);
+    members[r].weight *= factor[r];
+    members[r].run_weight *= factor[r];
     out.hits_a_run += factor[r] * hits[r] / out.n_runs;
-    if (!(hits[r] > 0)) continue;
-    hit.push_back({r, weights.back()});
-    weight += weights.back();
+    if (hits[r] > 0) hit.push_back({r, 0, hits[r]});
   }
-  ShareBasis basis = share_basis(released, single, runs.last_failed_share(), units_of(members));
-  weigh_runs_of(basis, weights);
-  out.residual = std::min(1.0, weight / out.n_runs);
+  const ShareBasis basis = share_basis(clusters_of(members), runs.last_failed_share());
+  out.residual = share_of_runs(basis, hit);
   out.interval = run_share_interval(basis, hit);
   return out;
 }

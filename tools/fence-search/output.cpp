@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
@@ -21,25 +22,24 @@ std::string bounded(double share, const Interval& interval) {
 
 // Events a year with a block on the object, in these runs by the weight of such blocks; NaN where
 // no frequencies are known.
-Rate rate_of_runs(const SearchCase& search, const std::vector<RunWeight>& hit) {
+Rate rate_of_runs(const SearchCase& search, const std::vector<BlockWeight>& hit) {
   if (search.classes.empty()) return {none, none, none};
   std::vector<EventRow> rows;
-  for (const RunWeight& run : hit) rows.push_back({0, run.run, 1, 0, run.weight});
+  for (const BlockWeight& of : hit) rows.push_back({0, of.run, of.block, 1, 0, of.weight});
   sort_events(rows);
   HazardRates rates(search.classes);
   return rates.above(rows, {})[0];
 }
 
-std::vector<RunWeight> hit_now(const SearchRuns& runs) {
-  std::vector<RunWeight> out;
-  for (int r = 0; r < runs.n_runs; ++r)
-    if (runs.n_hits[r] > 0) out.push_back({r, runs.weight[r]});
+std::vector<BlockWeight> hit_now(const SearchRuns& runs) {
+  std::vector<BlockWeight> out;
+  for (const BlockOnObject& block : runs.on_object) out.push_back(block.of);
   return out;
 }
-double share_now(const SearchRuns& runs) {
-  double weight = 0;
-  for (const RunWeight& run : hit_now(runs)) weight += runs.basis.run_weight[run.run];
-  return std::min(1.0, weight / runs.n_runs);
+int n_runs_of(const std::vector<BlockWeight>& blocks) {
+  std::set<int> runs;
+  for (const BlockWeight& block : blocks) runs.insert(block.run);
+  return static_cast<int>(runs.size());
 }
 double hits_a_run(const SearchRuns& runs) { return weight_on_object(runs) / runs.n_runs; }
 
@@ -294,12 +294,12 @@ std::string proposal_toml(const Proposal& proposal, const Vec3& origin) {
 
 std::string answer_text(const SearchCase& search, const SearchAnswer& answer) {
   const SearchRuns& runs = search.runs;
-  const std::vector<RunWeight> now = hit_now(runs);
+  const std::vector<BlockWeight> now = hit_now(runs);
   std::string out = search.settings->name + ": ";
   if (now.empty())
     return out + "nothing hits " + search.object.name + " in " + counted(runs.n_runs, "run") +
            ": no fence is the best";
-  out += search.object.name + " is hit in " + std::to_string(now.size()) + " of " +
+  out += search.object.name + " is hit in " + std::to_string(n_runs_of(now)) + " of " +
          counted(runs.n_runs, "run");
   if (answer.proposals.empty()) {
     out += "; no fence of this kind";
@@ -328,7 +328,7 @@ std::string answer_text(const SearchCase& search, const SearchAnswer& answer) {
 
 Json search_json(const SearchCase& search, const SearchAnswer& answer, const Vec3& origin) {
   const SearchRuns& runs = search.runs;
-  const std::vector<RunWeight> now = hit_now(runs);
+  const std::vector<BlockWeight> now = hit_now(runs);
   const Interval interval = run_share_interval(runs.basis, now);
   const Rate rate = rate_of_runs(search, now);
   Json front = Json::array(), curve = Json::array(), proposals = Json::array();
@@ -346,8 +346,8 @@ Json search_json(const SearchCase& search, const SearchAnswer& answer, const Vec
                {"answer", answer_text(search, answer)},
                {"verdict", verdict},
                {"n_runs", runs.n_runs},
-               {"n_runs_hit", now.size()},
-               {"run_share", share_now(runs)},
+               {"n_runs_hit", n_runs_of(now)},
+               {"run_share", share_of_runs(runs.basis, now)},
                {"run_share_interval", interval_json(interval)},
                {"hits_a_run", hits_a_run(runs)},
                {"share_wanted", search.what.share},

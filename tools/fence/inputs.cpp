@@ -92,8 +92,10 @@ FenceRuns read_fence_runs(RunInputs& inputs, const std::vector<std::string>& wit
   for (std::size_t p = 0; p < inputs.parts().size(); ++p)
     add_speeds(p < n_parts_with ? out.ground_with : out.ground_without, inputs.parts()[p]);
   const auto split = [&](std::size_t first, std::size_t last) {
-    return FenceRunGroup{{inputs.members.begin() + first, inputs.members.begin() + last},
-                         {runs.begin() + first, runs.begin() + last}};
+    const std::span members(inputs.members.begin() + first, inputs.members.begin() + last);
+    return FenceRunGroup{{members.begin(), members.end()},
+                         {runs.begin() + first, runs.begin() + last},
+                         clusters_of(members)};
   };
   out.with = split(0, n_with);
   out.without = split(n_with, runs.size());

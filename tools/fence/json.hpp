@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// All of fence number `index`; `basis` of the runs (verdict_basis).
+/// All of fence number `index`; `basis` of the runs.
 [[nodiscard]] Json fence_json(const FenceCase& fence, std::size_t index, const FenceResult& result,
                               const FenceRunGroup& group, const ShareBasis& basis,
                               const FenceCode& code);

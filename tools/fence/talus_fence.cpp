@@ -111,7 +111,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
       read_fence_runs(inputs, o.without, fences, code.code, o.result.design.free_border, site.file);
   const bool compared = n_runs(runs.without) > 0;
 
-  const ShareBasis basis = verdict_basis(runs.with, inputs.failed_share());
+  const ShareBasis basis = share_basis(runs.with.clusters, inputs.failed_share());
   std::vector<FenceResult> results;
   Json fence_list = Json::array();
   std::string summary;

@@ -119,6 +119,7 @@ RunInputs::Found RunInputs::look_at(const RunSet& set, const RunParts& parts, bo
   const auto add = [&](const std::string& name, RunFile&& run, const Place& place) {
     if (!set.only_case.empty() && run.info.case_name != set.only_case) return;
     found.members.push_back(member_of(name, run));
+    add_release_cells(found.members.back(), run, trn());
     if (place.part >= 0) found.members.back().part = part_files_[place.part];
     check_member(found.members.back(), members.empty() ? found.members.front() : members.front(),
                  set_options_);
@@ -247,6 +248,8 @@ void RunInputs::read(const RunSet& set, const std::string& role, const RunParts&
     RunMember whole = member_of(members[i].file, run);
     whole.part = std::move(members[i].part);
     whole.settings = std::move(members[i].settings);
+    whole.draws_for_all = members[i].draws_for_all;
+    add_release_cells(whole, run, trn());
     members[i] = std::move(whole);
     hand_over(run, i);
   });

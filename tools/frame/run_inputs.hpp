@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "ensemble/clusters.hpp"
 #include "ensemble/ensemble.hpp"
 #include "ensemble/made_with.hpp"
 #include "ensemble/run_set.hpp"
+#include "ensemble/run_tags.hpp"
 #include "import/dem_gdal.hpp"
 #include "io/geopackage_gdal.hpp"
 #include "post/hazard/frequency.hpp"

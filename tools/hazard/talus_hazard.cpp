@@ -73,7 +73,10 @@ std::string run_words(const HazardSources& sources) {
   std::string out;
   for (const HazardRuns& runs : sources.classes)
     out += (out.empty() ? "" : ", ") + std::to_string(runs.n) +
-           (runs.n == 1 ? " run of class " : " runs of class ") + runs.kind.name;
+           (runs.n == 1 ? " run of class " : " runs of class ") + runs.kind.name +
+           (runs.basis.clusters.kind == Clusters::Kind::run
+                ? ""
+                : " (intervals over " + text(runs.basis.clusters) + ")");
   return out;
 }
 
@@ -162,8 +165,9 @@ void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
   const std::vector<double>& periods = sources.recipe.return_periods;
   if (std::isnan(rate)) {
     tool.warn(
-        "fewer than 10 runs of a class of rocks: its rates have no bounds, and no class is "
-        "certain");
+        "fewer than 10 runs of a class of rocks, and fewer than 10 release cells: its rates have "
+        "no "
+        "bounds, and no class is certain");
     return;
   }
   if (rate * periods.back() < 1) return;

@@ -66,13 +66,13 @@ void declare(Tool& tool, Options& o) {
 /// What the runs give to the maps.
 struct Gathered {
   talus::MapGrid map;
-  talus::Released released;
+  talus::ShareBasis basis;
   talus::DepositSums deposit;
   std::vector<std::uint32_t> rows_of_cell;  // of the map
   std::uint64_t n_rows = 0;
   std::vector<std::vector<talus::MapRow>> rows;  // of each run; empty when they are too many
   std::vector<std::vector<double>> weight;       // of the blocks of each run; empty: 1 each
-  int n_to_add = 0;  // runs, for the half width that is wanted; known when layers are made
+  talus::RunsToAdd to_add;  // for the half width that is wanted; known when layers are made
 };
 
 // Behind the rows of the same run that came before.
@@ -136,16 +136,13 @@ Gathered gather(talus::RunInputs& runs, const talus::RunSet& set, const std::str
     count(talus::map_rows(run.passages, run.grid, out.map, talus::weights_of(run)),
           index - range.first);
     out.weight.push_back(talus::weights_of(run));
-    out.released.weight.push_back(runs.members[index].weight);
-    out.released.n_blocks.push_back(runs.members[index].n_blocks);
-    out.released.run_weight.push_back(run.run_weight);
     talus::add_deposit(out.deposit, out.map.grid, run, runs.rest_speed_m_s, talus::moved_m);
   });
   take_rows_of_parts(runs, range, out.map, out.weight, {}, o.most_rows(),
                      [&](auto rows, int run) { count(std::move(rows), run); });
-  out.released.failed_share = runs.last_failed_share();
-  out.released.unit = talus::units_of(
-      {runs.members.begin() + static_cast<std::ptrdiff_t>(range.first), runs.members.end()});
+  out.basis = talus::share_basis(
+      talus::clusters_of(std::span(runs.members).subspan(static_cast<std::size_t>(range.first))),
+      runs.last_failed_share());
   return out;
 }
 
@@ -184,8 +181,9 @@ std::vector<MapLayer> layers_of(Tool& tool, talus::RunInputs& runs, Gathered& g,
     }
     const talus::CellRows cells = talus::group_by_cell(std::move(g.rows), g.rows_of_cell.size());
     g.rows.clear();
-    g.n_to_add = std::max(g.n_to_add, talus::runs_to_add(cells, g.released, o.half_width));
-    add_tile({cells, g.deposit, g.map.grid.cell_size, g.released, o.settings}, tool.progress(),
+    const talus::RunsToAdd here = talus::runs_to_add(cells, g.basis, o.half_width);
+    g.to_add = {std::max(g.to_add.n, here.n), g.to_add.help && here.help};
+    add_tile({cells, g.deposit, g.map.grid.cell_size, g.basis, o.settings}, tool.progress(),
              layers);
   }
   return layers;
@@ -208,7 +206,7 @@ MapLayer comparison_of(talus::RunInputs& runs, const Gathered& a, const Options&
                             "give more --memory-mb, or coarser cells (--cell-size-m)");
   const talus::CellRows cells_a = talus::group_by_cell(a.rows, a.rows_of_cell.size()),
                         cells_b = talus::group_by_cell(std::move(b.rows), b.rows_of_cell.size());
-  return talus::comparison_layer({cells_a, a.released}, {cells_b, b.released});
+  return talus::comparison_layer({cells_a, a.basis}, {cells_b, b.basis});
 }
 
 // Tags of a map of differences: those of the runs that are compared too.
@@ -231,11 +229,12 @@ talus::MapTags tags_of_maps(Tool& tool, const Options& o, const talus::RunInputs
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   if (runs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(runs.n_missing));
   tags.emplace_back("REACH_UPPER_BOUND_ELSEWHERE",
-                    talus::text(talus::reach_bound_elsewhere(gathered.released), 6));
-  tags.emplace_back("RUNS_TO_ADD", std::to_string(gathered.n_to_add) + " for a half width of " +
+                    talus::text(talus::reach_bound_elsewhere(gathered.basis), 6));
+  tags.emplace_back("RUNS_TO_ADD", std::to_string(gathered.to_add.n) + " for a half width of " +
                                        talus::text(o.half_width) +
                                        " where reach_probability is above " +
-                                       talus::text(talus::least_reach));
+                                       talus::text(talus::least_reach) +
+                                       (gathered.to_add.help ? "" : "; in some cells none help"));
   return tags;
 }
 
@@ -299,15 +298,21 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
     tool.warn("cells with too few passages for a 95th percentile: styles show the maximum");
   tool.metric("passages", static_cast<double>(n_rows), "1");
   tool.metric("cells_touched", static_cast<double>(touched.size()), "1");
-  Json result = {{"run_id", tool.run_id()},       {"n_runs", members.size()},
-                 {"n_passages", n_rows},          {"n_cells_touched", touched.size()},
-                 {"cell_size_m", grid.cell_size}, {"runs_to_add", gathered.n_to_add},
-                 {"half_width", o.half_width},    {"layers", written.files}};
+  Json result = {{"run_id", tool.run_id()},
+                 {"n_runs", members.size()},
+                 {"intervals_over", talus::text(gathered.basis.clusters)},
+                 {"n_passages", n_rows},
+                 {"n_cells_touched", touched.size()},
+                 {"cell_size_m", grid.cell_size},
+                 {"runs_to_add", gathered.to_add.n},
+                 {"half_width", o.half_width},
+                 {"layers", written.files}};
   talus::add_faults(result, talus::faults_of(runs.members, runs.left_out));
   tool.result(result, std::to_string(layers.size()) + " maps of " + std::to_string(members.size()) +
                           (members.size() == 1 ? " run" : " runs") + ", " + std::to_string(n_rows) +
                           " passages over " + std::to_string(touched.size()) + " cells of " +
-                          talus::text(grid.cell_size, 4) + " m, in " + o.folder);
+                          talus::text(grid.cell_size, 4) + " m, intervals over " +
+                          talus::text(gathered.basis.clusters) + ", in " + o.folder);
 }
 
 }  // namespace

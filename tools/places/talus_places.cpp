@@ -52,13 +52,13 @@ std::vector<FenceCase> lines_of(Tool& tool, const Site& site, const Trn& trn, co
 struct Reached {
   std::vector<Place> places;
   std::vector<std::vector<FenceCase>> lines;  // by place
-  Released released;
-  std::vector<std::vector<double>> weight;  // by place, of each run
+  ShareBasis basis;
+  std::vector<std::vector<BlockWeight>> blocks;  // by place, that reach it
 };
 
 void add_run(Reached& all, const RunFile& run, const std::vector<Passage>& passages, int at) {
   for (std::size_t p = 0; p < all.places.size(); ++p)
-    all.weight[p][at] += weight_reaching(all.places[p], run, passages);
+    add_reaching(all.blocks[p], all.places[p], run, at, passages);
 }
 
 Reached read_all(Tool& tool, const Site& site, RunInputs& inputs) {
@@ -75,17 +75,13 @@ Reached read_all(Tool& tool, const Site& site, RunInputs& inputs) {
                        "set [output] passages = true and run talus-dda again");
     if (index == 0) {
       all.places = places_of(tool, site, inputs.trn(), run.grid);
-      all.weight.resize(all.places.size());
+      all.blocks.resize(all.places.size());
       for (const Place& place : all.places)
         all.lines.push_back(lines_of(tool, site, inputs.trn(), place));
     }
     for (const std::vector<FenceCase>& lines : all.lines)
       for (const FenceCase& line : lines)
         static_cast<void>(find_line(run, line, where_of(inputs.members[index]), site.file));
-    all.released.weight.push_back(inputs.members[index].weight);
-    all.released.n_blocks.push_back(inputs.members[index].n_blocks);
-    all.released.run_weight.push_back(run.run_weight);
-    for (std::vector<double>& weight : all.weight) weight.push_back(0);
     if (inputs.members[index].part.empty()) add_run(all, run, run.passages, index);
   });
   for (const PartInput& part : inputs.parts()) {
@@ -102,8 +98,10 @@ Reached read_all(Tool& tool, const Site& site, RunInputs& inputs) {
       add_run(all, run, rows[r], part.member[r]);
     }
   }
-  all.released.failed_share = inputs.failed_share();
-  all.released.unit = units_of(inputs.members);
+  for (std::vector<BlockWeight>& blocks : all.blocks)
+    std::stable_sort(blocks.begin(), blocks.end(),
+                     [](const BlockWeight& a, const BlockWeight& b) { return a.run < b.run; });
+  all.basis = share_basis(clusters_of(inputs.members), inputs.failed_share());
   return all;
 }
 
@@ -117,7 +115,8 @@ Json place_json(const Place& place, const PlaceReach& reach) {
           {"share_of_runs_high", number_or_null(reach.interval_of_runs.high)},
           {"half_width", number_or_null(reach.half_width)},
           {"wanted_half_width", place.half_width},
-          {"runs_to_add", reach.runs_to_add}};
+          {"runs_to_add", reach.to_add.n},
+          {"more_runs_help", reach.to_add.help}};
 }
 
 // "road: 12.5 % of the blocks (9.8 % to 15.9 %), in 38 of 50 runs; half width 0.031, wanted 0.05"
@@ -126,11 +125,11 @@ std::string line_of(const Place& place, const PlaceReach& reach, int n_runs) {
   if (std::isfinite(reach.half_width))
     words += " (" + percent(reach.interval.low) + " to " + percent(reach.interval.high) + ")";
   words += ", in " + std::to_string(reach.n_runs_hit) + " of " + counted(n_runs, "run");
-  if (reach.lacks_masses) return words + "; too few rock masses for an interval";
-  if (!std::isfinite(reach.half_width))
-    return words + "; too few runs for an interval: add " + counted(reach.runs_to_add, "run");
-  words += "; half width " + text(reach.half_width, 2) + ", wanted " + text(place.half_width);
-  return reach.runs_to_add == 0 ? words : words + ": add " + counted(reach.runs_to_add, "run");
+  words += std::isfinite(reach.half_width)
+               ? "; half width " + text(reach.half_width, 2) + ", wanted " + text(place.half_width)
+               : "; too few for an interval";
+  if (!reach.to_add.help) return words + ": more runs do not help";
+  return reach.to_add.n == 0 ? words : words + ": add " + counted(reach.to_add.n, "run");
 }
 
 void run_tool(Tool& tool, const Site& site, RunInputs& inputs) {
@@ -141,27 +140,36 @@ void run_tool(Tool& tool, const Site& site, RunInputs& inputs) {
   Json list = Json::array();
   std::string summary;
   int most = 0;
-  bool lacks_masses = false;
+  bool help = true;
   for (std::size_t p = 0; p < all.places.size(); ++p) {
-    const PlaceReach reach = place_reach(all.places[p], all.released, all.weight[p]);
-    most = std::max(most, reach.runs_to_add);
-    lacks_masses = lacks_masses || reach.lacks_masses;
+    const PlaceReach reach = place_reach(all.places[p], all.basis, all.blocks[p]);
+    most = std::max(most, reach.to_add.n);
+    help = help && reach.to_add.help;
     list.push_back(place_json(all.places[p], reach));
     summary += line_of(all.places[p], reach, n_runs) + "\n";
   }
   static_cast<void>(inputs.remark());
-  if (lacks_masses)
+  const Clusters& clusters = all.basis.clusters;
+  if (!help)
     tool.warn(
-        "runs of one rock mass count as one, and too few masses give no interval: raise "
-        "rock_masses to 10 or more");
-  summary += lacks_masses ? "more runs do not help"
-             : most == 0  ? "all places are known as surely as wanted, by " + counted(n_runs, "run")
-                          : "add " + counted(most, "run") + " to " + std::to_string(n_runs);
+        clusters.kind == Clusters::Kind::release_cell
+            ? text(clusters) +
+                  " differ too much among themselves for the half width that is "
+                  "wanted: release rocks from more cells (release_spacing_m, up "
+                  "to the cells of the terrain), or want a larger half_width"
+            : "runs of one rock mass count as one, and too few masses give no interval: raise "
+              "rock_masses to 10 or more");
+  summary += "intervals are made over " + text(clusters) + ": ";
+  summary += !help       ? "more runs do not help"
+             : most == 0 ? "all places are known as surely as wanted, by " + counted(n_runs, "run")
+                         : "add " + counted(most, "run") + " to " + std::to_string(n_runs);
   Json result = {{"run_id", tool.run_id()},
                  {"run_set", inputs.run_set()},
                  {"sections", section_state(site, {"place", "fence"})},
                  {"n_runs", n_runs},
+                 {"intervals_over", text(clusters)},
                  {"runs_to_add", most},
+                 {"more_runs_help", help},
                  {"places", list}};
   add_faults(result, faults_of(inputs.members, inputs.left_out));
   tool.result(result, summary);

@@ -142,8 +142,6 @@ LineSums sums_of(RunInputs& runs, RecordLine line) {
     if (member.part.empty()) add_passages(sums, run, index, run.passages);
   });
   add_parts(sums, runs);
-  sums.released.failed_share = runs.failed_share();
-  sums.released.unit = units_of(runs.members);
   finish(sums);
   return sums;
 }
@@ -154,12 +152,12 @@ LineProfile evaluated(LineSums sums, const RunInputs& runs, double bin_m, const 
   profile.origin = origin;
   for (const RunMember& member : runs.members) profile.run_ids.push_back(member.info.run_id);
   const double length = profile.sums.line.chainage.back();
-  const ShareBasis basis = share_basis_of(profile.sums.released);
+  const ShareBasis basis = share_basis(clusters_of(runs.members), runs.failed_share());
   profile.whole = across_summary(profile.sums, basis, 0, length);
   const std::vector<double> limits = bin_limits(length, bin_m);
   for (std::size_t i = 0; i + 1 < limits.size(); ++i)
     profile.bins.push_back(across_summary(profile.sums, basis, limits[i], limits[i + 1]));
-  profile.stations = station_summaries(profile.sums);
+  profile.stations = station_summaries(profile.sums, basis);
   return profile;
 }
 

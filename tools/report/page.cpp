@@ -404,7 +404,8 @@ void add_uncertainty(const ReportData& data, Json& out) {
     out["quantities"].push_back({{"name", quantity.name},
                                  {"drawn_from", text_of(data.site, quantity)},
                                  {"is_rock", is_rock(quantity)}});
-  out["is_drawn"] = !data.site.quantities.empty() || u.rock_masses > 0;
+  const bool cuts_masses = u.rock_masses > 0 && data.site.rockfalls.empty();
+  out["is_drawn"] = !data.site.quantities.empty() || cuts_masses;
   out["rock_masses"] = u.rock_masses;
   out["terrain_rmse_m"] = u.terrain_rmse_m;
   out["drawn"] = drawn_of(data.runout);
@@ -595,7 +596,6 @@ Json data_of(const ReportData& data, const PageFiles& files) {
       {"searches", searches_of(data)},
       {"objects_by_cells", any_by_cells(data.trace)},
       {"n_runs", n_runs},
-      {"few_runs", n_runs < 10},
       {"few_curves", n_runs < 3},
       {"has_cases", !list_or_none(value_at(data.runout, {"cases"})).empty()},
       {"has_lines", !data.sheet.places.lines.empty()},

@@ -133,8 +133,8 @@ std::vector<MobilityEvent> events_of(const std::vector<RunoutRun>& runs, bool co
 
 void write_thickness(Tool& tool, const Options& o, const RunoutRuns& all, RunInputs& inputs,
                      const MapTags& tags, const std::string& remark) {
-  MapLayer layer =
-      make_layer(deposit_kind(), {{}, all.deposit, all.grid.cell_size, all.released, {}});
+  const ShareBasis basis = share_basis(clusters_of(inputs.members));
+  MapLayer layer = make_layer(deposit_kind(), {{}, all.deposit, all.grid.cell_size, basis, {}});
   layer.bands.erase(layer.bands.begin(), layer.bands.begin() + 2);
   write_map(tool, map_frame(inputs, all.grid, {}, layer.cell), o.thickness, layer,
             map_style(layer, remark), tags);

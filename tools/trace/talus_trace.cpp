@@ -142,7 +142,7 @@ void put_rate(const Traced& traced, int object, TracedObject& to) {
   std::vector<EventRow> rows;
   for (const TraceHit& hit : traced.sums.hits)
     if (hit.object == object)
-      rows.push_back({0, hit.run, static_cast<float>(hit.energy / 1e3), 0, hit.weight});
+      rows.push_back({0, hit.run, hit.block, static_cast<float>(hit.energy / 1e3), 0, hit.weight});
   sort_events(rows);
   HazardRates rates(traced.classes);
   const Rate rate = rates.above(rows, {})[0];
@@ -251,8 +251,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   runs.warn_of_ends();
   const std::string remark = runs.remark();
   const std::vector<SourceLink> links = source_links(sums);
-  const ShareBasis basis =
-      share_basis(sums.released, sums.single_blocks, runs.failed_share(), units_of(runs.members));
+  const ShareBasis basis = share_basis(clusters_of(runs.members), runs.failed_share());
   std::vector<TracedObject> objects;
   Json list = Json::array();
   std::string summary;
@@ -269,7 +268,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
     list.push_back(object_json(of, object, !classes.empty()));
     list.back()["sources"] = sources_json(traced, i, links, trn.origin);
     summary += (i > 0 ? "\n" : "") +
-               summary_of(of.name, object, !classes.empty(), n_runs(sums), rocks_alone);
+               summary_of(of.name, object, !classes.empty(), sums.n_runs, rocks_alone);
     objects.push_back(std::move(object));
   }
   MapTags tags = tags_of(runs.members, runs.left_out);
@@ -294,7 +293,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   Json result = {{"run_id", tool.run_id()},
                  {"tags", Json::object()},
                  {"sections", section_state(site, {"object", "hazard"})},
-                 {"n_runs", n_runs(sums)},
+                 {"n_runs", sums.n_runs},
                  {"source_cell_m", sums.sources.cell_size},
                  {"n_source_cells", sums.source.size()},
                  {"objects", list},

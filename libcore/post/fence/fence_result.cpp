@@ -116,7 +116,7 @@ FenceResult fence_result(const FenceCase& fence_case, std::size_t index, const F
   DesignInput input = design_input(settings.design, group, design_arrivals);
   input.first_touches = r.basis == DesignBasis::first_touches;
   const auto summary = [&](const std::vector<FenceArrival>& arrivals, const FenceRunGroup& of) {
-    return summarise(arrivals, n_runs(of), units_of(of.members));
+    return summarise(arrivals, of.clusters);
   };
   r.whole = summary(r.arrivals, group);
   r.at_basis = summary(design_arrivals, design_group);
@@ -142,44 +142,28 @@ FenceResult fence_result(const FenceCase& fence_case, std::size_t index, const F
   return r;
 }
 
-ShareBasis verdict_basis(const FenceRunGroup& group, double failed_share) {
-  std::vector<double> released;
-  bool single_blocks = true;
-  for (const FenceRun& run : group.runs) {
-    double weight = 0;
-    for (const double w : run.weight) weight += w;
-    released.push_back(weight);
-    single_blocks = single_blocks && run.weight.size() <= 1;
-  }
-  return share_basis(released, single_blocks, failed_share, units_of(group.members));
-}
-
 VerdictShare verdict_share(const FenceRunGroup& group, std::size_t fence, Verdict verdict,
                            const ShareBasis& basis) {
   VerdictShare out;
-  std::vector<RunWeight> parts;
+  std::vector<BlockWeight> blocks;
   int n_all = 0;
   double weight = 0, total = 0;
   for (int r = 0; r < n_runs(group); ++r) {
     const FenceRun& run = group.runs[r];
-    RunWeight part{r, 0};
-    double of_run = 0;
     for (const BlockVerdict& v : run.at_fence[fence].verdicts) {
       ++n_all;
-      of_run += run.weight[v.block];
+      total += run.weight[v.block];
       if (v.verdict != verdict) continue;
       ++out.n;
-      part.weight += run.weight[v.block];
+      blocks.push_back({r, v.block, run.weight[v.block]});
+      weight += run.weight[v.block];
     }
-    parts.push_back(part);
-    weight += part.weight;
-    total += of_run;
   }
   out.share = weight / total;
   // by counts: sums of weights are rounded
   out.interval = out.n == 0 || out.n == n_all
                      ? interval_of_none_or_all(basis, out.n > 0)
-                     : share_interval(basis, parts, std::clamp(out.share, 0.0, 1.0));
+                     : share_interval(basis, blocks, std::clamp(out.share, 0.0, 1.0));
   return out;
 }
 

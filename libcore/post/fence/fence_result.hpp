@@ -57,15 +57,11 @@ void set_design_block(DesignInput& input, const std::vector<FenceArrival>& arriv
                                        const std::vector<BarrierClass>& classes,
                                        const FenceResultSettings& settings, const Trn& trn);
 
-/// The weight of the runs' blocks, which shares of verdicts are parts of. `failed_share`: of the
-/// runs that were wanted.
-[[nodiscard]] ShareBasis verdict_basis(const FenceRunGroup& group, double failed_share);
-
-/// How many blocks of all runs have a verdict at a fence.
+/// How many blocks of all runs have a verdict at a fence. `basis`: of the group's clusters.
 struct VerdictShare {
   int n = 0;          ///< blocks
   double share = 0;   ///< of the released weight [-]; NaN: nothing was released
-  Interval interval;  ///< 95 %; NaN: too few runs
+  Interval interval;  ///< 95 %; NaN: too few clusters
 };
 [[nodiscard]] VerdictShare verdict_share(const FenceRunGroup& group, std::size_t fence,
                                          Verdict verdict, const ShareBasis& basis);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ensemble/run_set.hpp"
+#include "ensemble/clusters.hpp"
 #include "post/fence/fence.hpp"
 #include "post/fence/fence_change.hpp"
 #include "post/fence/fence_design.hpp"
@@ -71,6 +71,7 @@ struct FenceRunSettings {
 struct FenceRunGroup {
   std::vector<RunMember> members;  ///<                                              (n_runs)
   std::vector<FenceRun> runs;      ///<                                              (n_runs)
+  Clusters clusters;               ///< of the members
 };
 /// Sum of the runs' weights.
 [[nodiscard]] double weight_of_runs(const FenceRunGroup& group);

@@ -21,14 +21,14 @@ QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_e
               return x != y ? x < y : a->weight < b->weight;
             });
   std::vector<WeightedValue> values;
-  std::vector<RunWeight> runs;
+  std::vector<BlockWeight> blocks;
   for (const FenceArrival* a : ascending) {
     values.push_back({quantity(*a), a->weight});
-    runs.push_back({a->run, a->weight});
+    blocks.push_back({a->run, a->block, a->weight});
   }
   QuantitySummary summary;
   summary.largest = values.empty() ? none : values.back().value;
-  const BoundPlaces upper = upper_bound_places(bounds, runs);
+  const BoundPlaces upper = upper_bound_places(bounds, blocks);
   for (std::size_t k = 0; k < percentile_levels.size(); ++k) {
     const double p = percentile_levels[k].p;
     BoundedPercentile& out = summary.percentile[k];
@@ -55,8 +55,7 @@ void find_busiest_second(const std::vector<FenceArrival>& of_run, FencePartSumma
 
 }  // namespace
 
-FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs,
-                           const std::vector<int>& unit) {
+FencePartSummary summarise(const std::vector<FenceArrival>& given, const Clusters& clusters) {
   FencePartSummary summary;
   std::vector<FenceArrival> sorted = given;
   std::sort(sorted.begin(), sorted.end(), [](const FenceArrival& a, const FenceArrival& b) {
@@ -71,7 +70,7 @@ FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs,
     angle += a.weight * a.angle;
   }
   summary.n = static_cast<int>(sorted.size());
-  summary.per_run = static_cast<double>(summary.n) / n_runs;
+  summary.per_run = static_cast<double>(summary.n) / n_runs(clusters);
   summary.n_eff = effective_size(w, w_sq);
   summary.mean_angle = angle / w;
   std::set<int> twice;  // runs
@@ -84,9 +83,8 @@ FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs,
     summary.most_in_a_run = std::max(summary.most_in_a_run, static_cast<int>(of_world.size()));
     find_busiest_second(of_world, summary);
   }
-  summary.runs_hit_twice = static_cast<double>(twice.size()) / n_runs;
-  const int n_units = unit.empty() ? n_runs : *std::max_element(unit.begin(), unit.end()) + 1;
-  PercentileBounds bounds(n_units, fence_resamples, 1, unit);
+  summary.runs_hit_twice = static_cast<double>(twice.size()) / n_runs(clusters);
+  PercentileBounds bounds{clusters, fence_resamples};
   const auto of = [&](double (*quantity)(const FenceArrival&)) {
     return summary_of(sorted, summary.n_eff, bounds, quantity);
   };

@@ -9,11 +9,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "ensemble/clusters.hpp"
 #include "post/fence/fence.hpp"
 
 namespace talus {
 
-/// Resamples of the runs for a bound at a fence.
+/// Resamples of the clusters for a bound at a fence.
 inline constexpr int fence_resamples = 400;
 
 /// A percentile with what bounds it; NaN where the sample gives none: below the least number of
@@ -39,9 +40,8 @@ struct FencePartSummary {
   double window_energy = 0;             ///< largest sum of energies within one second, any run [J]
   int window_hits = 0;                  ///< of that second
 };
-/// `n_runs`: all of them, also those without an arrival. Bounds: percentile_bounds.hpp; `unit` is
-/// that of units_of().
-[[nodiscard]] FencePartSummary summarise(const std::vector<FenceArrival>& arrivals, int n_runs,
-                                         const std::vector<int>& unit = {});
+/// `clusters`: of all runs, also those without an arrival. Bounds: percentile_bounds.hpp.
+[[nodiscard]] FencePartSummary summarise(const std::vector<FenceArrival>& arrivals,
+                                         const Clusters& clusters);
 
 }  // namespace talus

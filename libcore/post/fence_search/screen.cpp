@@ -90,7 +90,7 @@ void sort_hits(SearchLine& line) {
 
 double weight_on_object(const SearchRuns& runs) {
   double sum = 0;
-  for (const double w : runs.weight) sum += w;
+  for (const BlockOnObject& block : runs.on_object) sum += block.of.weight;
   return sum;
 }
 
@@ -134,8 +134,7 @@ ScreenOutcome follow(const SearchRuns& runs, const std::vector<SearchLine>& line
                      const std::vector<PlacedFence>& fences, bool adds_up) {
   ScreenOutcome out;
   out.is_stopped.assign(static_cast<std::size_t>(runs.n_blocks), false);
-  std::vector<int> n_stopped(static_cast<std::size_t>(runs.n_runs), 0);
-  std::vector<double> left = runs.weight;
+  std::vector<bool> is_kept_off(out.is_stopped.size(), false);  // the object
   std::vector<Standing> standing(fences.size());
   std::vector<std::vector<double>> volumes(
       fences.size(), std::vector<double>(static_cast<std::size_t>(runs.n_runs)));
@@ -157,13 +156,12 @@ ScreenOutcome follow(const SearchRuns& runs, const std::vector<SearchLine>& line
     volumes[event.fence][run] += arrival.volume;
     if (!event.hit->matters) continue;
     weight += arrival.weight;
-    left[run] -= arrival.weight;
-    ++n_stopped[run];
+    is_kept_off[event.hit->block] = true;
   }
   const double all = weight_on_object(runs);
   out.stopped = all > 0 ? std::min(1.0, weight / all) : none;
-  for (int r = 0; r < runs.n_runs; ++r)
-    if (runs.n_hits[r] > n_stopped[r]) out.hit.push_back({r, std::max(0.0, left[r])});
+  for (const BlockOnObject& block : runs.on_object)
+    if (!is_kept_off[block.block]) out.hit.push_back(block.of);
   for (std::vector<double>& of_fence : volumes) out.retained.push_back(median(std::move(of_fence)));
   return out;
 }
@@ -219,7 +217,7 @@ FenceDemand fence_demand(const SearchRuns& runs, const SearchLine& line, const P
   input.mean_block_size = runs.mean_block_size;
   input.block_volume = input.deflection = input.distance_to_object = none;
   set_design_block(input, arrivals);
-  const FencePartSummary part = summarise(arrivals, runs.n_runs, runs.unit);
+  const FencePartSummary part = summarise(arrivals, runs.basis.clusters);
   Fence as_built;
   as_built.height = 1;
   as_built.capacity = 1;

@@ -48,15 +48,19 @@ struct SearchLine {
 /// Puts the hits in their order.
 void sort_hits(SearchLine& line);
 
+/// A block that comes to the object.
+struct BlockOnObject {
+  BlockWeight of;
+  int block = 0;  ///< among the blocks of all runs
+};
+
 /// The object in the runs.
 struct SearchRuns {
-  int n_runs = 0, n_blocks = 0;  ///< blocks: of all runs together
-  std::vector<double> weight;    ///< of the hits on the object, by run            (n_runs)
-  std::vector<int> n_hits;       ///< blocks on the object, by run                 (n_runs)
-  ShareBasis basis;              ///< of the runs
-  std::vector<int> unit;         ///< of units_of()
-  double density = 0;            ///< mean of the rock [kg/m3]
-  double mean_block_size = 0;    ///< [m]
+  int n_runs = 0, n_blocks = 0;          ///< blocks: of all runs together
+  std::vector<BlockOnObject> on_object;  ///< by run
+  ShareBasis basis;                      ///< of the runs
+  double density = 0;                    ///< mean of the rock [kg/m3]
+  double mean_block_size = 0;            ///< [m]
 };
 [[nodiscard]] double weight_on_object(const SearchRuns& runs);
 
@@ -88,7 +92,7 @@ struct PlacedFence {
 /// What a set of fences lets through.
 struct ScreenOutcome {
   double stopped = 0;            ///< share of the weight of all hits on the object [-]
-  std::vector<RunWeight> hit;    ///< runs that still have a block on the object, each once
+  std::vector<BlockWeight> hit;  ///< blocks that still come to the object, by run
   std::vector<bool> is_stopped;  ///< block stopped by any of the fences           (n_blocks)
   std::vector<double> retained;  ///< rock stopped, by fence, median over runs [m3]
 };

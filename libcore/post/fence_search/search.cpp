@@ -58,10 +58,7 @@ std::optional<PlacedFence> place_for(const Search& s, int line, double share,
 void fill(FenceOption& option, const SearchRuns& runs, const ScreenOutcome& outcome) {
   option.stopped = outcome.stopped;
   option.hit = outcome.hit;
-  double weight = 0;
-  for (const RunWeight& run : outcome.hit)
-    weight += runs.basis.run_weight.empty() ? 1.0 : runs.basis.run_weight[run.run];
-  option.residual = std::min(1.0, weight / runs.n_runs);
+  option.residual = share_of_runs(runs.basis, outcome.hit);
   option.residual_interval = run_share_interval(runs.basis, outcome.hit);
 }
 

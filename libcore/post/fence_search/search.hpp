@@ -54,7 +54,7 @@ struct FenceOption {
   double height = 0, capacity = 0;  ///< the largest [m], [J]
   double cost = 0;
   double stopped = 0;               ///< share of the hits on the object, by weight
-  std::vector<RunWeight> hit;       ///< runs that still have blocks on the object, and their weight
+  std::vector<BlockWeight> hit;     ///< blocks that still come to the object, by run
   double residual = 0;              ///< their share of the runs
   Interval residual_interval;       ///< 95 %; NaN: too few runs
   std::vector<SearchFault> faults;  ///< none: it does what is asked for

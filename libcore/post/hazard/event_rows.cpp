@@ -61,7 +61,7 @@ std::vector<EventRow> event_rows(const std::vector<MapRow>& rows, const RunBlock
     const float own = intensity_of(row, blocks, recipe.by);
     const double weight =
         blocks.weight.empty() ? 1 : blocks.weight[static_cast<std::size_t>(row.block)];
-    out.push_back({row.cell, index, row.largest.total_energy / 1e3F,
+    out.push_back({row.cell, index, row.block, row.largest.total_energy / 1e3F,
                    company[i] ? std::max(own, least) : own, weight * run.run_weight});
   }
   return out;
@@ -69,8 +69,8 @@ std::vector<EventRow> event_rows(const std::vector<MapRow>& rows, const RunBlock
 
 void sort_events(std::vector<EventRow>& rows) {
   std::sort(rows.begin(), rows.end(), [](const EventRow& a, const EventRow& b) {
-    return std::tie(a.cell, a.run, a.energy, a.intensity, a.weight) <
-           std::tie(b.cell, b.run, b.energy, b.intensity, b.weight);
+    return std::tie(a.cell, a.run, a.energy, a.intensity, a.weight, a.block) <
+           std::tie(b.cell, b.run, b.energy, b.intensity, b.weight, b.block);
   });
 }
 

@@ -1,7 +1,7 @@
 // libcore/post/hazard/event_rows.hpp
 // Passages as hazard classes count them.
 // in:    passages of a run by cell (post/maps/map_rows.hpp), its blocks, a recipe
-// out:   rows of 24 bytes, by cell, then run
+// out:   rows of 32 bytes, by cell, then run
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace talus {
 
 struct EventRow {
   std::uint32_t cell = 0;
-  std::int32_t run = 0;
+  std::int32_t run = 0, block = 0;
   float energy = 0;     ///< largest kinetic energy with spin of a block over the cell [kJ]
   float intensity = 0;  ///< what the recipe's breaks divide, raised by its rule for masses
   double weight = 1;    ///< of the block, times that of its run

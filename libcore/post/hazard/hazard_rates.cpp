@@ -20,17 +20,17 @@ void add(Rate& sum, const Rate& more) {
   sum.high += more.high;
 }
 
-Rate share_of_rocks(const HazardRuns& runs, std::span<const RunWeight> parts) {
+Rate share_of_rocks(const HazardRuns& runs, std::span<const BlockWeight> hit) {
   double sum = 0;
-  for (const RunWeight& part : parts) sum += part.weight;
+  for (const BlockWeight& rock : hit) sum += rock.weight;
   const double share = std::min(1.0, sum / runs.basis.over.whole);
-  const Interval interval = share_interval(runs.basis, parts, share);
+  const Interval interval = share_interval(runs.basis, hit, share);
   return {share, interval.low, interval.high};
 }
 
 // Whether a count of runs is all that a share of them needs: each weighs 1, and is its own unit.
 bool counts_runs(const HazardRuns& runs) {
-  return runs.basis.unit.empty() && runs.basis.runs.whole == runs.n &&
+  return runs.basis.runs.n == runs.n && runs.basis.runs.whole == runs.n &&
          runs.basis.runs.squares == runs.n;
 }
 
@@ -77,24 +77,17 @@ void check_run(const HazardClass& kind, const RunMember& run, const RunMember& f
 
 }  // namespace
 
-HazardRuns hazard_runs(const HazardClass& kind, const std::vector<RunMember>& members, int first,
+HazardRuns hazard_runs(const HazardClass& kind, std::span<const RunMember> members, int first,
                        double failed_share) {
-  const std::vector<RunMember> own(members.begin() + first, members.end());
+  const std::span<const RunMember> own = members.subspan(static_cast<std::size_t>(first));
   HazardRuns runs{kind, {}, first, static_cast<int>(own.size())};
-  std::vector<double> released, run_weight;
-  bool single = true;
   const auto first_of_several =
       std::find_if(own.begin(), own.end(), [](const RunMember& run) { return run.n_blocks > 1; });
-  for (const RunMember& run : own) {
+  for (const RunMember& run : own)
     check_run(kind, run, first_of_several == own.end() ? run : *first_of_several);
-    released.push_back(run.weight);
-    run_weight.push_back(run.run_weight);
-    single = single && run.n_blocks <= 1;
-  }
   runs.kind.of_rocks = kind.kind == FrequencyKind::of_weights ||
                        (first_of_several != own.end() && first_of_several->info.independent);
-  runs.basis = share_basis(released, single, failed_share, units_of(own));
-  weigh_runs_of(runs.basis, run_weight);
+  runs.basis = share_basis(clusters_of(own), failed_share);
   if (kind.kind == FrequencyKind::of_weights) {
     const double all = runs.basis.over.whole / runs.n;
     runs.kind.frequency = {all, all, all};
@@ -108,33 +101,31 @@ Rate share_of(const HazardRuns& runs, int n_hit) {
   return {share, interval.low, interval.high};
 }
 
-Rate share_of(const HazardRuns& runs, std::span<const RunWeight> hit) {
+Rate share_of(const HazardRuns& runs, std::span<const BlockWeight> hit) {
   if (runs.kind.of_rocks) return share_of_rocks(runs, hit);
   if (counts_runs(runs)) return share_of(runs, static_cast<int>(hit.size()));
-  double weight = 0;
-  for (const RunWeight& run : hit) weight += runs.basis.run_weight[run.run];
   const Interval interval = run_share_interval(runs.basis, hit);
-  return {std::min(1.0, weight / runs.basis.runs.whole), interval.low, interval.high};
+  return {share_of_runs(runs.basis, hit), interval.low, interval.high};
 }
 
 Rate rate_of(const HazardRuns& runs, int n_hit) {
   return rate_of_share(runs.kind, share_of(runs, n_hit));
 }
 
-Rate rate_of(const HazardRuns& runs, std::span<const RunWeight> hit) {
+Rate rate_of(const HazardRuns& runs, std::span<const BlockWeight> hit) {
   return rate_of_share(runs.kind, share_of(runs, hit));
 }
 
 double largest_rate_elsewhere(std::span<const HazardRuns> classes) {
   double sum = 0;
   for (const HazardRuns& runs : classes)
-    sum += runs.kind.of_rocks ? rate_of(runs, std::span<const RunWeight>{}).high
+    sum += runs.kind.of_rocks ? rate_of(runs, std::span<const BlockWeight>{}).high
                               : rate_of(runs, 0).high;
   return sum;
 }
 
 HazardRates::HazardRates(std::span<const HazardRuns> classes)
-    : classes_(classes), n_hit_(classes.size()), parts_(classes.size()) {
+    : classes_(classes), n_hit_(classes.size()), hit_(classes.size()) {
   for (std::size_t c = 0; c < classes.size(); ++c) {
     costs_all_ = costs_all_ || classes[c].kind.of_rocks || !counts_runs(classes[c]);
     kind_of_run_.resize(static_cast<std::size_t>(classes[c].first + classes[c].n), c);
@@ -145,19 +136,25 @@ std::size_t HazardRates::kind_of(int run) const {
   return kind_of_run_[static_cast<std::size_t>(run)];
 }
 
+// Of events that are runs one row each.
 template <class Counts>
-Rate HazardRates::rate_of_rows(std::span<const EventRow> rows, Counts&& counts) {
-  for (std::vector<RunWeight>& parts : parts_) parts.clear();
+void HazardRates::take_rows(std::span<const EventRow> rows, Counts&& counts) {
+  for (std::vector<BlockWeight>& hit : hit_) hit.clear();
   std::int32_t last = -1;
   for (const EventRow& row : rows) {
     if (!counts(row)) continue;
     const std::size_t c = kind_of(row.run);
-    if (row.run != last) parts_[c].push_back({row.run - classes_[c].first, 0});
-    parts_[c].back().weight += row.weight;
+    if (classes_[c].kind.of_rocks || row.run != last)
+      hit_[c].push_back({row.run - classes_[c].first, row.block, row.weight});
     last = row.run;
   }
+}
+
+template <class Counts>
+Rate HazardRates::rate_of_rows(std::span<const EventRow> rows, Counts&& counts) {
+  take_rows(rows, counts);
   Rate sum;
-  for (std::size_t c = 0; c < classes_.size(); ++c) add(sum, rate_of(classes_[c], parts_[c]));
+  for (std::size_t c = 0; c < classes_.size(); ++c) add(sum, rate_of(classes_[c], hit_[c]));
   return sum;
 }
 
@@ -173,15 +170,8 @@ std::vector<Rate> HazardRates::shares_above(std::span<const EventRow> rows,
                                             std::span<const double> breaks, std::size_t kind) {
   std::vector<Rate> shares;
   for (std::size_t i = 0; i <= breaks.size(); ++i) {
-    std::vector<RunWeight>& hit = parts_[kind];
-    hit.clear();
-    for (const EventRow& row : rows) {
-      if (kind_of(row.run) != kind || (i > 0 && !(row.intensity > breaks[i - 1]))) continue;
-      const int run = row.run - classes_[kind].first;
-      if (hit.empty() || hit.back().run != run) hit.push_back({run, 0});
-      hit.back().weight += row.weight;
-    }
-    shares.push_back(share_of(classes_[kind], hit));
+    take_rows(rows, [&](const EventRow& row) { return i == 0 || row.intensity > breaks[i - 1]; });
+    shares.push_back(share_of(classes_[kind], hit_[kind]));
   }
   return shares;
 }
@@ -207,40 +197,25 @@ void HazardRates::find_events(std::span<const EventRow> rows) {
     if (!classes_[static_cast<std::size_t>(c)].kind.of_rocks && row.run == last)
       events_.back().energy = std::max(events_.back().energy, row.energy);
     else
-      events_.push_back({row.energy, row.weight, c, row.run});
+      events_.push_back({row.energy, row.weight, c, row.run, row.block});
     last = row.run;
   }
   std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
-    return std::tie(b.energy, a.run, a.weight) < std::tie(a.energy, b.run, b.weight);
+    return std::tie(b.energy, a.run, a.weight, a.block) <
+           std::tie(a.energy, b.run, b.weight, b.block);
   });
 }
 
 // Of events with the largest energies, `n_events` of them.
 Rate HazardRates::rate_of_first(std::size_t n_events) {
-  for (std::vector<RunWeight>& parts : parts_) parts.clear();
+  for (std::vector<BlockWeight>& hit : hit_) hit.clear();
   for (std::size_t i = 0; i < n_events; ++i) {
-    const auto c = static_cast<std::size_t>(events_[i].kind);
-    parts_[c].push_back({events_[i].run - classes_[c].first, events_[i].weight});
+    const Event& event = events_[i];
+    const auto c = static_cast<std::size_t>(event.kind);
+    hit_[c].push_back({event.run - classes_[c].first, event.block, event.weight});
   }
   Rate sum;
-  for (std::size_t c = 0; c < classes_.size(); ++c) {
-    if (!classes_[c].kind.of_rocks) {
-      add(sum, rate_of(classes_[c], parts_[c]));  // an event is a run
-      continue;
-    }
-    std::vector<RunWeight>& parts = parts_[c];  // each run once
-    std::stable_sort(parts.begin(), parts.end(),
-                     [](const RunWeight& a, const RunWeight& b) { return a.run < b.run; });
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      if (n > 0 && parts[n - 1].run == parts[i].run)
-        parts[n - 1].weight += parts[i].weight;
-      else
-        parts[n++] = parts[i];
-    }
-    parts.resize(n);
-    add(sum, rate_of(classes_[c], parts));
-  }
+  for (std::size_t c = 0; c < classes_.size(); ++c) add(sum, rate_of(classes_[c], hit_[c]));
   return sum;
 }
 

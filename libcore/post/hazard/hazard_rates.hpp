@@ -8,7 +8,7 @@
 // them, and each counts by its share of the weight. So a rate does not depend on how many rocks a
 // run has. The share of events has its interval (post/share_interval.hpp), the frequency its own;
 // the bounds of a rate are the products of both ends, so they hold together what each leaves open.
-// Where there are several rock masses, the masses are what intervals count.
+// Intervals are made over clusters (ensemble/clusters.hpp).
 #pragma once
 
 #include <span>
@@ -32,17 +32,17 @@ struct HazardRuns {
 /// comes. The one place that decides it, for every tool. Throws InputError where some runs moved
 /// their blocks alone and some together, where both the class and the blocks have a frequency, and
 /// where the class asks for weights that are none.
-[[nodiscard]] HazardRuns hazard_runs(const HazardClass& kind, const std::vector<RunMember>& members,
+[[nodiscard]] HazardRuns hazard_runs(const HazardClass& kind, std::span<const RunMember> members,
                                      int first, double failed_share);
 
 /// Of events that are runs, `n_hit` of those of the class; each run its own unit, or none hit.
 [[nodiscard]] Rate rate_of(const HazardRuns& runs, int n_hit);
 /// Of events without a frequency: the share of events, as a rate of 1 a year.
 [[nodiscard]] Rate share_of(const HazardRuns& runs, int n_hit);
-/// The same of these runs, named once each by their places in the class; of rocks by the weight of
-/// those that hit.
-[[nodiscard]] Rate rate_of(const HazardRuns& runs, std::span<const RunWeight> hit);
-[[nodiscard]] Rate share_of(const HazardRuns& runs, std::span<const RunWeight> hit);
+/// The same of the runs of these blocks, one block of each run by its place in the class; of rocks
+/// by all that hit and their weights.
+[[nodiscard]] Rate rate_of(const HazardRuns& runs, std::span<const BlockWeight> hit);
+[[nodiscard]] Rate share_of(const HazardRuns& runs, std::span<const BlockWeight> hit);
 
 /// What the runs say about places that none of them reached: at most so often [1/a].
 [[nodiscard]] double largest_rate_elsewhere(std::span<const HazardRuns> classes);
@@ -72,9 +72,11 @@ class HazardRates {
   struct Event {
     float energy = 0;
     double weight = 0;
-    std::int32_t kind = 0, run = 0;
+    std::int32_t kind = 0, run = 0, block = 0;
   };
   [[nodiscard]] std::size_t kind_of(int run) const;
+  template <class Counts>
+  void take_rows(std::span<const EventRow> rows, Counts&& counts);
   template <class Counts>
   [[nodiscard]] Rate rate_of_rows(std::span<const EventRow> rows, Counts&& counts);
   [[nodiscard]] Rate rate_of_first(std::size_t n_events);
@@ -83,7 +85,7 @@ class HazardRates {
   std::span<const HazardRuns> classes_;
   bool costs_all_ = false;  // a rate costs all of its events: rocks, weights, units
   std::vector<int> n_hit_;  // scratch: of each class
-  std::vector<std::vector<RunWeight>> parts_;  // scratch: of each class, its runs
+  std::vector<std::vector<BlockWeight>> hit_;  // scratch: of each class, see rate_of()
   std::vector<Event> events_;                  // scratch: of a cell, the largest energy first
   std::vector<std::size_t> kind_of_run_;
 };

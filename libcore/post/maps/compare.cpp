@@ -31,10 +31,10 @@ constexpr std::array<Level, 2> levels = {{{"p50", 0.5}, {"p95", 0.95}}};
 
 // One side, read cell by cell in ascending order.
 struct Side {
-  explicit Side(const ComparedRuns& of) : ensemble(of), basis(share_basis_of(of.released)) {}
+  explicit Side(const ComparedRuns& of) : ensemble(of), bounds{of.basis.clusters, 200} {}
 
   const ComparedRuns& ensemble;
-  ShareBasis basis;
+  PercentileBounds bounds;
   std::size_t next = 0;  // the first touched cell that was not passed by
 
   std::span<const MapRow> rows_at(std::uint32_t cell) {
@@ -47,37 +47,36 @@ struct Side {
 };
 
 Estimate reach_of(const Side& side, std::span<const MapRow> rows) {
-  std::vector<RunWeight> parts;
+  const ShareBasis& basis = side.ensemble.basis;
+  std::vector<BlockWeight> blocks;
   double weight = 0;
   for (const MapRow& row : rows) {
-    if (parts.empty() || parts.back().run != row.run) parts.push_back({row.run, 0});
-    parts.back().weight += row.weight;
+    blocks.push_back({row.run, row.block, row.weight});
     weight += row.weight;
   }
-  const double share = std::min(1.0, weight / side.basis.over.whole);
-  const Interval interval = share_interval(side.basis, parts, share);
+  const double share = std::min(1.0, weight / basis.over.whole);
+  const Interval interval = share_interval(basis, blocks, share);
   return {share, interval.low, interval.high};
 }
 
-Estimate percentile_of(std::span<const MapRow> rows, const Compared& quantity, double p,
-                       const std::vector<int>& unit) {
+Estimate percentile_of(Side& side, std::span<const MapRow> rows, const Compared& quantity,
+                       double p) {
   struct Item {
     float value;
-    RunWeight run;
+    BlockWeight block;
   };
   std::vector<Item> items;
   for (const MapRow& row : rows) {
     const float value = row.largest.*quantity.member;
-    if (!std::isnan(value) && row.weight > 0) items.push_back({value, {row.run, row.weight}});
+    if (!std::isnan(value) && row.weight > 0)
+      items.push_back({value, {row.run, row.block, row.weight}});
   }
   std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-    return a.value != b.value ? a.value < b.value : a.run.weight < b.run.weight;
+    return a.value != b.value ? a.value < b.value : a.block.weight < b.block.weight;
   });
-  std::vector<RunWeight> runs;
-  for (const Item& item : items) runs.push_back(item.run);
-  if (!unit.empty())
-    for (RunWeight& item : runs) item.run = unit[item.run];
-  const BoundedPlaces places = percentile_places(runs, p);
+  std::vector<BlockWeight> blocks;
+  for (const Item& item : items) blocks.push_back(item.block);
+  const BoundedPlaces places = percentile_places(side.bounds, blocks, p);
   const auto value_at = [&](int place) {
     return place < 0 ? none : static_cast<double>(items[place].value) * quantity.scale;
   };
@@ -133,8 +132,8 @@ MapLayer comparison_layer(const ComparedRuns& a, const ComparedRuns& b) {
     for (const Compared& quantity : quantities)
       for (const Level& level : levels)
         put(layer, band += 3, i,
-            difference(percentile_of(rows_a, quantity, level.p, a.released.unit),
-                       percentile_of(rows_b, quantity, level.p, b.released.unit)));
+            difference(percentile_of(side_a, rows_a, quantity, level.p),
+                       percentile_of(side_b, rows_b, quantity, level.p)));
   }
   return layer;
 }

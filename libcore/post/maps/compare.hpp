@@ -13,7 +13,7 @@ namespace talus {
 
 struct ComparedRuns {
   const CellRows& cells;
-  const Released& released;
+  const ShareBasis& basis;
 };
 
 /// Of b - a.

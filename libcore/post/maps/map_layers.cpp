@@ -9,16 +9,16 @@ namespace {
 
 template <MapQuantity quantity>
 MapLayer of_quantity(const MapLayerKind& kind, const MapSources& from) {
-  return quantity_layer(kind.name, from.cells, quantity, from.released, from.settings);
+  return quantity_layer(kind.name, from.cells, quantity, from.basis, from.settings);
 }
 MapLayer of_reach(const MapLayerKind& /*kind*/, const MapSources& from) {
-  return reach_layer(from.cells, from.cell_size, from.released);
+  return reach_layer(from.cells, from.cell_size, from.basis);
 }
 MapLayer of_exceedance(const MapLayerKind& /*kind*/, const MapSources& from) {
-  return exceedance_layer(from.cells, from.released);
+  return exceedance_layer(from.cells, from.basis);
 }
 MapLayer of_deposit(const MapLayerKind& /*kind*/, const MapSources& from) {
-  return deposit_layer(from.deposit, from.cell_size, from.released);
+  return deposit_layer(from.deposit, from.cell_size, from.basis);
 }
 MapLayer of_arrival(const MapLayerKind& /*kind*/, const MapSources& from) {
   return arrival_layer(from.cells);

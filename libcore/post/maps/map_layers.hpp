@@ -18,7 +18,7 @@ struct MapSources {
   const CellRows& cells;       ///< passages by cell
   const DepositSums& deposit;  ///< where blocks came to rest
   double cell_size;            ///< [m]
-  const Released& released;
+  const ShareBasis& basis;     ///< of the runs
   const MapSettings& settings;
 };
 

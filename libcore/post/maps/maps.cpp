@@ -46,30 +46,14 @@ std::span<const MapRow> rows_of(const CellRows& cells, std::size_t i) {
   return std::span(cells.rows).subspan(cells.begin[i], cells.begin[i + 1] - cells.begin[i]);
 }
 
-int n_runs(const Released& released) { return static_cast<int>(released.weight.size()); }
-int n_units(const Released& released) {
-  return released.unit.empty() ? n_runs(released)
-                               : *std::max_element(released.unit.begin(), released.unit.end()) + 1;
-}
-
-double weight_of_run(const Released& released, std::int32_t run) {
-  return released.run_weight.empty() ? 1 : released.run_weight[run];
-}
-
-double sum(std::span<const double> values) {
-  double total = 0;
-  for (const double value : values) total += value;
-  return total;
-}
-
 // The values of one quantity in one cell, ascending, with the running sum of their weights.
 struct CellSample {
   struct Item {
     float value, weight;
-    std::int32_t run;
+    std::int32_t run, block;
   };
   std::vector<Item> items;
-  std::vector<RunWeight> runs;  // of the items
+  std::vector<BlockWeight> blocks;  // of the items
   std::vector<double> weight_up_to;
   double mean = 0, n_eff = 0;
 
@@ -79,7 +63,7 @@ struct CellSample {
     for (const MapRow& row : rows) {
       const float value = row.largest.*member;
       if (std::isnan(value) || !(row.weight > 0)) continue;
-      items.push_back({value, row.weight, row.run});
+      items.push_back({value, row.weight, row.run, row.block});
       total += row.weight;
       total_sq += static_cast<double>(row.weight) * row.weight;
       moment += static_cast<double>(row.weight) * value;
@@ -90,11 +74,11 @@ struct CellSample {
       return a.value != b.value ? a.value < b.value : a.weight < b.weight;
     });
     weight_up_to.resize(items.size());
-    runs.clear();
+    blocks.clear();
     double running = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
       weight_up_to[i] = running += items[i].weight;
-      runs.push_back({items[i].run, items[i].weight});
+      blocks.push_back({items[i].run, items[i].block, items[i].weight});
     }
   }
 
@@ -125,23 +109,25 @@ MapLayer empty_quantity_layer(const std::string& name, const QuantityText& text,
                     "; nodata where too few blocks passed for it");
   add("max", "maximum over blocks of the " + what);
   for (const PercentileLevel& p : percentile_levels)
-    add(std::string(p.name) + "_hi",
-        std::string("upper 95 % confidence bound of ") + p.name +
-            "; by ranks where no run passed twice, else over runs; nodata where the sample gives "
-            "none");
+    add(std::string(p.name) + "_hi", std::string("upper 95 % confidence bound of ") + p.name +
+                                         "; nodata where the sample gives none");
   return layer;
 }
 
-// Weight of each run that came and `counts`; `rows` by run.
+// The blocks that came and `counts`, run by run; the share that they are.
 template <class Test>
-void weigh_runs(std::span<const MapRow> rows, const Test& counts, std::vector<RunWeight>& parts) {
-  parts.clear();
+double take_blocks(std::span<const MapRow> rows, const ShareBasis& basis, const Test& counts,
+                   std::vector<BlockWeight>& blocks) {
+  blocks.clear();
+  double weight = 0;
   for (const MapRow& row : rows) {
     if (!counts(row)) continue;
-    if (parts.empty() || parts.back().run != row.run) parts.push_back({row.run, 0});
-    parts.back().weight += row.weight;
+    blocks.push_back({row.run, row.block, row.weight});
+    weight += row.weight;
   }
+  return basis.over.whole > 0 ? std::min(1.0, weight / basis.over.whole) : 0;
 }
+bool all(const MapRow&) { return true; }
 
 // Width of a cell seen across a heading, in cell sizes; the mean over all directions for a block
 // that stood.
@@ -179,21 +165,12 @@ std::vector<MapBand> empty_reach_bands(std::size_t n) {
 
 }  // namespace
 
-ShareBasis share_basis_of(const Released& released) {
-  const bool single_blocks = std::all_of(released.n_blocks.begin(), released.n_blocks.end(),
-                                         [](int count) { return count <= 1; });
-  ShareBasis basis =
-      share_basis(released.weight, single_blocks, released.failed_share, released.unit);
-  if (!released.run_weight.empty()) weigh_runs_of(basis, released.run_weight);
-  return basis;
-}
-
 MapLayer quantity_layer(const std::string& name, const CellRows& cells, MapQuantity quantity,
-                        const Released& released, const MapSettings& settings) {
+                        const ShareBasis& basis, const MapSettings& settings) {
   const QuantityText& text = text_of(quantity);
   MapLayer layer = empty_quantity_layer(name, text, cells);
   constexpr std::size_t n_p = percentile_levels.size();
-  PercentileBounds bounds(n_units(released), 200, 1, released.unit);
+  PercentileBounds bounds{basis.clusters, 200};
   CellSample sample;
   for (std::size_t i = 0; i < cells.cell.size(); ++i) {
     sample.fill(rows_of(cells, i), text.member);
@@ -203,7 +180,7 @@ MapLayer quantity_layer(const std::string& name, const CellRows& cells, MapQuant
     };
     put(0, sample.mean);
     put(1 + n_p, sample.items.back().value);
-    const BoundPlaces upper = upper_bound_places(bounds, sample.runs);
+    const BoundPlaces upper = upper_bound_places(bounds, sample.blocks);
     for (std::size_t k = 0; k < n_p; ++k) {
       const double p = percentile_levels[k].p;
       const int needed = settings.min_passages > 0 ? settings.min_passages : smallest_sample(p);
@@ -214,71 +191,51 @@ MapLayer quantity_layer(const std::string& name, const CellRows& cells, MapQuant
   return layer;
 }
 
-MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& released) {
+MapLayer reach_layer(const CellRows& cells, double cell_size, const ShareBasis& basis) {
   const std::size_t n = cells.cell.size();
   MapLayer layer{"", cells.cell, empty_reach_bands(n)};
-  const double total = sum(released.weight);
-  const ShareBasis basis = share_basis_of(released);
-  std::vector<RunWeight> parts;
+  std::vector<BlockWeight> blocks;
   for (std::size_t i = 0; i < n; ++i) {
     const auto rows = rows_of(cells, i);
     double w = 0, w_sq = 0, per_m = 0;
-    double runs = 0;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       w += rows[k].weight;
       w_sq += static_cast<double>(rows[k].weight) * rows[k].weight;
-      if (k == 0 || rows[k].run != rows[k - 1].run) runs += weight_of_run(released, rows[k].run);
       per_m += 1 / (width_across(rows[k].heading) * cell_size);
     }
-    const double share = total > 0 ? std::min(1.0, w / total) : 0;
-    weigh_runs(
-        rows, [](const MapRow&) { return true; }, parts);
-    const Interval interval = share_interval(basis, parts, share);
-    const double of_all = std::min(1.0, runs / basis.runs.whole);
-    const Interval of_runs = run_share_interval(basis, parts);
-    const std::array values = {static_cast<double>(rows.size()),
-                               share,
-                               interval.low,
-                               interval.high,
-                               of_all,
-                               of_runs.low,
-                               of_runs.high,
-                               per_m,
-                               effective_size(w, w_sq)};
+    const double share = take_blocks(rows, basis, all, blocks);
+    const Interval interval = share_interval(basis, blocks, share);
+    const Interval of_runs = run_share_interval(basis, blocks);
+    const std::array values = {
+        static_cast<double>(rows.size()), share,       interval.low, interval.high,
+        share_of_runs(basis, blocks),     of_runs.low, of_runs.high, per_m,
+        effective_size(w, w_sq)};
     for (std::size_t b = 0; b < values.size(); ++b)
       layer.bands[b].value[i] = static_cast<float>(values[b]);
   }
   return layer;
 }
 
-double reach_bound_elsewhere(const Released& released) {
-  return run_share_interval(share_basis_of(released), 0.0).high;
+double reach_bound_elsewhere(const ShareBasis& basis) {
+  return run_share_interval(basis, 0.0).high;
 }
 
-int runs_to_add(const CellRows& cells, const Released& released, double half) {
-  const double total = sum(released.weight);
-  const ShareBasis basis = share_basis_of(released);
-  std::vector<RunWeight> parts;
-  int most = 0;
-  for (std::size_t i = 0; i < cells.cell.size() && basis.bounded && total > 0; ++i) {
-    weigh_runs(
-        rows_of(cells, i), [](const MapRow&) { return true; }, parts);
-    double w = 0;
-    for (const RunWeight& part : parts) w += part.weight;
-    const double share = std::min(1.0, w / total);
+RunsToAdd runs_to_add(const CellRows& cells, const ShareBasis& basis, double half) {
+  std::vector<BlockWeight> blocks;
+  RunsToAdd most;
+  for (std::size_t i = 0; i < cells.cell.size() && basis.bounded; ++i) {
+    const double share = take_blocks(rows_of(cells, i), basis, all, blocks);
     if (share <= least_reach) continue;
-    most =
-        std::max(most, runs_to_add(n_runs(released), trials_of(basis, parts, share), share, half));
+    const RunsToAdd here = runs_to_add(basis, blocks, share, half);
+    most = {std::max(most.n, here.n), most.help && here.help};
   }
   return most;
 }
 
-MapLayer exceedance_layer(const CellRows& cells, const Released& released) {
+MapLayer exceedance_layer(const CellRows& cells, const ShareBasis& basis) {
   MapLayer layer{"", cells.cell, {}};
-  const double total = sum(released.weight);
-  const ShareBasis basis = share_basis_of(released);
   const std::size_t n = cells.cell.size();
-  std::vector<RunWeight> parts;
+  std::vector<BlockWeight> blocks;
   for (const int limit_kj : {30, 300}) {
     const std::string name = "p_exceed_" + std::to_string(limit_kj) + "kJ";
     MapBand out =
@@ -293,13 +250,10 @@ MapLayer exceedance_layer(const CellRows& cells, const Released& released) {
                 band(name + "_hi", "1", "upper bound of the 95 % interval of " + name + nodata, n);
     for (std::size_t i = 0; i < n; ++i) {
       const float limit = 1e3F * static_cast<float>(limit_kj);
-      weigh_runs(
-          rows_of(cells, i), [limit](const MapRow& r) { return r.largest.total_energy > limit; },
-          parts);
-      double w = 0;
-      for (const RunWeight& part : parts) w += part.weight;
-      const double share = total > 0 ? std::min(1.0, w / total) : 0;
-      const Interval interval = share_interval(basis, parts, share);
+      const double share = take_blocks(
+          rows_of(cells, i), basis,
+          [limit](const MapRow& r) { return r.largest.total_energy > limit; }, blocks);
+      const Interval interval = share_interval(basis, blocks, share);
       out.value[i] = static_cast<float>(share);
       low.value[i] = static_cast<float>(interval.low);
       high.value[i] = static_cast<float>(interval.high);

@@ -19,18 +19,6 @@
 
 namespace talus {
 
-/// What was released: the denominators.
-struct Released {
-  std::vector<double> weight;  ///< sum over the run's blocks                       (n_runs)
-  std::vector<int> n_blocks;   ///<                                                 (n_runs)
-  double failed_share = 0;     ///< of the runs that were wanted, left out here [-]
-  std::vector<double> run_weight = {};  ///< empty: 1 each                          (n_runs)
-  std::vector<int> unit{};  ///< see units_of(); empty: each run is its own      (n_runs)
-};
-
-/// What the intervals of shares rest on.
-[[nodiscard]] ShareBasis share_basis_of(const Released& released);
-
 struct MapSettings {
   int min_passages = 0;  ///< for any percentile; 0: Wilks (5, 29, 59, 299 for p50 to p99)
 };
@@ -62,20 +50,21 @@ enum class MapQuantity {
 
 /// Mean, percentiles with bounds, and maximum; their names begin with that of the layer.
 [[nodiscard]] MapLayer quantity_layer(const std::string& name, const CellRows& cells,
-                                      MapQuantity quantity, const Released& released,
+                                      MapQuantity quantity, const ShareBasis& basis,
                                       const MapSettings& settings);
 /// n_pass, reach_probability and share of runs with bounds, passage_per_m, n_eff.
 [[nodiscard]] MapLayer reach_layer(const CellRows& cells, double cell_size,
-                                   const Released& released);
+                                   const ShareBasis& basis);
 /// The upper 95 % bound of the share of runs that come over a cell that none came over.
-[[nodiscard]] double reach_bound_elsewhere(const Released& released);
+[[nodiscard]] double reach_bound_elsewhere(const ShareBasis& basis);
 /// Shares of reach that are worth more runs [-].
 inline constexpr double least_reach = 0.01;
 /// Runs to add so that the interval of reach_probability is nowhere wider than 2 `half` where it is
-/// above least_reach; 0: none, also where there are too few runs to tell.
-[[nodiscard]] int runs_to_add(const CellRows& cells, const Released& released, double half);
+/// above least_reach; 0: none, also where there are too few runs to tell. They help where they help
+/// every such cell.
+[[nodiscard]] RunsToAdd runs_to_add(const CellRows& cells, const ShareBasis& basis, double half);
 /// p_exceed_30kJ, p_exceed_300kJ with bounds.
-[[nodiscard]] MapLayer exceedance_layer(const CellRows& cells, const Released& released);
+[[nodiscard]] MapLayer exceedance_layer(const CellRows& cells, const ShareBasis& basis);
 /// first_arrival.
 [[nodiscard]] MapLayer arrival_layer(const CellRows& cells);
 /// energy_line_angle.

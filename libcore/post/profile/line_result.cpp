@@ -36,14 +36,15 @@ Envelope envelope_of(const std::vector<CellValue>& values, double CellValue::*qu
 }
 
 // By the runs' weights, of the runs that have passages.
-double share_of_runs(const LineSums& sums, const std::vector<CellValue>& values) {
+double share_of_runs(const LineSums& sums, const ShareBasis& basis,
+                     const std::vector<CellValue>& values) {
   std::set<int> runs;
   for (const CellValue& value : values) runs.insert(value.run);
   double hit = 0, all = 0;
   for (int r = 0; r < n_runs(sums); ++r) {
     if (!sums.has_passages[r]) continue;
-    all += sums.released.run_weight[r];
-    if (runs.count(r) > 0) hit += sums.released.run_weight[r];
+    all += basis.clusters.run_weight[r];
+    if (runs.count(r) > 0) hit += basis.clusters.run_weight[r];
   }
   return all > 0 ? hit / all : none;
 }
@@ -79,43 +80,35 @@ AcrossSummary across_summary(const LineSums& sums, const ShareBasis& basis, doub
   out.from = from;
   out.to = to;
   const bool is_last = to >= sums.line.chainage.back();
-  const double all_runs =
-      std::accumulate(sums.released.run_weight.begin(), sums.released.run_weight.end(), 0.0);
   std::vector<FenceArrival> arrivals;
-  std::vector<RunWeight> parts;
-  double mass = 0, blocks = 0, weight = 0;
+  std::vector<BlockWeight> blocks;
+  double mass = 0, weight_of_runs = 0, weight = 0;
   out.first_arrival = none;
   for (const LineCrossing& crossing : sums.crossings) {
     const FenceArrival& at = crossing.at;
     if (at.chainage < from || (at.chainage >= to && !is_last)) continue;
     arrivals.push_back(at);
-    if (parts.empty() || parts.back().run != at.run) {
-      parts.push_back({at.run, 0});
-      out.share_of_runs += crossing.run_weight / all_runs;
-    }
-    parts.back().weight += at.weight;
+    out.n_runs_hit += blocks.empty() || blocks.back().run != at.run;
+    blocks.push_back({at.run, at.block, at.weight});
     weight += at.weight;
     mass += crossing.run_weight * crossing.mass;
-    blocks += crossing.run_weight;
+    weight_of_runs += crossing.run_weight;
     out.first_arrival = std::fmin(out.first_arrival, at.time);
   }
-  const double released =
-      std::accumulate(sums.released.weight.begin(), sums.released.weight.end(), 0.0);
-  out.blocks = summarise(arrivals, n_runs(sums), sums.released.unit);
-  out.n_runs_hit = static_cast<int>(parts.size());
-  out.share_of_runs = std::min(1.0, out.share_of_runs);
-  out.interval_of_runs = run_share_interval(basis, parts);
-  out.a_run = blocks / all_runs;
-  out.share_of_blocks = std::min(1.0, weight / released);
-  out.interval_of_blocks = parts.empty() ? interval_of_none_or_all(basis, false)
-                                         : share_interval(basis, parts, out.share_of_blocks);
-  out.mass_a_run = mass / all_runs;
+  out.blocks = summarise(arrivals, basis.clusters);
+  out.share_of_runs = talus::share_of_runs(basis, blocks);
+  out.interval_of_runs = run_share_interval(basis, blocks);
+  out.a_run = weight_of_runs / basis.runs.whole;
+  out.share_of_blocks = std::min(1.0, weight / basis.over.whole);
+  out.interval_of_blocks = blocks.empty() ? interval_of_none_or_all(basis, false)
+                                          : share_interval(basis, blocks, out.share_of_blocks);
+  out.mass_a_run = mass / basis.runs.whole;
   out.share_of_mass =
       std::min(1.0, mass / std::accumulate(sums.mass.begin(), sums.mass.end(), 0.0));
   return out;
 }
 
-std::vector<StationSummary> station_summaries(const LineSums& sums) {
+std::vector<StationSummary> station_summaries(const LineSums& sums, const ShareBasis& basis) {
   std::vector<StationSummary> out;
   for (std::size_t i = 0; i < sums.line.points.size(); ++i) {
     StationSummary station;
@@ -126,7 +119,7 @@ std::vector<StationSummary> station_summaries(const LineSums& sums) {
     const auto found = cell == nullptr ? sums.values.end() : sums.values.find(cell->cell);
     const std::vector<CellValue>& values = found == sums.values.end() ? nothing : found->second;
     station.n_blocks = static_cast<int>(values.size());
-    station.share_of_runs = share_of_runs(sums, values);
+    station.share_of_runs = share_of_runs(sums, basis, values);
     station.energy = envelope_of(values, &CellValue::energy);
     station.speed = envelope_of(values, &CellValue::speed);
     station.top = envelope_of(values, &CellValue::top);

@@ -22,7 +22,7 @@ struct AcrossSummary {
   Interval interval_of_runs;    ///< 95 %; NaN: too few runs
   double a_run = 0;             ///< blocks, mean over the runs by their weights
   double share_of_blocks = 0;   ///< of the released blocks, by weight [-]
-  Interval interval_of_blocks;  ///< 95 %; NaN: too few runs
+  Interval interval_of_blocks;  ///< 95 %; NaN: too few clusters
   double mass_a_run = 0;        ///< mean over the runs by their weights [kg]
   double share_of_mass = 0;     ///< of the released mass [-]
   double first_arrival = 0;     ///< NaN: nothing crosses [s]
@@ -48,7 +48,8 @@ struct StationSummary {
   double share_of_runs = 0;     ///< with passages, by weight; NaN: none has any [-]
   Envelope energy, speed, top;  ///< with rotation [J]; [m/s]; above the ground [m]
 };
-[[nodiscard]] std::vector<StationSummary> station_summaries(const LineSums& sums);
+[[nodiscard]] std::vector<StationSummary> station_summaries(const LineSums& sums,
+                                                            const ShareBasis& basis);
 
 /// Change of energy between the two frames about a crossing, over the energy at it: what the error
 /// of that energy mostly stays below.

@@ -178,14 +178,8 @@ bool has_frames(const RunFile& run) { return !run.reach && n_frames(run.frames) 
 
 void add_run(LineSums& sums, const RunFile& run, const Trn& trn) {
   const int index = n_runs(sums);
-  double released = 0, mass = 0;
-  for (int b = 0; b < n_blocks(run); ++b) {
-    released += weight_of(run, b);
-    mass += run.run_weight * run.blocks.mass[b];
-  }
-  sums.released.weight.push_back(released);
-  sums.released.n_blocks.push_back(n_blocks(run));
-  sums.released.run_weight.push_back(run.run_weight);
+  double mass = 0;
+  for (int b = 0; b < n_blocks(run); ++b) mass += run.run_weight * run.blocks.mass[b];
   sums.mass.push_back(mass);
   sums.has_passages.push_back(run.grid.n_rows > 0);
   if (run.grid.n_rows > 0 && sums.grid.n_rows == 0) find_cells(sums, run.grid);

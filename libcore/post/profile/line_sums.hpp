@@ -58,16 +58,13 @@ struct LineSums {
   std::vector<LineCell> cells;                          ///< under the line, in its order
   std::map<std::uint32_t, std::size_t> of_cell;         ///< cell -> first of `cells`
   std::map<std::uint32_t, std::vector<CellValue>> values;  ///< by cell, as far as blocks came
-  Released released;                                       ///< of all runs
   std::vector<double> mass;             ///< of each run, times its weight [kg] (n_runs)
   std::vector<bool> has_passages;       ///<                                    (n_runs)
   int n_by_frames = 0, n_by_cells = 0;  ///< runs
   double frame_interval = 0;            ///< longest of the runs with frames [s]
   bool by_centroid = false;             ///< some runs passed cells by centroids alone
 };
-[[nodiscard]] inline int n_runs(const LineSums& sums) {
-  return static_cast<int>(sums.released.weight.size());
-}
+[[nodiscard]] inline int n_runs(const LineSums& sums) { return static_cast<int>(sums.mass.size()); }
 
 /// `line`: with a point at each station.
 [[nodiscard]] LineSums start_line(RecordLine line);

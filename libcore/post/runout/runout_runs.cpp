@@ -88,9 +88,6 @@ RunoutRuns add_up(RunoutSums sums) {
     for (std::size_t b = 0; b < r.mass.size(); ++b)
       displacement.push_back({r.displacement[b], r.member.run_weight * counted(r, b)});
     add(out.balance, r.balance);
-    out.released.weight.push_back(r.member.weight);
-    out.released.n_blocks.push_back(r.member.n_blocks);
-    out.released.run_weight.push_back(r.member.run_weight);
   }
   for (std::size_t cell = 0; cell < sums.is_passed.size(); ++cell)
     if (sums.is_passed[cell] != 0) out.cells.push_back(static_cast<std::uint32_t>(cell));

@@ -56,7 +56,6 @@ struct RunoutRuns {
   Balance balance;
   std::vector<std::uint32_t> cells;  ///< that any block of any run passed, ascending
   DepositSums deposit;
-  Released released;
   Moved moved;       ///< the mass of all runs together, each with its weight
   PassageGrid grid;  ///< of cells and deposit
 };

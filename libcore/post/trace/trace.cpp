@@ -131,10 +131,9 @@ void add_cell_hits(CellHits& hits, const ObjectCells& cells, const std::vector<P
 }
 
 void add_run(TraceSums& sums, const RunFile& run, double rest_speed, bool by_cells) {
-  const auto index = static_cast<std::int32_t>(sums.released.size());
+  const auto index = static_cast<std::int32_t>(sums.n_runs);
   sums.n_recorded.resize(sums.objects.size(), 0);
   sums.deposited.resize(sums.objects.size(), 0);
-  double released = 0;
   for (int b = 0; b < n_blocks(run); ++b) {
     const auto i = static_cast<std::size_t>(b);
     TraceSource& source = sums.source[source_of(sums.sources, run.blocks.rest[i].position)];
@@ -142,7 +141,6 @@ void add_run(TraceSums& sums, const RunFile& run, double rest_speed, bool by_cel
     ++source.n;
     source.weight += weight;
     source.volume += run.blocks.volume[i];
-    released += weight;
     ++sums.n_released;
     sums.volume_released += run.blocks.volume[i];
     if (fate_of(run, b, rest_speed) != Fate::deposited) continue;
@@ -151,8 +149,7 @@ void add_run(TraceSums& sums, const RunFile& run, double rest_speed, bool by_cel
     for (std::size_t o = 0; o < sums.objects.size(); ++o)
       if (has_moved && gap_to(sums.objects[o], end) <= 0) sums.deposited[o] += run.blocks.volume[i];
   }
-  sums.single_blocks = sums.single_blocks && n_blocks(run) <= 1;
-  sums.released.push_back(released);
+  ++sums.n_runs;
   for (std::size_t o = 0; o < sums.objects.size(); ++o) {
     const int watched = by_cells ? -1 : watched_as(run, sums.objects[o]);
     if (watched < 0) continue;
@@ -207,13 +204,13 @@ TracePercentiles percentiles_of(std::vector<TraceHit> hits, const ShareBasis& ba
     return std::tie(a.energy, a.run, a.block) < std::tie(b.energy, b.run, b.block);
   });
   std::vector<WeightedValue> values;
-  std::vector<RunWeight> runs;
+  std::vector<BlockWeight> blocks;
   for (const TraceHit& hit : hits) {
     values.push_back({hit.energy / 1e3, hit.weight});
-    runs.push_back({hit.run, hit.weight});
+    blocks.push_back({hit.run, hit.block, hit.weight});
   }
-  PercentileBounds bounds(basis.over.n_runs, 200, 1, basis.unit);
-  const BoundPlaces places = upper_bound_places(bounds, runs);
+  PercentileBounds bounds{basis.clusters, 200};
+  const BoundPlaces places = upper_bound_places(bounds, blocks);
   out.p50 = weighted_percentile(values, 0.5);
   if (static_cast<int>(hits.size()) >= smallest_sample(0.95))
     out.p95 = weighted_percentile(values, 0.95);
@@ -250,34 +247,33 @@ ObjectTrace object_trace(const TraceSums& sums, int object, const ShareBasis& ba
   std::vector<TraceHit> hits;
   for (const TraceHit& hit : sums.hits)
     if (hit.object == object) hits.push_back(hit);
-  std::vector<RunWeight> parts;
+  std::vector<BlockWeight> blocks;
   std::vector<WeightedValue> heights;
   double weight = 0, volume = 0;
   out.first_arrival = hits.empty() ? none : std::numeric_limits<double>::infinity();
   for (const TraceHit& hit : hits) {
-    if (parts.empty() || parts.back().run != hit.run) parts.push_back({hit.run, 0});
-    parts.back().weight += hit.weight;
+    if (blocks.empty() || blocks.back().run != hit.run) ++out.n_runs_hit;
+    blocks.push_back({hit.run, hit.block, hit.weight});
     weight += hit.weight;
     volume += hit.volume;
     out.first_arrival = std::min(out.first_arrival, hit.time);
     if (!std::isnan(hit.top_height)) heights.push_back({hit.top_height, hit.weight});
   }
-  const double n = n_runs(sums);
+  const double n = sums.n_runs;
   out.n_hits = static_cast<int>(hits.size());
-  out.n_runs_hit = static_cast<int>(parts.size());
   out.run_share = out.n_runs_hit / n;
-  out.run_share_interval = run_share_interval(basis, parts);
+  out.run_share_interval = run_share_interval(basis, blocks);
   out.hits_a_run = out.n_hits / n;
   out.weight_share = std::min(1.0, weight / basis.over.whole);
-  out.weight_share_interval = share_interval(basis, parts, out.weight_share);
+  out.weight_share_interval = share_interval(basis, blocks, out.weight_share);
   out.volume_share = volume / sums.volume_released;
   out.energy = percentiles_of(hits, basis);
   out.top_height_p95 = heights.empty() ? none : p95_or_largest(heights);
   const auto o = static_cast<std::size_t>(object);
   out.deposited_a_run = sums.deposited[o] / n;
-  out.method = sums.n_recorded[o] == n_runs(sums) ? "recorded"
-               : sums.n_recorded[o] == 0          ? "by_cells"
-                                                  : "both";
+  out.method = sums.n_recorded[o] == sums.n_runs ? "recorded"
+               : sums.n_recorded[o] == 0         ? "by_cells"
+                                                 : "both";
   std::vector<double> shares;
   for (const SourceLink& link : links)
     if (link.object == object) shares.push_back(link.share_of_hits);

@@ -43,15 +43,11 @@ struct TraceSums {
   std::vector<RecordObject> objects;  ///< as asked for
   std::vector<TraceHit> hits;
   std::map<std::uint32_t, TraceSource> source;
-  std::vector<double> released;                ///< weight of each run                 (n_runs)
+  int n_runs = 0;
   std::vector<double> deposited;               ///< on each object, all runs [m3]      (n_objects)
   std::vector<int> n_recorded;                 ///< runs that watched the object       (n_objects)
   double n_released = 0, volume_released = 0;  ///< all runs together
-  bool single_blocks = true;
 };
-[[nodiscard]] inline int n_runs(const TraceSums& sums) {
-  return static_cast<int>(sums.released.size());
-}
 
 /// Cells of a grid that lie within a few millimetres of an object, ascending: no block on it is
 /// over none of them.

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "ensemble/run_set.hpp"
+#include "ensemble/run_tags.hpp"
 
 using namespace talus;
 
@@ -96,15 +97,15 @@ TEST(RunSet, RunsThatAreTheSameButForTheirSeedCountOnce) {
   file.info.run_id = "c";
   const RunMember third = member_of("run_3.h5", file);
   EXPECT_EQ(n_repeats({first, second, third}), 2);
-  EXPECT_EQ(units_of({first, second, third}), (std::vector<int>{0, 0, 0}));
+  EXPECT_EQ(units_of(std::vector<RunMember>{first, second, third}), (std::vector<int>{0, 0, 0}));
   EXPECT_EQ(repeats_text({first, second, third}),
             "2 of 3 runs repeat another one: their seeds draw nothing");
   EXPECT_EQ(tag({first, second, third}, "N_REPEATS"), "2");
   file.info.case_name = "far";
   const RunMember other = member_of("far/run_2.h5", file);
-  EXPECT_EQ(units_of({second, other, first}), (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(units_of(std::vector<RunMember>{second, other, first}), (std::vector<int>{0, 1, 0}));
   EXPECT_EQ(repeats_text({first, other}), "");
-  EXPECT_TRUE(units_of({second, other}).empty());
+  EXPECT_TRUE(units_of(std::vector<RunMember>{second, other}).empty());
   file.info.seed_draws = true;
   EXPECT_EQ(n_repeats({member_of("run_1.h5", file), member_of("run_2.h5", file)}), 0);
 }
@@ -122,14 +123,16 @@ TEST(RunSet, RunsOfSeveralRockMassesBelongTogetherOnTheTerrainBefore) {
   EXPECT_NO_THROW(check_member(second, first, {"trn.tif", "sha of trn.tif", "ground"}));
   EXPECT_THROW(check_member(second, first, {"bed_1.tif", "bed 1", "digest of bed 1"}), InputError);
   EXPECT_THROW(check_member(second, first, {"other.tif", "sha", "other"}), InputError);
-  EXPECT_EQ(units_of({first, second, first}), (std::vector<int>{0, 1, 0}));
-  EXPECT_TRUE(units_of({first, second}).empty());  // each has a mass of its own
-  EXPECT_TRUE(units_of({first, first}).empty());   // one mass: nothing is said of others
+  EXPECT_EQ(units_of(std::vector<RunMember>{first, second, first}), (std::vector<int>{0, 1, 0}));
+  EXPECT_TRUE(
+      units_of(std::vector<RunMember>{first, second}).empty());  // each has a mass of its own
+  EXPECT_TRUE(units_of(std::vector<RunMember>{first, first})
+                  .empty());  // one mass: nothing is said of others
   RunMember plain = first;
   plain.info.terrain_digest.clear();
   RunMember other = plain;
   other.info.blocks_hash = "blocks 2";
-  EXPECT_TRUE(units_of({plain, other, plain}).empty());
+  EXPECT_TRUE(units_of(std::vector<RunMember>{plain, other, plain}).empty());
 }
 
 // Cases of 1 and 3 runs that shall count 1 : 1: the lone run counts for three of the others.

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "ensemble/clusters.hpp"
 #include "post/deposit.hpp"
 #include "record/run_file.hpp"
 #include "terrain/trn.hpp"
@@ -56,6 +59,24 @@ inline FrameBlock standing(const Vec3& position) {
   FrameBlock at;
   at.position = position;
   return at;
+}
+
+/// Clusters of runs that released these weights in `n_blocks` blocks each. `mass`: the rock mass
+/// that each moved; empty: there is one. `run_weight`: empty: 1 each.
+inline Clusters clusters_of_runs(const std::vector<double>& weight, int n_blocks,
+                                 const std::vector<int>& mass = {},
+                                 const std::vector<double>& run_weight = {}) {
+  std::vector<RunMember> runs(weight.size());
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    runs[r].weight = weight[r];
+    runs[r].n_blocks = n_blocks;
+    if (!run_weight.empty()) runs[r].run_weight = run_weight[r];
+    if (!mass.empty()) {
+      runs[r].info.terrain_digest = "before the slide";
+      runs[r].info.blocks_hash = std::to_string(mass[r]);
+    }
+  }
+  return clusters_of(runs);
 }
 
 }  // namespace talus::testing

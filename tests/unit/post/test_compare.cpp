@@ -4,8 +4,10 @@
 
 #include "base/random.hpp"
 #include "post/maps/compare.hpp"
+#include "run_maker.hpp"
 
 using namespace talus;
+using namespace talus::testing;
 
 namespace {
 
@@ -13,7 +15,7 @@ namespace {
 // of `speed` (1 + u).
 struct Made {
   CellRows cells;
-  Released released;
+  ShareBasis basis;
 };
 Made runs_over(int n_runs, double share, double speed, std::uint64_t seed) {
   Random random(seed);
@@ -27,8 +29,7 @@ Made runs_over(int n_runs, double share, double speed, std::uint64_t seed) {
   }
   Made made;
   made.cells = group_by_cell(std::move(rows), 20);
-  made.released.weight.assign(n_runs, 1);
-  made.released.n_blocks.assign(n_runs, 1);
+  made.basis = share_basis(clusters_of_runs(std::vector<double>(n_runs, 1), 1));
   return made;
 }
 
@@ -57,7 +58,7 @@ TEST(ComparisonLayer, HoldsTheTrueDifference) {
   constexpr int n_trials = 200;
   for (int trial = 0; trial < n_trials; ++trial) {
     const Made a = runs_over(150, 0.5, 10, 2 * trial), b = runs_over(200, 0.7, 12, 2 * trial + 1);
-    const MapLayer layer = comparison_layer({a.cells, a.released}, {b.cells, b.released});
+    const MapLayer layer = comparison_layer({a.cells, a.basis}, {b.cells, b.basis});
     ASSERT_EQ(layer.cell, std::vector<std::uint32_t>{7});
     const auto holds = [&](const std::string& name, double truth) {
       const std::size_t band = band_of(layer, name);
@@ -74,7 +75,7 @@ TEST(ComparisonLayer, HoldsTheTrueDifference) {
 // percentile to compare.
 TEST(ComparisonLayer, OfACellThatOneSideNeverReached) {
   const Made a = runs_over(100, 0, 10, 1), b = runs_over(100, 0.6, 10, 2);
-  const MapLayer layer = comparison_layer({a.cells, a.released}, {b.cells, b.released});
+  const MapLayer layer = comparison_layer({a.cells, a.basis}, {b.cells, b.basis});
   const double share = layer.bands[0].value[0];
   EXPECT_NEAR(share, 0.6, 0.15);
   const Interval i = wilson_interval(share, 100);

@@ -114,7 +114,6 @@ TEST(Balance, ClosesOverAllFates) {
 TEST(DepositLayer, HoldsTheDepositedVolume) {
   Random random(2);
   DepositSums sums;
-  Released released;
   double volume = 0;
   for (int r = 0; r < 3; ++r) {
     RunFile run;
@@ -129,10 +128,9 @@ TEST(DepositLayer, HoldsTheDepositedVolume) {
     }
     add_frame(run, 0, frame);
     add_deposit(sums, grid, run, 0.05);
-    released.weight.push_back(4);
-    released.n_blocks.push_back(4);
   }
-  const MapLayer layer = deposit_layer(sums, grid.cell_size, released);
+  const MapLayer layer =
+      deposit_layer(sums, grid.cell_size, share_basis(clusters_of_runs({4, 4, 4}, 4)));
   double count = 0, fraction = 0, thickness = 0;
   for (std::size_t i = 0; i < layer.cell.size(); ++i) {
     count += layer.bands[0].value[i];

@@ -192,7 +192,7 @@ TEST(Summarise, GivesPercentilesWithBoundsOfIndependentRuns) {
     list.push_back(a);
   }
   std::sort(energies.begin(), energies.end());
-  const FencePartSummary s = summarise(list, 150);
+  const FencePartSummary s = summarise(list, clusters_of_runs(std::vector<double>(150, 1), 1));
   EXPECT_EQ(s.n, 120);
   EXPECT_DOUBLE_EQ(s.per_run, 0.8);
   EXPECT_EQ(s.energy.largest, energies.back());
@@ -210,7 +210,8 @@ TEST(Summarise, AddsUpTheHitsOfOneSecond) {
   const std::vector<double> times = {0.9, 0, 5, 0.4, 1.3},
                             energies = {40e3, 10e3, 70e3, 20e3, 30e3};
   for (int i = 0; i < 5; ++i) add_crossing(run, 5, 1, 1, energies[i], times[i]);
-  const FencePartSummary s = summarise(arrivals(run, 0, straight_fence(), 0), 1);
+  const FencePartSummary s =
+      summarise(arrivals(run, 0, straight_fence(), 0), clusters_of_runs({5}, 5));
   EXPECT_DOUBLE_EQ(s.window_energy, 90e3);
   EXPECT_EQ(s.window_hits, 3);
   EXPECT_EQ(s.most_in_a_run, 5);
@@ -468,6 +469,7 @@ TEST(FenceResult, TakesTheDesignBlockFromTheBlocksThatArrive) {
   run.lines = {fence.line};
   FenceRuns runs;
   runs.with.members = {member_of("run_1.h5", run)};
+  runs.with.clusters = clusters_of(runs.with.members);
   runs.with.runs = {run_at_fences(run, 0, {fence}, {0}, uni(), {0.5, 0.05}, trn)};
   FenceResultSettings settings;
   settings.design.block_volume = settings.design.deflection = settings.design.distance_to_object =
@@ -592,17 +594,18 @@ TEST(FenceShares, WeighRunsAsIfTheyStoodThereSoManyTimes) {
   crossing.passed_for_good = true;
   crossing.volume = 2;
   far.at_fence[0].crossings = {crossing};
-  const FenceRunGroup repeated{std::vector<RunMember>(4), {near, far, far, far}};
+  const FenceRunGroup repeated{std::vector<RunMember>(4), {near, far, far, far}, {}};
   far.run_weight = 3;
   far.weight = {3};
   far.at_fence[0].crossings[0].weight = 3;
-  const FenceRunGroup weighed{std::vector<RunMember>(2), {near, far}};
+  const FenceRunGroup weighed{
+      std::vector<RunMember>(2), {near, far}, clusters_of_runs({1, 3}, 1, {}, {1, 3})};
   const GroundBehind a = ground_behind(weighed, 0), b = ground_behind(repeated, 0);
   EXPECT_DOUBLE_EQ(a.share, 0.75);
   EXPECT_DOUBLE_EQ(a.share, b.share);
   EXPECT_DOUBLE_EQ(a.volume, b.volume);
   EXPECT_DOUBLE_EQ(a.path, 80);
   EXPECT_DOUBLE_EQ(a.path, b.path);
-  EXPECT_DOUBLE_EQ(verdict_share(weighed, 0, Verdict::pierced, verdict_basis(weighed, 0)).share,
+  EXPECT_DOUBLE_EQ(verdict_share(weighed, 0, Verdict::pierced, share_basis(weighed.clusters)).share,
                    0.75);
 }

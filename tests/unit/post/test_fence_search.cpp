@@ -84,13 +84,13 @@ void add_run(Slope& scene, const std::vector<std::vector<double>>& chainage,
       hit.matters = true;
       scene.lines[l].hits.push_back(hit);
     }
-  runs.weight.push_back(static_cast<double>(n));
-  runs.n_hits.push_back(static_cast<int>(n));
+  for (int b = 0; b < static_cast<int>(n); ++b)
+    runs.on_object.push_back({{runs.n_runs, b, 1}, runs.n_blocks + b});
   runs.n_blocks += static_cast<int>(n);
   ++runs.n_runs;
   runs.density = 2600;
   runs.mean_block_size = 1;
-  runs.basis = share_basis(runs.weight, false);
+  runs.basis = share_basis(clusters_of_runs(std::vector<double>(runs.n_runs, 2), 2));
 }
 
 FenceSearchResult searched(const Slope& scene, const SearchSettings& settings) {
@@ -250,7 +250,7 @@ TEST(FenceSearch, FiveBlocksAtOncePassAFieldThatHoldsEachOfThem) {
   EXPECT_TRUE(single.hit.empty());
   const ScreenOutcome sum = follow(scene.runs, scene.lines, {placed});
   EXPECT_DOUBLE_EQ(sum.stopped, 0.4);  // the third block breaks the field
-  EXPECT_EQ(sum.hit.size(), 12u);
+  EXPECT_EQ(sum.hit.size(), 36u);
   const FenceOption option =
       option_of(scene.runs, scene.lines, {placed}, plain_code(), plain_settings(0.2), scene.trn);
   EXPECT_NE(std::find(option.faults.begin(), option.faults.end(), SearchFault::energy),
@@ -398,14 +398,13 @@ RefinedFence refined_for(const std::vector<double>& places, double share, int en
   for (int r = 0; r < 12; ++r) {
     add_paths(paths, run, r, n * r, std::vector<double>(places.size(), 9),
               {{{{80, 0}, {80, 80}}}, 20});
-    runs.weight.push_back(n);
-    runs.n_hits.push_back(n);
+    for (int b = 0; b < n; ++b) runs.on_object.push_back({{r, b, 1}, n * r + b});
   }
   runs.n_runs = 12;
   runs.n_blocks = 12 * n;
   runs.density = 2000;
   runs.mean_block_size = 0.5;
-  runs.basis = share_basis(runs.weight, false);
+  runs.basis = share_basis(clusters_of_runs(std::vector<double>(12, n), 2));
   SearchSettings settings = plain_settings(0.2);
   settings.capacities = {370e3, 500e3};
   settings.prices_per_m = {1, 2};

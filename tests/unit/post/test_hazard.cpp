@@ -4,10 +4,12 @@
 
 #include "base/read_file.hpp"
 #include "post/hazard/hazard_maps.hpp"
+#include "run_maker.hpp"
 
 namespace {
 
-using namespace talus;  // NOLINT: a test
+using namespace talus;           // NOLINT: a test
+using namespace talus::testing;  // NOLINT: a test
 
 std::string shipped() {
   return read_file(std::string(TALUS_SOURCE_DIR) + "/share/hazard/switzerland_ti.toml");
@@ -51,7 +53,7 @@ HazardRuns runs_of(double frequency, int first, int n) {
   runs.first = first;
   runs.n = n;
   const std::vector<double> released(static_cast<std::size_t>(n), 1);
-  runs.basis = share_basis(released, true);
+  runs.basis = share_basis(clusters_of_runs(released, 1));
   return runs;
 }
 
@@ -85,7 +87,7 @@ std::string refusal_of_runs(const HazardClass& kind, const std::vector<RunMember
   return "accepted";
 }
 
-EventRow row(int run, float energy) { return {7, run, energy, energy, 1}; }
+EventRow row(int run, float energy) { return {7, run, 0, energy, energy, 1}; }
 
 std::string class_of_periods(const Recipe& recipe, double any, double medium, double strong) {
   const auto rate = [](double period) { return period > 0 ? 1 / period : 0; };
@@ -189,7 +191,7 @@ TEST(Hazard, OfASingleFailureHasAProbabilityAndAnEquivalentRate) {
 TEST(Hazard, OfAMassCountsRunsNotBlocks) {
   // 12 of 40 runs with blocks above 300 kJ, each of 50 blocks: T 667 a, 440 to 1,107 a.
   std::vector<HazardRuns> classes{runs_of(1.0 / 200, 0, 40)};
-  classes[0].basis = share_basis(std::vector<double>(40, 50), false);
+  classes[0].basis = share_basis(clusters_of_runs(std::vector<double>(40, 50), 50));
   std::vector<EventRow> rows;
   for (int run = 0; run < 12; ++run)
     for (int block = 0; block < 3; ++block) rows.push_back(row(run, 350));
@@ -238,7 +240,8 @@ TEST(Hazard, OfWeightsIsTheSumOfTheBlocksFrequencies) {
       hazard_runs(kinds[0], members_of(20, 50, 0.01, true), 0, 0)};
   std::vector<EventRow> rows;
   for (int run = 0; run < 10; ++run)
-    for (const float energy : {20.0F, 40.0F}) rows.push_back({7, run, energy, energy, 0.01});
+    for (const float energy : {20.0F, 40.0F})
+      rows.push_back({7, run, energy > 30 ? 1 : 0, energy, energy, 0.01});
   sort_events(rows);
   HazardRates at(classes);
   const std::vector<Rate> rates = at.above(rows, std::vector<double>{30});
@@ -261,7 +264,7 @@ TEST(Hazard, OfSingleRocksCountsRocksHoweverManyARunHas) {
     std::vector<EventRow> rows;
     for (int run = 0; run < 20; ++run)
       for (int rock = 0; rock < n_rocks / 4; ++rock)
-        rows.push_back({7, run, rock % 2 == 0 ? 20.0F : 40.0F, 0, weight});
+        rows.push_back({7, run, rock, rock % 2 == 0 ? 20.0F : 40.0F, 0, weight});
     sort_events(rows);
     HazardRates at(classes);
     const Rate rate = at.above(rows, {})[0], share = at.shares_above(rows, {}, 0)[0];
@@ -339,7 +342,7 @@ TEST(Hazard, OfWeighedRunsGoesByTheirWeights) {
         hazard_runs(class_named("V1", FrequencyKind::of_events, 1), members, 0, 0)};
     std::vector<EventRow> rows;
     for (int run = 0; run < 10; ++run)
-      for (int rock = 0; rock < 4; ++rock) rows.push_back({7, run, 20, 20, 1.5});
+      for (int rock = 0; rock < 4; ++rock) rows.push_back({7, run, rock, 20, 20, 1.5});
     HazardRates at(classes);
     EXPECT_NEAR(at.above(rows, {})[0].value, 0.75, 1e-12);
   }
@@ -356,7 +359,7 @@ TEST(Hazard, OfRunsOfRockMassesCountsTheMasses) {
   HazardRuns runs = runs_of(0.5, 0, 40);
   std::vector<int> unit;
   for (int run = 0; run < 40; ++run) unit.push_back(run % 20);
-  runs.basis = share_basis(std::vector<double>(40, 1), true, 0, unit);
+  runs.basis = share_basis(clusters_of_runs(std::vector<double>(40, 1), 1, unit));
   const std::vector<HazardRuns> classes{runs};
   EXPECT_NEAR(largest_rate_elsewhere(classes), 0.5 * wilson_interval(0, 20).high, 1e-12);
   std::vector<EventRow> rows;  // five masses, both runs of each
@@ -365,8 +368,8 @@ TEST(Hazard, OfRunsOfRockMassesCountsTheMasses) {
   sort_events(rows);
   HazardRates at(classes);
   const Rate rate = at.above(rows, {})[0];
-  std::vector<RunWeight> hit;
-  for (const EventRow& r : rows) hit.push_back({r.run, 1});
+  std::vector<BlockWeight> hit;
+  for (const EventRow& r : rows) hit.push_back({r.run, 0, 1});
   const Interval wanted = run_share_interval(runs.basis, hit);
   EXPECT_NEAR(rate.value, 0.125, 1e-12);
   EXPECT_NEAR(rate.low, 0.5 * wanted.low, 1e-12);

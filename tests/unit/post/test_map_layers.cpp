@@ -8,8 +8,10 @@
 #include "base/random.hpp"
 #include "post/maps/map_layers.hpp"
 #include "post/maps/map_style.hpp"
+#include "run_maker.hpp"
 
 using namespace talus;
+using namespace talus::testing;
 
 namespace {
 
@@ -19,10 +21,10 @@ const PassageGrid grid{Vec2(0, 60), 2, 9, 11};
 struct MadeByHand {
   CellRows cells;
   DepositSums deposit;
-  Released released;
+  ShareBasis basis;
   MapSettings settings;
 
-  [[nodiscard]] MapSources sources() const { return {cells, deposit, 2, released, settings}; }
+  [[nodiscard]] MapSources sources() const { return {cells, deposit, 2, basis, settings}; }
 };
 
 MadeByHand some_runs(int n_runs) {
@@ -45,9 +47,8 @@ MadeByHand some_runs(int n_runs) {
       passages.push_back(p);
     }
     rows.push_back(map_rows(passages, grid, {grid, 1}, weight));
-    made.released.weight.push_back(1);
-    made.released.n_blocks.push_back(1);
   }
+  made.basis = share_basis(clusters_of_runs(std::vector<double>(n_runs, 1), 1));
   made.cells = group_by_cell(std::move(rows), static_cast<std::size_t>(grid.n_rows * grid.n_cols));
   if (n_runs > 0) made.deposit = {{{7, 1}}, {{7, 1}}, {{7, 12.5}}};
   return made;

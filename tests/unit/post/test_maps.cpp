@@ -4,14 +4,17 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "post/maps/maps.hpp"
 #include "post/statistics.hpp"
+#include "run_maker.hpp"
 
 using namespace talus;
+using namespace talus::testing;
 
 namespace {
 
@@ -26,15 +29,16 @@ struct HandMade {
   PassageGrid grid{Vec2(0, 60), 2, 9, 11};
   std::vector<HandMadeRun> runs;
 
-  [[nodiscard]] Released released() const {
-    Released r;
+  [[nodiscard]] ShareBasis basis(const std::vector<double>& run_weight = {},
+                                 double failed_share = 0) const {
+    std::vector<double> released;
+    std::size_t most = 0;
     for (const auto& run : runs) {
-      double sum = 0;
-      for (const double w : run.weight) sum += w;
-      r.weight.push_back(sum);
-      r.n_blocks.push_back(static_cast<int>(run.weight.size()));
+      released.push_back(std::accumulate(run.weight.begin(), run.weight.end(), 0.0));
+      most = std::max(most, run.weight.size());
     }
-    return r;
+    return share_basis(clusters_of_runs(released, static_cast<int>(most), {}, run_weight),
+                       failed_share);
   }
   [[nodiscard]] CellRows cells(const MapGrid& map) const {
     std::vector<std::vector<MapRow>> rows;
@@ -128,7 +132,7 @@ void expect_statistics(const HandMade& made, int factor, int min_passages) {
   MapSettings settings;
   settings.min_passages = min_passages;
   const MapLayer layer = quantity_layer("pass_height_centroid", cells, MapQuantity::centroid_height,
-                                        made.released(), settings);
+                                        made.basis(), settings);
   const auto known = by_cell(made, factor);
   ASSERT_EQ(cells.cell.size(), known.size());
   for (std::size_t i = 0; i < cells.cell.size(); ++i) {
@@ -178,7 +182,7 @@ TEST(QuantityLayer, BoundsPercentilesByRanksWhereRunsAreIndependent) {
       made.runs[run].passages.push_back(p);
     }
   const MapLayer layer =
-      quantity_layer("velocity", made.cells(), MapQuantity::speed, made.released(), {});
+      quantity_layer("velocity", made.cells(), MapQuantity::speed, made.basis(), {});
   const auto& p95 = band_named(layer, "velocity_p95").value;
   const auto& p95_hi = band_named(layer, "velocity_p95_hi").value;
   EXPECT_TRUE(std::isnan(p95[0]));
@@ -195,7 +199,7 @@ TEST(QuantityLayer, BoundsNothingFromASingleRun) {
   const HandMade one = random_runs(1, 500, false, 1, 4), many = random_runs(25, 20, false, 1, 4);
   const auto bound = [](const HandMade& made) {
     return band_named(quantity_layer("ke_total", made.cells(), MapQuantity::total_energy,
-                                     made.released(), {}),
+                                     made.basis(), {}),
                       "ke_total_p95_hi")
         .value[0];
   };
@@ -210,7 +214,7 @@ TEST(QuantityLayer, GivesEnergiesInKilojoule) {
   p.largest.total_energy = 41500;
   made.runs[0].passages = {p};
   const MapLayer layer =
-      quantity_layer("ke_total", made.cells(), MapQuantity::total_energy, made.released(), {});
+      quantity_layer("ke_total", made.cells(), MapQuantity::total_energy, made.basis(), {});
   EXPECT_FLOAT_EQ(band_named(layer, "ke_total_max").value[0], 41.5F);
   EXPECT_EQ(layer.bands[0].unit, "kJ");
 }
@@ -220,9 +224,9 @@ TEST(ReachLayer, CountsEachBlockOnceWithItsWeight) {
     const HandMade made = random_runs(7, 6, true, 0.2, 5);
     const MapGrid map = map_grid(made.grid, made.grid.cell_size * factor, "");
     const CellRows cells = made.cells(map);
-    const MapLayer layer = reach_layer(cells, map.grid.cell_size, made.released());
+    const MapLayer layer = reach_layer(cells, map.grid.cell_size, made.basis());
     double total = 0;
-    for (const double w : made.released().weight) total += w;
+    for (const double w : made.basis().clusters.weight) total += w;
     const auto known = by_cell(made, factor);
     for (std::size_t i = 0; i < cells.cell.size(); ++i) {
       const auto& blocks = known.at(static_cast<int>(cells.cell[i]));
@@ -248,7 +252,7 @@ TEST(ReachLayer, CountsEachBlockOnceWithItsWeight) {
 TEST(ReachLayer, BoundsTheProbabilityByWilsonForSingleBlocks) {
   HandMade made = random_runs(100, 1, false, 0, 1);
   for (int run = 0; run < 10; ++run) made.runs[run].passages = {Passage{}};
-  const MapLayer layer = reach_layer(made.cells(), 2, made.released());
+  const MapLayer layer = reach_layer(made.cells(), 2, made.basis());
   EXPECT_FLOAT_EQ(band_named(layer, "reach_probability").value[0], 0.1F);
   EXPECT_NEAR(band_named(layer, "reach_probability_lo").value[0], 0.05523, 1e-5);
   EXPECT_NEAR(band_named(layer, "reach_probability_hi").value[0], 0.17437, 1e-5);
@@ -262,10 +266,9 @@ TEST(ReachLayer, WeighsRunsAsIfTheyStoodThereSoManyTimes) {
   repeated.runs.push_back(made.runs[1]);
   repeated.runs.push_back(made.runs[1]);
   for (double& weight : made.runs[1].weight) weight *= 3;
-  Released weighed = made.released();
-  weighed.run_weight = {1, 3};
+  const ShareBasis weighed = made.basis({1, 3});
   const MapLayer a = reach_layer(made.cells(), 2, weighed);
-  const MapLayer b = reach_layer(repeated.cells(), 2, repeated.released());
+  const MapLayer b = reach_layer(repeated.cells(), 2, repeated.basis());
   int n = 0;
   for (std::size_t k = 0; k < a.bands.size(); ++k) {
     if (a.bands[k].name != "reach_probability" && a.bands[k].name != "run_share") continue;
@@ -280,28 +283,27 @@ TEST(ReachLayer, WeighsRunsAsIfTheyStoodThereSoManyTimes) {
 TEST(RunsToAdd, AreThoseOfTheWorstCell) {
   HandMade made = random_runs(40, 1, false, 0, 1);
   for (int run = 0; run < 4; ++run) made.runs[run].passages = {Passage{}};
-  EXPECT_EQ(runs_to_add(made.cells(), made.released(), 0.05), 101);
+  EXPECT_EQ(runs_to_add(made.cells(), made.basis(), 0.05).n, 101);
   Passage half;
   half.cell = 3;
   for (int run = 0; run < 20; ++run) made.runs[run].passages.push_back(half);
-  EXPECT_EQ(runs_to_add(made.cells(), made.released(), 0.05), 341);  // 381 wanted where R = 0.5
-  EXPECT_EQ(runs_to_add(made.cells(), made.released(), 0.2), 0);
+  EXPECT_EQ(runs_to_add(made.cells(), made.basis(), 0.05).n, 341);  // 381 wanted where R = 0.5
+  EXPECT_EQ(runs_to_add(made.cells(), made.basis(), 0.2).n, 0);
 }
 
 // Two of the 102 runs that were wanted failed: the rest says 10 of 100.
 TEST(ReachLayer, CountsFailedRunsIntoItsIntervals) {
   HandMade made = random_runs(100, 1, false, 0, 1);
   for (int run = 0; run < 10; ++run) made.runs[run].passages = {Passage{}};
-  Released released = made.released();
-  EXPECT_NEAR(reach_bound_elsewhere(released), 0.036993, 5e-7);
-  released.failed_share = 0.02;
-  const MapLayer layer = reach_layer(made.cells(), 2, released);
+  EXPECT_NEAR(reach_bound_elsewhere(made.basis()), 0.036993, 5e-7);
+  const ShareBasis with_failed_runs = made.basis({}, 0.02);
+  const MapLayer layer = reach_layer(made.cells(), 2, with_failed_runs);
   EXPECT_FLOAT_EQ(band_named(layer, "reach_probability").value[0], 0.1F);
   for (const std::string name : {"reach_probability", "run_share"}) {
     EXPECT_NEAR(band_named(layer, name + "_lo").value[0], 0.05523 * 0.98, 1e-5);
     EXPECT_NEAR(band_named(layer, name + "_hi").value[0], 0.17437 * 0.98 + 0.02, 1e-5);
   }
-  EXPECT_NEAR(reach_bound_elsewhere(released), 0.036993 * 0.98 + 0.02, 5e-7);
+  EXPECT_NEAR(reach_bound_elsewhere(with_failed_runs), 0.036993 * 0.98 + 0.02, 5e-7);
 }
 
 TEST(ExceedanceLayer, SharesTheWeightAboveTheThresholdNotAtIt) {
@@ -311,7 +313,7 @@ TEST(ExceedanceLayer, SharesTheWeightAboveTheThresholdNotAtIt) {
     p.largest.total_energy = std::array{29e3F, 30e3F, 31e3F, 301e3F}[run];
     made.runs[run].passages = {p};
   }
-  const MapLayer layer = exceedance_layer(made.cells(), made.released());
+  const MapLayer layer = exceedance_layer(made.cells(), made.basis());
   EXPECT_EQ(band_named(layer, "p_exceed_30kJ").value[0], 0.5F);
   EXPECT_EQ(band_named(layer, "p_exceed_300kJ").value[0], 0.25F);
 }
@@ -367,8 +369,8 @@ TEST(MapTiles, ChangeNothing) {
       const CellRows cells = group_by_cell(
           std::move(rows), static_cast<std::size_t>(map.grid.n_rows) * map.grid.n_cols);
       return std::vector{
-          reach_layer(cells, 2, made.released()),
-          quantity_layer("height", cells, MapQuantity::centroid_height, made.released(), {}),
+          reach_layer(cells, 2, made.basis()),
+          quantity_layer("height", cells, MapQuantity::centroid_height, made.basis(), {}),
           arrival_layer(cells)};
     };
     std::vector<std::uint32_t> rows_of_cell(static_cast<std::size_t>(map.grid.n_rows) *
@@ -399,8 +401,8 @@ TEST(OnGrid, TellsZeroFromNodata) {
   p.cell = 1;
   made.runs[0].passages = {p};
   const CellRows cells = made.cells();
-  const MapLayer reach = reach_layer(cells, 2, made.released());
-  const MapLayer speed = quantity_layer("velocity", cells, MapQuantity::speed, made.released(), {});
+  const MapLayer reach = reach_layer(cells, 2, made.basis());
+  const MapLayer speed = quantity_layer("velocity", cells, MapQuantity::speed, made.basis(), {});
   EXPECT_EQ(on_grid(reach, band_named(reach, "n_pass"), 3, -9999), (std::vector<float>{0, 1, 0}));
   EXPECT_EQ(on_grid(speed, band_named(speed, "velocity_max"), 3, -9999),
             (std::vector<float>{-9999, 0, -9999}));
@@ -412,7 +414,6 @@ TEST(Maps, OfNoPassageAtAllAreEmpty) {
   const HandMade made = random_runs(2, 3, false, 0, 1);
   const CellRows cells = made.cells();
   EXPECT_TRUE(cells.cell.empty());
-  EXPECT_EQ(reach_layer(cells, 2, made.released()).bands.size(), 9U);
-  EXPECT_EQ(quantity_layer("speed", cells, MapQuantity::speed, made.released(), {}).bands.size(),
-            10U);
+  EXPECT_EQ(reach_layer(cells, 2, made.basis()).bands.size(), 9U);
+  EXPECT_EQ(quantity_layer("speed", cells, MapQuantity::speed, made.basis(), {}).bands.size(), 10U);
 }

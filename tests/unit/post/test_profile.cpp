@@ -177,7 +177,8 @@ TEST(LineSums, OfCellsAreTheLargestOverThem) {
   EXPECT_DOUBLE_EQ(crossing.at.top, 3);
   EXPECT_NEAR(crossing.place.z(), 100 - slope * 45, 1e-9);
   EXPECT_EQ(method_text(sums), "cells");
-  const std::vector<StationSummary> stations = station_summaries(sums);
+  const std::vector<StationSummary> stations =
+      station_summaries(sums, share_basis(clusters_of_runs({2}, 2)));
   ASSERT_EQ(stations.size(), 5u);
   EXPECT_DOUBLE_EQ(stations[0].energy.largest, 100);
   EXPECT_DOUBLE_EQ(stations[1].energy.largest, 800);  // y = 15
@@ -211,7 +212,7 @@ TEST(AcrossSummary, HasSharesOfRunsBlocksAndMass) {
   for (int r = 0; r < 12; ++r)  // in every third run nothing comes to the line, which begins at 10
     add_run(sums, r % 3 == 0 ? sliding_run({2, 4}, 0.1) : sliding_run({2, 12 + r * 1.0}, 0.1), trn);
   finish(sums);
-  const ShareBasis basis = share_basis_of(sums.released);
+  const ShareBasis basis = share_basis(clusters_of_runs(std::vector<double>(12, 2), 2));
   const AcrossSummary all = across_summary(sums, basis, 0, 40);
   EXPECT_EQ(all.blocks.n, 8);
   EXPECT_EQ(all.n_runs_hit, 8);
@@ -248,7 +249,8 @@ TEST(AcrossSummary, WeighsRuns) {
   light.run_weight = 0.5;
   add_run(sums, heavy, trn);
   add_run(sums, light, trn);
-  const AcrossSummary all = across_summary(sums, share_basis_of(sums.released), 0, 40);
+  const ShareBasis basis = share_basis(clusters_of_runs({1.5, 0.5}, 1, {}, {1.5, 0.5}));
+  const AcrossSummary all = across_summary(sums, basis, 0, 40);
   EXPECT_NEAR(all.share_of_runs, 0.75, 1e-12);
   EXPECT_NEAR(all.share_of_blocks, 0.75, 1e-12);
   EXPECT_NEAR(all.share_of_mass, 0.75, 1e-12);

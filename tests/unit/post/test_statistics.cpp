@@ -32,8 +32,8 @@ void sort_descending(std::vector<RunValue>& values) {
             [](const RunValue& a, const RunValue& b) { return a.value > b.value; });
 }
 
-std::vector<RunWeight> weights_of(const std::vector<RunValue>& values) {
-  std::vector<RunWeight> weights;
+std::vector<ClusterWeight> weights_of(const std::vector<RunValue>& values) {
+  std::vector<ClusterWeight> weights;
   for (const RunValue& v : values) weights.push_back({v.run, v.weight});
   return weights;
 }
@@ -132,7 +132,7 @@ TEST(BoundRank, IsTheSmallestThatTheBinomialDistributionAllows) {
 // All percentiles of all resamples, listed and sorted; with equal and with different weights.
 TEST(BootstrapUpperPlaces, EqualTheListOfAllResamples) {
   Random random(3);
-  const RunResamples resamples = resample_runs(12, 99, 5);
+  const ClusterResamples resamples = resample_clusters(12, 99, 5);
   const std::vector<double> levels = {0.95, 0.9, 0.5};
   for (const int n_weights : {1, 3}) {
     std::vector<RunValue> values;
@@ -147,7 +147,7 @@ TEST(BootstrapUpperPlaces, EqualTheListOfAllResamples) {
       for (int b = 0; b < 99; ++b) {
         std::vector<WeightedValue> sample;
         for (const RunValue& v : values)
-          sample.push_back({v.value, v.weight * resamples.of_run(v.run)[b]});
+          sample.push_back({v.value, v.weight * resamples.of_cluster(v.run)[b]});
         sort_values(sample);
         const double value = weighted_percentile(sample, levels[level]);
         if (!std::isnan(value)) expected.push_back(value);
@@ -160,19 +160,19 @@ TEST(BootstrapUpperPlaces, EqualTheListOfAllResamples) {
 }
 
 TEST(BootstrapUpperPlaces, AreNoneWithoutWeight) {
-  const RunResamples resamples = resample_runs(3, 20, 1);
-  const std::vector<RunWeight> weightless = {{0, 0}, {1, 0}};
+  const ClusterResamples resamples = resample_clusters(3, 20, 1);
+  const std::vector<ClusterWeight> weightless = {{0, 0}, {1, 0}};
   EXPECT_EQ(bootstrap_upper_places({}, resamples, std::vector{0.9, 0.5}), (std::vector{-1, -1}));
   EXPECT_EQ(bootstrap_upper_places(weightless, resamples, std::vector{0.9}), std::vector{-1});
 }
 
-TEST(ResampleRuns, DrawsAsManyRunsAsThereAreAndRepeatsItself) {
-  const RunResamples a = resample_runs(30, 50, 7);
-  EXPECT_EQ(a.count, resample_runs(30, 50, 7).count);
-  EXPECT_NE(a.count, resample_runs(30, 50, 8).count);
+TEST(ResampleClusters, DrawsAsManyAsThereAreAndRepeatsItself) {
+  const ClusterResamples a = resample_clusters(30, 50, 7);
+  EXPECT_EQ(a.count, resample_clusters(30, 50, 7).count);
+  EXPECT_NE(a.count, resample_clusters(30, 50, 8).count);
   for (int b = 0; b < 50; ++b) {
     int sum = 0;
-    for (int run = 0; run < 30; ++run) sum += a.of_run(run)[b];
+    for (int run = 0; run < 30; ++run) sum += a.of_cluster(run)[b];
     EXPECT_EQ(sum, 30);
   }
 }
@@ -181,7 +181,7 @@ TEST(ResampleRuns, DrawsAsManyRunsAsThereAreAndRepeatsItself) {
 // percentile about as often as it says, where blocks taken as independent would not.
 TEST(BootstrapUpperPlaces, CoverThePercentileOfRunsWhoseBlocksGoTogether) {
   Random random(11);
-  const RunResamples resamples = resample_runs(40, 200, 1);
+  const ClusterResamples resamples = resample_clusters(40, 200, 1);
   const auto draw = [&random](double factor) { return factor + 0.1 * random.normal(); };
   std::vector<double> population(400000);
   for (double& value : population) value = draw(random.uniform());

@@ -45,6 +45,12 @@ TraceSums sums_of(const std::vector<RunFile>& runs, const std::vector<RecordObje
   return sums;
 }
 
+// Each run released as much as the others.
+ShareBasis basis_of(const TraceSums& sums) {
+  const auto n = static_cast<std::size_t>(sums.n_runs);
+  return share_basis(clusters_of_runs(std::vector<double>(n, sums.n_released / sums.n_runs), 2));
+}
+
 }  // namespace
 
 TEST(Trace, OfTwoSourcesThreeToOneHasSharesThreeToOne) {
@@ -58,7 +64,7 @@ TEST(Trace, OfTwoSourcesThreeToOneHasSharesThreeToOne) {
   EXPECT_DOUBLE_EQ(links[0].share_of_hits, 0.75);
   EXPECT_DOUBLE_EQ(links[1].share_of_hits, 0.25);
   EXPECT_DOUBLE_EQ(links[0].p_hit, 1);
-  const ShareBasis basis = share_basis(sums.released, false);
+  const ShareBasis basis = basis_of(sums);
   const ObjectTrace trace = object_trace(sums, 0, basis, links);
   EXPECT_EQ(trace.n_runs_hit, 8);
   EXPECT_EQ(trace.n_hits, 32);
@@ -136,7 +142,6 @@ TEST(Trace, ByCellsJoinsTheCellsOfAnObject) {
   ASSERT_EQ(sums.hits.size(), 1u);
   EXPECT_EQ(sums.hits[0].energy, 5e3);
   EXPECT_EQ(sums.hits[0].time, 4);
-  const ObjectTrace trace =
-      object_trace(sums, 0, share_basis(sums.released, false), source_links(sums));
+  const ObjectTrace trace = object_trace(sums, 0, basis_of(sums), source_links(sums));
   EXPECT_EQ(trace.method, "by_cells");
 }
