@@ -20,7 +20,7 @@ std::size_t count(const std::string& text, const std::string& word) {
 
 // The style of a layer over no cell: its classes do not depend on the values.
 std::string qml_of(const MapLayerKind& kind) {
-  return raster_qml(map_style(make_layer(kind, {{}, {}, 1, {{1}, {1}}, {}})));
+  return raster_qml(map_style(make_layer(kind, {{}, {}, 1, {}, {}})));
 }
 
 }  // namespace
