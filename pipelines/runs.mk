@@ -26,6 +26,10 @@ ask = $(eval status_$1 := $(status_of))$(if $(status_$1),,$(error The runs canno
   above: what is wrong with RUNS, SEED, CASES, WEIGHTS, SHARD, SHARDS, DDA_FLAGS or the site))
 $(if $(filter-out terrain source blocks,$(wanted)),$(foreach kind,$(kinds),$(call ask,$(kind))))
 
+# Rocks that each run draws are then made by talus-batch, which knows no BLOCKS_FLAGS.
+$(if $(and $(filter auto,$(RUNS)),$(SITE_ROCKS_ALONE),$(strip $(BLOCKS_FLAGS))),$(error \
+  RUNS=auto makes the rocks of further runs without BLOCKS_FLAGS: write in site.toml what they say))
+
 # A run that failed stops no other (3): make goes on with the rest, and ends with an error.
 some_failed := || test $$? = 3
 rock_masses := $(wordlist 6,9999,$(status_runs))

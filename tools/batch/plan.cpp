@@ -104,11 +104,6 @@ BatchPart part_of(const std::string& words) {
 
 // --- what runs are made with ---------------------------------------------------------------------
 
-std::string rock_file(const BatchPlan& plan, const char* name, const char* end, std::int64_t mass) {
-  return in(plan.results, mass > 0 ? std::string("rock/") + name + "_" + std::to_string(mass) + end
-                                   : std::string(name) + end);
-}
-
 const BatchCase& case_of(const BatchPlan& plan, const EnsembleMember& member) {
   return *std::find_if(plan.cases.begin(), plan.cases.end(),
                        [&member](const BatchCase& one) { return one.name == member.case_name; });
@@ -194,6 +189,11 @@ std::int64_t mass_of(const BatchPlan& plan, const EnsembleMember& member) {
   uncertainty.sample = member.sample;
   uncertainty.rock_masses = plan.rock_masses;
   return rock_mass(uncertainty);
+}
+
+std::string rock_file(const BatchPlan& plan, const char* name, const char* end, std::int64_t mass) {
+  return in(plan.results, mass > 0 ? std::string("rock/") + name + "_" + std::to_string(mass) + end
+                                   : std::string(name) + end);
 }
 
 std::string ground_of(const BatchPlan& plan) {

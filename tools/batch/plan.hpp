@@ -67,6 +67,9 @@ void compare_with_now(BatchPlan& plan, Tool& tool, bool says);
 
 /// The rock mass of a member; 0: there is but one.
 [[nodiscard]] std::int64_t mass_of(const BatchPlan& plan, const EnsembleMember& member);
+/// A file of a rock mass: rock/NAME_K, or NAME where there is but one.
+[[nodiscard]] std::string rock_file(const BatchPlan& plan, const char* name, const char* end,
+                                    std::int64_t mass);
 /// The terrain that runs are evaluated on.
 [[nodiscard]] std::string ground_of(const BatchPlan& plan);
 

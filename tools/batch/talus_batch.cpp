@@ -411,10 +411,39 @@ void make_part_or_all(Tool& tool, BatchPlan& plan, int n_jobs) {
   reduce(tool, plan);
 }
 
-// 50, 100, 200 ... runs. The width of the intervals alone decides, never what was found.
-void make_as_many_as_needed(Tool& tool, BatchPlan& plan, int n_jobs, int most) {
-  for (int n = std::min(50, most);; n = std::min(2 * n, most)) {
+// Blocks of further runs that draw their own, which make did not know of. What is older than those
+// of the first run, which make has just looked at, is made again: the same bytes where it is right.
+void make_blocks(Tool& tool, const BatchPlan& plan) {
+  const std::int64_t first = mass_of(plan, plan.ensemble.members.front());
+  const std::string of_first = rock_file(plan, "blocks", ".h5", first);
+  if (first == 0 || !fs::exists(of_first)) return;
+  for (const EnsembleMember& member : plan.ensemble.members) {
+    const std::int64_t mass = mass_of(plan, member);
+    const std::string blocks = rock_file(plan, "blocks", ".h5", mass),
+                      bed = rock_file(plan, "bed", ".tif", mass),
+                      inputs = (fs::path(plan.results) / "inputs.gpkg").string();
+    if (fs::exists(blocks) && fs::exists(bed) &&
+        fs::last_write_time(blocks) >= fs::last_write_time(of_first))
+      continue;
+    std::vector<std::string> words = tool_words(plan, "talus-blocks");
+    words.insert(words.end(), {plan.site_file, "--trn", ground_of(plan), "-o", blocks, "--trn-out",
+                               bed, "--sample", std::to_string(mass), "--overwrite", "-q"});
+    if (fs::exists(inputs)) words.insert(words.end(), {"--inputs", inputs});
+    add_registry(words, tool, plan);
+    run_through(tool, words);
+  }
+}
+
+// 50, 100, 200 ... runs; of rocks one by one, which need no number of runs for an interval, from
+// n_runs on. The width of the intervals alone decides, never what was found.
+int first_runs(const Site& site, int most) {
+  return std::min(site.rockfalls.empty() ? 50 : static_cast<int>(site.solver.n_runs), most);
+}
+
+void make_as_many_as_needed(Tool& tool, BatchPlan& plan, int n_jobs, int first, int most) {
+  for (int n = first;; n = std::min(2 * n, most)) {
     set_runs(plan, n);
+    make_blocks(tool, plan);
     make_part_or_all(tool, plan, n_jobs);
     const RunsThatLack lacking = runs_that_lack(plan);
     const std::string words = "--runs auto: " + counted(n, "run") + " do",
@@ -431,7 +460,7 @@ void make_as_many_as_needed(Tool& tool, BatchPlan& plan, int n_jobs, int most) {
 int n_runs_of(const Site& site, const BatchOptions& o) {
   double n = 0;
   if (o.runs.empty()) return site.solver.n_runs;
-  if (o.runs == "auto") return std::min(50, o.most);
+  if (o.runs == "auto") return first_runs(site, o.most);
   if (!parse_double(o.runs, n) || !(n >= 1 && n <= 1e6) || n != std::floor(n))
     throw UsageError({"", 0, "--runs"},
                      "is " + o.runs + ", expected a whole number, 1 or more, or auto");
@@ -455,7 +484,7 @@ void run_tool(Tool& tool, const Site& site, const std::string& site_file, BatchO
     const FolderHolder holder(plan.folder, plan.part.number > 0);
     const int n_jobs = o.jobs > 0 ? o.jobs : jobs_by_default();
     if (is_auto)
-      make_as_many_as_needed(tool, plan, n_jobs, o.most);
+      make_as_many_as_needed(tool, plan, n_jobs, first_runs(site, o.most), o.most);
     else
       make_part_or_all(tool, plan, n_jobs);
   }

@@ -213,8 +213,7 @@ std::string make_variables(const Site& site) {
   line("SITE_FENCES", site.fences.empty() ? "" : "yes");
   line("SITE_WITHOUT_FENCES", no_fences);
   line("SITE_SAMPLES", site.quantities.empty() && site.uncertainty.rock_masses == 0 ? "" : "yes");
-  line("SITE_ROCK_MASSES",
-       site.uncertainty.rock_masses == 0 ? "" : std::to_string(site.uncertainty.rock_masses));
+  line("SITE_ROCKS_ALONE", site.rockfalls.empty() ? "" : "yes");
   line("SITE_MAX_FAILED_SHARE", text(site.uncertainty.max_failed_share));
   line("SITE_FRAMES", site.output.frames ? "yes" : "");
   line("SITE_WHOLE_SHARE", text(site.output.whole_share));

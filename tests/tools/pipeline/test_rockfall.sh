@@ -38,7 +38,41 @@ assert trace['objects'][0]['name'] == 'road'
 PY
 # many of these rocks leave the terrain: no run fails, and the report begins with their share
 grep -q '% of the blocks left the known terrain' wall/out/report.html || fail 'lost rocks are not on the page'
+n_lost=$(ogrinfo -q -ro wall/out/runout.gpkg -sql "SELECT count(*) n FROM deposit WHERE fate = 'left_domain'" | sed -n 's/.*n (Integer) = //p')
+python3 -c "import json; assert json.load(open('wall/out/runout.json'))['balance']['n_left_domain'] == $n_lost > 20" ||
+  fail 'not each lost rock has a place'
 cmp -s wall/out/rock/blocks_1.h5 wall/out/rock/blocks_2.h5 && fail 'two runs have the same rocks'
+
+# Intervals are made over release cells: one run has them. Runs are added until they are narrow
+# enough, each with rocks of its own, or until more rocks of the same cells do not help.
+cat >>wall/site.toml <<'END'
+[place.below]
+polygon = [[650060, 5200060], [650100, 5200060], [650100, 5200100], [650060, 5200100]]
+half_width = 0.2
+END
+sed -i 's/^duration_s = 30/&\nn_runs = 1/' wall/site.toml
+made wall RUNS=1 places maps
+prints 'intervals are made over 23 release cells'
+gdalinfo wall/out/maps/reach.tif | grep -q 'INTERVALS_OVER=23 release cells' || fail 'maps do not say what intervals are over'
+reach() { # reach CONDITION: of the place, with its share s, half width h and number of runs n
+  python3 - "$1" <<'PY' || fail "the place: $1"
+import json, sys
+places = json.load(open('wall/out/places.json'))
+place, = places['places']
+s, h, n = place['share_of_blocks'], place['half_width'], places['n_runs']
+assert places['intervals_over'] == '23 release cells' and eval(sys.argv[1]), places
+PY
+}
+reach 'n == 1 and 0.5 < s < 0.95 and 0.1 < h < 0.2'
+sed -i 's/^half_width = .*/half_width = 0.13/' wall/site.toml
+made wall -j2 WITHOUT=no RUNS=auto places
+says 'runs do, intervals over 23 release cells'
+reach '1 < n < 64 and h <= 0.13'
+sed -i 's/^half_width = .*/half_width = 0.02/' wall/site.toml
+made wall -j2 WITHOUT=no RUNS=auto places
+says 'and more runs do not help'
+expect 2 make -C wall BIN= RUNS=auto BLOCKS_FLAGS=-v places
+says 'without BLOCKS_FLAGS'
 
 # the folder: the same ground, five cells of the wall
 mkdir folder
