@@ -50,7 +50,7 @@ struct Clusters {
 /// them; rocks of fewer cells say nothing of other cells, and runs are the clusters.
 [[nodiscard]] Clusters clusters_of(std::span<const RunMember> runs);
 
-/// "271 release cells"
+/// "216 release cells"
 [[nodiscard]] std::string text(const Clusters& clusters);
 
 }  // namespace talus
