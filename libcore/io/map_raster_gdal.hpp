@@ -1,11 +1,13 @@
 // libcore/io/map_raster_gdal.hpp: public
 // Results as rasters: cloud-optimised GeoTIFF with bands that say what they hold.
-// in:    bands of cells from north to south, west to east
+// in:    bands of cells from north to south, west to east, one after the other
 // out:   COG (deflate, overviews without averaging)
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,10 +18,9 @@
 namespace talus {
 
 struct MapRasterBand {
-  std::string name;          ///< the band's description
-  std::string unit;          ///< "kJ", "m", "m/s", "deg", "1", ...
-  std::string long_name;     ///< definition, one sentence
-  std::vector<float> value;  ///< `nodata` where there is none                  (n_rows x n_cols)
+  std::string name;       ///< the band's description
+  std::string unit;       ///< "kJ", "m", "m/s", "deg", "1", ...
+  std::string long_name;  ///< definition, one sentence
   OverviewValue overview = OverviewValue::largest;
 };
 
@@ -31,6 +32,9 @@ struct MapRaster {
   int n_rows = 0, n_cols = 0;
   std::string crs_wkt;
   std::vector<MapRasterBand> bands;
+  /// The cells of a band, n_rows x n_cols, `nodata_value()` where there is none; asked for band
+  /// after band, so that memory holds one.
+  std::function<std::vector<float>(std::size_t band)> values;
   std::vector<std::pair<std::string, std::string>> tags;  ///< of the whole file, e.g. RUN_ID
   /// Bands are bytes that stand for something, 255: nodata, not floats.
   bool is_codes = false;

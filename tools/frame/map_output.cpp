@@ -15,6 +15,7 @@
 namespace talus {
 namespace {
 
+// Of cells that are looked up in `frame` and `layer` when they are written.
 MapRaster raster_of(const MapFrame& frame, const MapLayer& layer) {
   MapRaster raster;
   raster.corner = frame.corner;
@@ -23,14 +24,14 @@ MapRaster raster_of(const MapFrame& frame, const MapLayer& layer) {
   raster.n_cols = frame.grid.n_cols;
   raster.crs_wkt = frame.crs_wkt;
   raster.is_codes = layer.is_codes;
-  const float nodata = raster.nodata_value();
-  for (const MapBand& band : layer.bands) {
-    std::vector<float> value = on_grid(layer, band, frame.known.size(), nodata);
+  for (const MapBand& band : layer.bands)
+    raster.bands.push_back({band.name, band.unit, band.description, band.overview});
+  raster.values = [&frame, &layer, nodata = raster.nodata_value()](std::size_t b) {
+    std::vector<float> value = on_grid(layer, layer.bands[b], frame.known.size(), nodata);
     for (std::size_t i = 0; i < value.size(); ++i)
       if (!frame.known[i] && value[i] == 0) value[i] = nodata;
-    raster.bands.push_back(
-        {band.name, band.unit, band.description, std::move(value), band.overview});
-  }
+    return value;
+  };
   return raster;
 }
 
@@ -191,7 +192,7 @@ std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path
   if (frame.pages.words.empty()) return layer.bands[shown].name;
   MapPage page = page_of(frame, style, raster.tags);
   page.cells.nodata = raster.nodata_value();
-  page.cells.value = std::move(raster.bands[shown].value);
+  page.cells.value = raster.values(shown);
   page.cells.uncertain = uncertain_cells(frame, certain);
   const Drawing drawing = page_drawing(page, frame.ground, frame.places);
   if (frame.pages.has("png")) tool.write_text(beside(".png"), png_of(drawing));
