@@ -27,13 +27,10 @@ Probe probe(const Scene& scene, double duration, const std::function<bool(double
   options.passages = false;
   options.limits.max_lost_share = 1;
   Runner runner = begin_run(scene, options, {}, {});
-  std::size_t n_rows = 0;
   while (!is_over(runner)) {
-    advance(runner);
-    if (runner.file.health.size() == n_rows) continue;
-    n_rows = runner.file.health.size();
+    if (!advance(runner)) continue;
     if (has_failed(runner)) break;
-    if (is_stopped && is_stopped(runner.state.time / duration)) break;
+    if (is_stopped && is_stopped(done_share(runner))) break;
   }
   Probe result;
   result.time = runner.state.time;

@@ -6,6 +6,7 @@
 #include "base/text.hpp"
 #include "record/deep_rows.hpp"
 #include "record/tree_hits.hpp"
+#include "run/rocks.hpp"
 #include "scene/worlds.hpp"
 #include "store/checkpoint.hpp"
 
@@ -118,11 +119,45 @@ void close_interval(Runner& runner) {
 
 double half_step(const Runner& runner) { return 0.5 * runner.scene.settings.dt; }
 
+bool falls_in_batches(const Runner& runner) {
+  return fall_in_batches(runner.scene, runner.options);
+}
+
+// Whether nothing moves any more, and nothing will.
+bool rests(const Runner& runner) {
+  const State& state = runner.state;
+  return !runner.law && !shakes(runner.scene.base) && runner.scene.loads.empty() &&
+         runner.scene.crush_load.empty() && state.stride == 1 &&
+         std::all_of(state.phase.begin(), state.phase.end(),
+                     [](Phase phase) { return does_not_move(phase); }) &&
+         std::none_of(state.deep.begin(), state.deep.end(),
+                      [](const DeepBlock& deep) { return deep.is_deep; });
+}
+
+// What step() does where nothing moves.
+StepReport rest(Runner& runner) {
+  runner.work.segments.clear();
+  runner.state.time += runner.scene.settings.dt;
+  ++runner.state.counters.steps;
+  return {};
+}
+
+// Rocks that fall one by one are done batch after batch.
+void sort_by_time(RunFile& file) {
+  std::stable_sort(file.fence_hits.begin(), file.fence_hits.end(),
+                   [](const FenceHit& a, const FenceHit& b) { return a.time < b.time; });
+  std::stable_sort(
+      file.tree_hits.begin(), file.tree_hits.end(),
+      [](const TreeHitRow& a, const TreeHitRow& b) { return a.hit.time < b.hit.time; });
+  std::stable_sort(file.crushed.begin(), file.crushed.end(),
+                   [](const CrushedBlock& a, const CrushedBlock& b) { return a.time < b.time; });
+}
+
 // What the blocks fell and were given up to a row [J].
 double turned_over(const Runner& runner, const HealthRow& row) {
   double weight = 0, potential_start = 0;
   const Blocks& blocks = runner.scene.blocks;
-  for (std::size_t b = 0; b < blocks.mass.size(); ++b) {
+  for (std::size_t b = 0; b < static_cast<std::size_t>(runner.n_done); ++b) {
     if (!is_released(runner.scene, b)) continue;
     weight += blocks.mass[b] * runner.scene.gravity.norm();
     potential_start -= blocks.mass[b] * runner.scene.gravity.dot(blocks.rest[b].position);
@@ -261,11 +296,12 @@ std::vector<HealthCheck> checks_of(const Runner& runner, const WorstOfRows& wors
 
 Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<RecordLine> lines,
                    RunFile file) {
+  const bool in_batches = fall_in_batches(scene, options);
   Runner runner{scene,
                 options,
                 law_of(options.paper),
                 {},
-                make_work(scene, options.workers),
+                in_batches ? Work{} : make_work(scene, options.workers),
                 {},
                 start_crossings(scene, std::move(lines)),
                 start_objects(scene, file.objects),
@@ -273,11 +309,12 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
                 {},
                 {},
                 0,
-                std::move(file)};
+                std::move(file),
+                in_batches ? 0 : n_blocks(scene)};
   if (options.passages)
-    runner.passages =
-        start_passages(scene, passage_grid(scene.ground.trn, options.passage_cell_size),
-                       options.passages_by_centroid);
+    runner.passages.grid = passage_grid(scene.ground.trn, options.passage_cell_size);
+  if (options.passages && !in_batches)
+    runner.passages = start_passages(scene, runner.passages.grid, options.passages_by_centroid);
   runner.file.grid = runner.passages.grid;
   runner.file.passages_by_centroid = options.passages_by_centroid;
   runner.file.lines = runner.crossings.lines;
@@ -292,11 +329,12 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
 Runner begin_run(const Scene& scene, const RunOptions& options, std::vector<RecordLine> lines,
                  RunFile file) {
   Runner runner = make_runner(scene, options, std::move(lines), std::move(file));
-  runner.state = start_by(runner.law, scene, runner.work);
-  runner.energy_start = mechanical(energies(scene, runner.state));
+  const bool in_batches = falls_in_batches(runner);
+  runner.state = in_batches ? start_unsettled(scene) : start_by(runner.law, scene, runner.work);
+  if (!in_batches) runner.energy_start = mechanical(energies(scene, runner.state));
   for (int b = 0; b < n_blocks(scene); ++b) {
     const Motion& motion = runner.state.motion[b];
-    if (options.passages && is_released(scene, static_cast<std::size_t>(b)))
+    if (options.passages && !in_batches && is_released(scene, static_cast<std::size_t>(b)))
       record_start(runner.passages, scene, b, motion, 0);
     record_start(runner.sampler, scene, b, motion, strain_of(runner.state, b));
   }
@@ -313,8 +351,10 @@ Runner resume_run(const Scene& scene, const RunOptions& options, std::vector<Rec
   runner.sampler = std::move(checkpoint.sampler);
   runner.interval = checkpoint.interval;
   runner.energy_start = checkpoint.energy_start;
+  runner.n_done = checkpoint.n_done;
   runner.passages.trackers = std::move(checkpoint.trackers);
-  for (const Passage& row : runner.file.passages) runner.passages.table.raise(row);
+  if (!falls_in_batches(runner))
+    for (const Passage& row : runner.file.passages) runner.passages.table.raise(row);
   const std::size_t n_lines = runner.crossings.lines.size();
   for (const Crossing& row : runner.file.crossings) {
     runner.crossings.row_of[static_cast<std::size_t>(row.block) * n_lines +
@@ -326,13 +366,35 @@ Runner resume_run(const Scene& scene, const RunOptions& options, std::vector<Rec
   return runner;
 }
 
-void advance(Runner& runner) {
+namespace {
+
+// A run of a few of the rocks of another one, to its end.
+Runner ended_run(const Scene& scene, const Runner& of_all) {
+  RunOptions options = of_all.options;
+  options.workers = nullptr;
+  RunFile file;
+  file.objects = of_all.file.objects;
+  Runner runner = begin_run(scene, options, of_all.crossings.lines, std::move(file));
+  while (!is_over(runner)) advance(runner);
+  finish(runner);
+  update_file(runner, false);
+  return runner;
+}
+
+}  // namespace
+
+bool advance(Runner& runner) {
+  if (falls_in_batches(runner)) {
+    advance_rocks(runner, [&](const Scene& scene) { return ended_run(scene, runner); });
+    return true;
+  }
   const std::size_t n_crushed = runner.state.crushed.size(), n_breaks = runner.state.breaks.size();
   const double interval_end =
       static_cast<double>(runner.file.health.size() + 1) * runner.options.frame_interval;
   const double ahead = std::min(interval_end, runner.options.duration) - runner.state.time;
   if (ahead < 3 * half_step(runner)) runner.state.stride = 1;  // a long step would go past the end
-  const StepReport report = step_by(runner.law, runner.scene, runner.state, runner.work);
+  const StepReport report =
+      rests(runner) ? rest(runner) : step_by(runner.law, runner.scene, runner.state, runner.work);
   for (const Segment& segment : runner.work.segments) record(runner, segment);
   record_breaks(runner, n_breaks);
   record_crushed(runner, n_crushed);
@@ -340,17 +402,26 @@ void advance(Runner& runner) {
   const double next_frame =
       static_cast<double>(runner.sampler.n_closed) * runner.options.frame_interval;
   if (next_frame <= runner.state.time) take(runner, recorded_until(runner.state));
-  if (runner.state.time >= interval_end - half_step(runner)) close_interval(runner);
+  const bool is_end = runner.state.time >= interval_end - half_step(runner);
+  if (is_end) close_interval(runner);
+  return is_end;
 }
 
 bool is_over(const Runner& runner) {
+  if (falls_in_batches(runner)) return runner.n_done == n_blocks(runner.scene);
   return runner.state.time >= runner.options.duration - half_step(runner);
+}
+
+double done_share(const Runner& runner) {
+  if (falls_in_batches(runner)) return static_cast<double>(runner.n_done) / n_blocks(runner.scene);
+  return std::min(1.0, runner.state.time / runner.options.duration);
 }
 
 bool stands(const Runner& runner) {
   const Scene& scene = runner.scene;
   const State& state = runner.state;
-  if (runner.law || state.time < standing_after_s - half_step(runner)) return false;
+  if (runner.law || falls_in_batches(runner)) return false;
+  if (state.time < standing_after_s - half_step(runner)) return false;
   if (shakes(scene.base) || !scene.loads.empty()) return false;
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<std::size_t>(b);
@@ -365,6 +436,7 @@ bool stands(const Runner& runner) {
 }
 
 void finish(Runner& runner) {
+  if (falls_in_batches(runner)) return;
   const State& state = runner.state;
   for (int b = 0; b < n_blocks(runner.scene); ++b) {
     const auto i = static_cast<std::size_t>(b);
@@ -389,7 +461,8 @@ void finish(Runner& runner) {
 
 void update_file(Runner& runner, bool with_checkpoint) {
   RunFile& file = runner.file;
-  if (runner.options.passages) {
+  const bool in_batches = falls_in_batches(runner);
+  if (runner.options.passages && !in_batches) {
     flush_passages(runner.passages);
     file.passages = sorted(runner.passages.table);
   }
@@ -401,13 +474,14 @@ void update_file(Runner& runner, bool with_checkpoint) {
   file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
   file.breaks = runner.state.breaks;
   file.crushed = runner.state.crushed;
+  if (in_batches) sort_by_time(file);
   file.info.time = runner.state.time;
   file.phase = runner.state.phase;
   file.checkpoint.clear();
   if (with_checkpoint)
     file.checkpoint =
         pack({runner.state, runner.law ? runner.law->state : PaperState{}, runner.passages.trackers,
-              runner.sampler, runner.interval, runner.energy_start});
+              runner.sampler, runner.interval, runner.energy_start, runner.n_done});
 }
 
 std::vector<HealthCheck> health_checks(const Runner& runner) {

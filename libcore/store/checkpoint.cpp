@@ -207,12 +207,12 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
           state.load, state.crushed, state.hit_loss, state.n_hits, state.breaks, state.mishaps,
           state.yielding, state.fence, state.stem_hits, state.stem_chain, state.ledger,
           state.counters, checkpoint.trackers, checkpoint.sampler, checkpoint.interval,
-          checkpoint.energy_start);
+          checkpoint.energy_start, checkpoint.n_done);
 }
 
 namespace {
 
-constexpr std::uint64_t format = 0x36316b6365686374;  // "tcheck16"
+constexpr std::uint64_t format = 0x37316b6365686374;  // "tcheck17"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {
@@ -261,6 +261,7 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
   for (const Mishap& mishap : {mishaps.deepest, mishaps.unconverged, mishaps.not_finite,
                                mishaps.left_domain, mishaps.fell_through})
     if (mishap.block >= static_cast<int>(n_blocks)) return false;
+  if (checkpoint.n_done < 0 || checkpoint.n_done > static_cast<int>(n_blocks)) return false;
   if (!checkpoint.trackers.empty() && checkpoint.trackers.size() != n_blocks) return false;
   for (const PassageTracker& tracker : checkpoint.trackers)
     for (const int cell : tracker.covered)

@@ -22,6 +22,7 @@ struct Checkpoint {
   FrameSampler sampler;
   HealthRow interval;       ///< health since the last row
   double energy_start = 0;  ///< of all blocks at time 0 [J]
+  int n_done = 0;           ///< rocks of a run of rocks one by one, else all blocks
 };
 
 [[nodiscard]] std::vector<std::uint8_t> pack(const Checkpoint& checkpoint);

@@ -90,6 +90,14 @@ void ask_for_frames(const Scene& scene, const RunOptions& options, const Site& s
                  "set a longer frame_interval_s or a shorter duration_s");
 }
 
+// How far a run has come.
+std::string reached(const Runner& runner) {
+  const int n = n_blocks(runner.scene);
+  if (runner.n_done < n)
+    return "rock " + std::to_string(runner.n_done) + " of " + std::to_string(n);
+  return text(runner.state.time, 6) + " s";
+}
+
 // From the checkpoint when there is one and it is asked for, else from the beginning.
 Runner runner_of(Tool& tool, const Scene& scene, const RunOptions& options,
                  const std::vector<RecordLine>& lines, RunFile file, const DdaOptions& o) {
@@ -121,7 +129,7 @@ Runner runner_of(Tool& tool, const Scene& scene, const RunOptions& options,
         "give the same site file, options and inputs, or start again with --overwrite");
   part.info = file.info;
   Runner runner = resume_run(scene, options, lines, std::move(part), part_of(o));
-  tool.info("goes on at " + text(runner.state.time, 6) + " s");
+  tool.info("goes on at " + reached(runner));
   return runner;
 }
 
@@ -163,9 +171,9 @@ class Checkpoints {
 // Blocks below which no loop is long enough to be shared.
 constexpr int least_shared_blocks = 64;
 
-// How many threads share a step.
-int n_threads(const Scene& scene, const ScenePlan& plan, const DdaOptions& o) {
-  if (!plan.block_contacts || n_blocks(scene) < least_shared_blocks) return 1;
+// How many threads share a step, or the rocks that fall one by one.
+int n_threads(const Scene& scene, const DdaOptions& o) {
+  if (n_blocks(scene) < least_shared_blocks) return 1;
   return o.threads > 0 ? o.threads : threads_by_default();
 }
 
@@ -174,21 +182,17 @@ void compute(Tool& tool, Runner& runner, const std::string& part, double interva
              bool may_end_standing) {
   Checkpoints checkpoints(tool, part, interval_s);
   const ProgressFunction progress = tool.progress();
-  std::size_t n_rows = runner.file.health.size();
   while (!is_over(runner)) {
     if (tool.interrupted()) {
       checkpoints.write(runner);
-      tool.info("stopped at " + text(runner.state.time, 6) + " s; --resume goes on from " + part);
+      tool.info("stopped at " + reached(runner) + "; --resume goes on from " + part);
       throw Interrupted();
     }
-    advance(runner);
-    if (runner.file.health.size() > n_rows) {  // once an interval: clocks and limits
-      n_rows = runner.file.health.size();
-      if (has_failed(runner)) break;
-      if (may_end_standing && stands(runner)) break;
-      progress(std::min(1.0, runner.state.time / runner.options.duration));
-      checkpoints.write_if_due(runner);
-    }
+    if (!advance(runner)) continue;
+    if (has_failed(runner)) break;
+    if (may_end_standing && stands(runner)) break;
+    progress(done_share(runner));
+    checkpoints.write_if_due(runner);
   }
   finish(runner);
   if (!may_end_standing || is_over(runner) || has_failed(runner)) return;
@@ -231,8 +235,9 @@ void compute_run(Tool& tool, const Site& site, const SetUp& setup, const DdaOpti
                  double cpu_start_s) {
   RunFile file = new_file(tool, site, setup, o);
   RunOptions options = run_options(site, setup.plan, o);
-  Workers workers(n_threads(setup.scene, setup.plan, o));
+  Workers workers(n_threads(setup.scene, o));
   if (workers.n_threads() > 1) options.workers = &workers;
+  options.is_stopped = [&tool] { return tool.interrupted(); };
   tool.detail(counted(workers.n_threads(), "thread"));
   ask_for_frames(setup.scene, options, site);
   Runner runner = runner_of(tool, setup.scene, options, setup.inputs.lines, std::move(file), o);

@@ -34,8 +34,8 @@ void declare(Tool& tool, SiteOptions& site, DdaOptions& o) {
               "a cell is passed while the footprint or only the centroid is over it")
       .one_of({"footprint", "centroid"});
   tool.option("--threads", o.threads,
-              "threads that share a step; 0, the default: all that the machine or the Slurm task "
-              "gives, one inside make -j; the run has the same bytes with any number")
+              "threads that share a step or the rocks; 0, the default: all that the machine or the "
+              "Slurm task gives, one inside make -j; the run has the same bytes with any number")
       .between(0, 1024);
   site.option(tool, "--seed", "solver.seed", "seed of scatter and jitter");
   tool.footer(

@@ -1,0 +1,234 @@
+#include "run/rocks.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "run/batch_scene.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+// So few that what they touch stays in the cache; rocks between two looks at the limits.
+constexpr int batch_size = 16, rocks_at_once = 1024;
+
+/// Rocks [first, end), done.
+struct Batch {
+  int first = 0, end = 0;
+  bool is_done = false;
+  State state;
+  RunFile file;
+  double energy_start = 0;  ///< [J]
+};
+
+// A last rock goes with those before it: alone in its scene it would share a world (worlds.hpp).
+std::vector<Batch> next_batches(int n_done, int n_rocks) {
+  const int end = std::min(n_rocks, (n_done / rocks_at_once + 1) * rocks_at_once);
+  std::vector<Batch> batches;
+  for (int first = n_done; first < end; first = batches.back().end) {
+    Batch& batch = batches.emplace_back();
+    batch.first = first;
+    batch.end = std::min(n_rocks, first + batch_size);
+    if (n_rocks - batch.end == 1) batch.end = n_rocks;
+  }
+  return batches;
+}
+
+/// Scenes that threads fill with the rocks of one batch after the other.
+class ScenePool {
+ public:
+  explicit ScenePool(const Scene& scene) : scene_(scene) {}
+  std::unique_ptr<Scene> take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return std::make_unique<Scene>(without_rocks(scene_));
+    std::unique_ptr<Scene> scene = std::move(free_.back());
+    free_.pop_back();
+    return scene;
+  }
+  void give_back(std::unique_ptr<Scene> scene) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(scene));
+  }
+
+ private:
+  const Scene& scene_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Scene>> free_;
+};
+
+void add(const HealthRow& row, HealthRow& sum) {
+  for (const auto count : {&HealthRow::substeps, &HealthRow::passes, &HealthRow::flips,
+                           &HealthRow::impacts, &HealthRow::unconverged, &HealthRow::left_domain,
+                           &HealthRow::fell_through, &HealthRow::not_finite})
+    sum.*count += row.*count;
+  for (size_t k = 0; k < sum.cuts.size(); ++k) sum.cuts[k] += row.cuts[k];
+  for (const auto energy :
+       {&HealthRow::translation, &HealthRow::rotation, &HealthRow::potential, &HealthRow::elastic,
+        &HealthRow::friction, &HealthRow::impact, &HealthRow::contact, &HealthRow::base,
+        &HealthRow::fence, &HealthRow::rolling, &HealthRow::drag, &HealthRow::breakage,
+        &HealthRow::removed})
+    sum.*energy += row.*energy;
+  sum.largest_error = std::max(sum.largest_error, row.largest_error);
+  sum.largest_penetration = std::max(sum.largest_penetration, row.largest_penetration);
+  if (row.shortest_dt > 0 && !(sum.shortest_dt > 0 && sum.shortest_dt < row.shortest_dt))
+    sum.shortest_dt = row.shortest_dt;
+}
+
+void add_health(const std::vector<HealthRow>& rows, std::vector<HealthRow>& sum) {
+  if (sum.empty()) {
+    sum = rows;
+    return;
+  }
+  TALUS_ASSERT(sum.size() == rows.size());
+  for (size_t i = 0; i < rows.size(); ++i) add(rows[i], sum[i]);
+}
+
+void add(const RunCounters& counters, RunCounters& sum) {
+  sum.steps = counters.steps;
+  for (const auto count :
+       {&RunCounters::substeps, &RunCounters::flight_skips, &RunCounters::impacts,
+        &RunCounters::passes, &RunCounters::unconverged, &RunCounters::cut_back})
+    sum.*count += counters.*count;
+  sum.left_domain += counters.left_domain;
+}
+
+void take_earlier(Mishap other, int first, Mishap& mishap) {
+  if (other.block < 0 || (mishap.block >= 0 && mishap.time <= other.time)) return;
+  other.block += first;
+  mishap = other;
+}
+
+void add(const Mishaps& mishaps, int first, Mishaps& sum) {
+  for (const auto mishap :
+       {&Mishaps::unconverged, &Mishaps::not_finite, &Mishaps::left_domain, &Mishaps::fell_through})
+    take_earlier(mishaps.*mishap, first, sum.*mishap);
+  if (mishaps.deepest.block < 0 || mishaps.deepest.depth <= sum.deepest.depth) return;
+  sum.deepest = mishaps.deepest;
+  sum.deepest.block += first;
+}
+
+template <class Hit>
+void add_hits(const std::vector<Hit>& from, int first, int n_rocks, std::vector<Hit>& hits,
+              HitChain& chain) {
+  for (Hit hit : from) {
+    hit.block += first;
+    add_hit(hit, n_rocks, hits, chain);
+  }
+}
+
+// What reports and limits read of the rocks of a batch.
+void add_state(Batch& batch, int n_rocks, State& state) {
+  State& from = batch.state;
+  const auto put = [&batch](auto& of_batch, auto& of_all) {
+    std::move(of_batch.begin(), of_batch.end(), of_all.begin() + batch.first);
+  };
+  put(from.phase, state.phase);
+  put(from.local_time, state.local_time);
+  put(from.motion, state.motion);
+  put(from.deep, state.deep);
+  if (!from.yielding.worlds.empty()) {
+    for (std::vector<MetBody>& world : from.yielding.worlds)
+      for (MetBody& of : world)
+        if (of.met.broken_by >= 0) of.met.broken_by += batch.first;
+    put(from.yielding.worlds, state.yielding.worlds);
+  }
+  add_hits(from.fence.hits, batch.first, n_rocks, state.fence.hits, state.fence.chain);
+  add_hits(from.stem_hits, batch.first, n_rocks, state.stem_hits, state.stem_chain);
+  for (CrushedBlock crushed : from.crushed) {
+    crushed.block += batch.first;
+    state.crushed.push_back(crushed);
+  }
+  for (const auto energy : {&EnergyLedger::friction, &EnergyLedger::impact, &EnergyLedger::contact,
+                            &EnergyLedger::base, &EnergyLedger::fence, &EnergyLedger::rolling,
+                            &EnergyLedger::drag, &EnergyLedger::breakage, &EnergyLedger::removed})
+    state.ledger.*energy += from.ledger.*energy;
+  add(from.counters, state.counters);
+  add(from.mishaps, batch.first, state.mishaps);
+  state.time = from.time;
+}
+
+template <class Row>
+void add_rows(const std::vector<Row>& from, int first, std::vector<Row>& rows) {
+  for (Row row : from) {
+    row.block += first;
+    rows.push_back(row);
+  }
+}
+
+// Into the columns of its rocks; those that are not done stand at their start.
+void add_frames(const Batch& batch, Runner& runner) {
+  RunFrames& frames = runner.file.frames;
+  const RunFrames& from = batch.file.frames;
+  if (frames.time.empty())
+    for (const double time : from.time)
+      append(frames, last_frame(runner.sampler, time), runner.options.strain);
+  TALUS_ASSERT(frames.time.size() == from.time.size());
+  const auto n = static_cast<size_t>(batch.end - batch.first);
+  const auto put = [&](const auto& of_batch, auto& of_all, size_t columns) {
+    if (of_all.empty()) return;
+    for (size_t k = 0; k < from.time.size(); ++k)
+      std::copy_n(of_batch.data() + k * n * columns, n * columns,
+                  of_all.data() + columns * (k * static_cast<size_t>(n_blocks(runner.scene)) +
+                                             static_cast<size_t>(batch.first)));
+  };
+  put(from.position, frames.position, 3);
+  put(from.attitude, frames.attitude, 4);
+  put(from.velocity, frames.velocity, 3);
+  put(from.spin, frames.spin, 3);
+  put(from.strain, frames.strain, 6);
+}
+
+void add(Batch& batch, Runner& runner) {
+  add_state(batch, n_blocks(runner.scene), runner.state);
+  add_frames(batch, runner);
+  add_rows(batch.file.passages, batch.first, runner.file.passages);
+  add_rows(batch.file.crossings, batch.first, runner.crossings.rows);
+  add_rows(batch.file.object_hits, batch.first, runner.objects.rows);
+  add_health(batch.file.health, runner.file.health);
+  runner.energy_start += batch.energy_start;
+  runner.n_done = batch.end;
+}
+
+bool has_strength(const std::vector<GroundClass>& classes) {
+  return std::any_of(classes.begin(), classes.end(),
+                     [](const GroundClass& c) { return c.cohesion > 0 || c.tension > 0; });
+}
+
+}  // namespace
+
+bool fall_in_batches(const Scene& scene, const RunOptions& options) {
+  return !scene.settings.block_contacts && n_blocks(scene) > batch_size + 1 && !options.paper &&
+         scene.fragments.empty() && scene.loads.empty() && !has_strength(scene.joints.of_set) &&
+         !has_strength(scene.joints.of_block);
+}
+
+void advance_rocks(Runner& runner, const std::function<Runner(const Scene&)>& fall) {
+  std::vector<Batch> batches = next_batches(runner.n_done, n_blocks(runner.scene));
+  ScenePool pool(runner.scene);
+  const auto compute = [&](std::uint32_t i) {
+    if (runner.options.is_stopped && runner.options.is_stopped()) return;
+    std::unique_ptr<Scene> scene = pool.take();
+    take_rocks(runner.scene, batches[i].first, batches[i].end, *scene);
+    Runner done = fall(*scene);
+    batches[i].state = std::move(done.state);
+    batches[i].file = std::move(done.file);
+    batches[i].energy_start = done.energy_start;
+    batches[i].is_done = true;
+    pool.give_back(std::move(scene));
+  };
+  const auto n = static_cast<std::uint32_t>(batches.size());
+  if (runner.options.workers != nullptr)
+    runner.options.workers->run(n, compute);
+  else
+    for (std::uint32_t i = 0; i < n; ++i) compute(i);
+  for (Batch& batch : batches) {
+    if (!batch.is_done) break;
+    add(batch, runner);
+    batch = {};
+  }
+}
+
+}  // namespace talus

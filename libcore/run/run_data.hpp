@@ -1,0 +1,69 @@
+// libcore/run/run_data.hpp
+// What a run is asked for, and what it holds while it is under way.
+// filled by: run/runner.hpp, and run/rocks.hpp for rocks that fall one by one
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "base/workers.hpp"
+#include "record/crossings.hpp"
+#include "record/frames.hpp"
+#include "record/object_hits.hpp"
+#include "record/passages.hpp"
+#include "record/run_file.hpp"
+#include "run/law.hpp"
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
+#include "step/work.hpp"
+
+namespace talus {
+
+/// Limits of a run's health; what breaks one fails the run.
+struct RunLimits {
+  double max_penetration = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none [m]
+  /// Mechanical energy gained, or lost where all hits return almost all, share of the fall energy.
+  double max_energy_gain = 0.01;
+  double max_lost_share = 0.01;        ///< mass of the blocks that left the terrain, share [-]
+  double max_unconverged_share = 0.1;  ///< accepted without convergence, share of the steps [-]
+  double max_deep_share = 1e-3;        ///< mass of the blocks that were deep, share of all [-]
+};
+
+struct RunOptions {
+  double duration = 0;        ///< > 0 [s]
+  double frame_interval = 0;  ///< > 0 [s]
+  bool passages = true;
+  bool passages_by_centroid = false;
+  double passage_cell_size = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the TRN's [m]
+  bool strain = false;                                                  ///< store strains in frames
+  std::optional<PaperSettings> paper;  ///< law paper moves the blocks, not law talus
+  RunLimits limits;
+  Workers* workers = nullptr;  ///< share the loops of a step, or the rocks that fall one by one;
+                               ///< the bits do not depend on them
+  std::function<bool()>
+      is_stopped;  ///< asked by any thread before the next few rocks; may be empty
+};
+
+/// A run under way. `file` holds what is complete; update_file() adds the rest.
+///
+/// Rocks that fall one by one are computed from start to end, a few at a time (run/rocks.hpp):
+/// `state` and `file` then tell of those before `n_done`, and the rest stand at their start.
+struct Runner {
+  const Scene& scene;
+  RunOptions options;
+  RunLaw law;
+  State state;
+  Work work;
+  PassageRecorder passages;
+  CrossingRecorder crossings;
+  ObjectRecorder objects;
+  FrameSampler sampler;
+  SegmentMotion motion;     ///< of the segment at hand
+  HealthRow interval;       ///< since the last row of health
+  double energy_start = 0;  ///< kinetic, potential and elastic energy at time 0 [J]
+  RunFile file;
+  int n_done = 0;  ///< rocks of a run of rocks one by one, else all blocks
+};
+
+}  // namespace talus
