@@ -11,6 +11,9 @@ using std::numbers::pi;
 
 constexpr double most_by_bearing = 0.5;  // mu_r: deeper in, the half disc says nothing
 
+// Centre of half a disc, from its middle.
+double half_disc_centre(double radius) { return 4 * radius / (3 * pi); }
+
 // Integral of friction along the slid distance, from 0 to `way`.
 double scar_work(const GroundClass& ground, double way) {
   const double kappa = ground.scar_rate, x = kappa * way;
@@ -52,7 +55,16 @@ double mean_friction(const GroundClass& ground, double speed, double way, double
 double rolling_on(const GroundClass& ground, double weight, double radius) {
   if (ground.bearing == 0) return ground.rolling;
   return std::min(most_by_bearing,
-                  4 / (3 * pi) * std::sqrt(8 * weight * radius / (3 * ground.bearing)));
+                  half_disc_centre(std::sqrt(8 * weight * radius / (3 * ground.bearing))));
+}
+
+double Dent::arm_at(double v) const {
+  return half_disc_centre(std::min(widest, std::sqrt(square_per_speed * v)));
+}
+
+Dent dent_in(const GroundClass& ground, double mass, double radius) {
+  if (ground.bearing == 0) return {};
+  return {2 * radius * std::sqrt(mass / (2 * pi * radius * ground.bearing)), radius};
 }
 
 double kept_by_drag(const GroundClass& ground, double speed, double h) {

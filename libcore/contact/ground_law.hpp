@@ -19,7 +19,7 @@ struct GroundClass {
   double half_energy = 0;    ///< E_05: or the energy of it [J]
   double rolling = 0;        ///< mu_r: couple against rolling per normal force and radius [-]
   double spinning = -1;      ///< mu_s: against pivoting about the normal; < 0: as rolling [-]
-  double bearing = 0;        ///< q: mu_r by the size of the block instead [Pa]
+  double bearing = 0;        ///< q: mu_r by the dent of weight or hit instead [Pa]
   double scar_friction = 0;  ///< mu_max: tan(phi) that slip leads to [-]
   double scar_rate = 0;      ///< kappa: rate per slid distance [1/m]
   double scar_decay = 0;     ///< beta: rate at which the slid distance decays off the ground [1/s]
@@ -77,6 +77,18 @@ struct RestitutionFall {
 /// mu_r for a block whose sphere of equal volume has `radius`, of `weight` per volume [N/m3]: by
 /// the ground's bearing strength 4 / (3 pi) sqrt(8 weight radius / (3 q)), at most 0.5.
 [[nodiscard]] double rolling_on(const GroundClass& ground, double weight, double radius);
+
+/// The dent that a sphere hits into ground of bearing strength q: its volume times q is the energy
+/// of the approach v. Depth d = v sqrt(m / (2 pi R q)), half width sqrt(2 R d), at most R. All
+/// zero: none.
+struct Dent {
+  double square_per_speed = 0;  ///< square of the half width per approach [m s]
+  double widest = 0;            ///< [m]
+
+  /// Arm of the couple against rolling: from the middle to the centre of the front half [m].
+  [[nodiscard]] double arm_at(double v) const;
+};
+[[nodiscard]] Dent dent_in(const GroundClass& ground, double mass, double radius);
 
 /// Factor of velocity and spin at `speed` after a time h of drag.
 [[nodiscard]] double kept_by_drag(const GroundClass& ground, double speed, double h);

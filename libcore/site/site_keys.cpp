@@ -131,7 +131,7 @@ template <> const std::vector<SiteKey<GroundSettings>>& keys_of() {
       {"cor_half_energy_kj", &S::cor_half_energy_kj, "energy of the approach at which the COR is half of cor, instead of cor_half_speed_m_s", positive},
       {"rolling_resistance", &S::rolling_resistance, "largest couple against rolling over normal force and radius of the block; none when not given", share},
       {"spin_resistance", &S::spin_resistance, "the same against pivoting about the normal; as against rolling when not given", share},
-      {"bearing_kpa", &S::bearing_kpa, "strength of the ground that gives the rolling resistance by the size of the block, instead of rolling_resistance", positive},
+      {"bearing_kpa", &S::bearing_kpa, "strength of the ground that gives the rolling resistance by the dent of the block's weight or hit, instead of rolling_resistance", positive},
       {"scar_friction", &S::scar_friction, "tan(phi) that friction grows to as a block slides, from that of friction_deg", not_negative, "", "a friction coefficient, 2 is steep"},
       {"scar_rate_1_m", &S::scar_rate_1_m, "growth per metre slid", positive},
       {"scar_decay_1_s", &S::scar_decay_1_s, "decay of the slid distance while off the ground", positive},

@@ -6,6 +6,8 @@
 // theory: 1.13
 #pragma once
 
+#include <algorithm>
+
 #include "contact/contact.hpp"
 
 namespace talus {
@@ -14,6 +16,10 @@ namespace talus {
 struct RowArm {
   double rolling = 0;   ///< across the normal
   double spinning = 0;  ///< along it
+
+  [[nodiscard]] RowArm at_least(double arm) const {
+    return {std::max(rolling, arm), std::max(spinning, arm)};
+  }
 };
 
 /// What normal impulses let a couple be.

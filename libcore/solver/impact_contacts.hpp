@@ -29,6 +29,7 @@ struct ImpactContact {
   double restitution = 0;      ///< of the normal speed, at no speed [-]
   RestitutionFall fall;        ///< ... at the approach
   RowArm arm;                  ///< of the couple on A that resists its rolling on the ground
+  Dent dent;                   ///< ... and makes both arms at least that of the approach
   double resting_speed = 0;    ///< a slower approach returns nothing [m/s]
   bool is_bond = false;        ///< holds A to B whatever the force
   // of who looks for hits

@@ -74,6 +74,7 @@ struct Solver {
       c.target = !c.is_bond && c.approach < -c.resting_speed
                      ? -c.fall.at(c.restitution, -c.approach) * c.approach
                      : 0;
+      c.arm = c.arm.at_least(c.dent.arm_at(std::max(0.0, -c.approach)));
     }
     rounding = 1e-14 * fastest;
     list_turns();

@@ -38,6 +38,7 @@ ImpactContact contact_of(const Scene& scene, int b, const Contact& found, const 
   contact.restitution = ground.restitution;
   contact.fall = fall_on(ground, scene.blocks.mass[static_cast<size_t>(b)]);
   contact.arm = arm_on(scene, ground, b);
+  contact.dent = dent_on(scene, ground, b);
   contact.resting_speed = resting_speed;
   return contact;
 }

@@ -33,6 +33,11 @@ RowArm arm_on(const Scene& scene, const GroundClass& ground, int b) {
   return {rolling * radius, (ground.spinning < 0 ? rolling : ground.spinning) * radius};
 }
 
+Dent dent_on(const Scene& scene, const GroundClass& ground, int b) {
+  const auto i = static_cast<size_t>(b);
+  return dent_in(ground, scene.blocks.mass[i], sphere_radius(scene.blocks.volume[i]));
+}
+
 double turn_damping(const Scene& scene, const BlockNumbers& c, double h) {
   return law::stiffest_lone * law::recovery_steps * (h / scene.settings.dt) * c.inertia.maxCoeff();
 }

@@ -28,6 +28,9 @@ namespace talus {
 /// sphere of its volume.
 [[nodiscard]] RowArm arm_on(const Scene& scene, const GroundClass& ground, int b);
 
+/// The dent that a hit of block b makes in `ground`.
+[[nodiscard]] Dent dent_on(const Scene& scene, const GroundClass& ground, int b);
+
 /// Damping of the couple over a step of `h`: as firm as the stiffest contact of a lone block
 /// [kg m2].
 [[nodiscard]] double turn_damping(const Scene& scene, const BlockNumbers& c, double h);

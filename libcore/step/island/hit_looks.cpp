@@ -302,6 +302,7 @@ void HitLooks::find_touching_ground(size_t p, double time) const {
     const int b = members.blocks[k];
     touching.fall = fall_on(ground, c.mass);
     touching.arm = arm_on(scene, ground, b);
+    touching.dent = dent_on(scene, ground, b);
     vary_friction(ground, slide_of(state, b, free.t + time), slip_of(touching, place(k, m)), 0,
                   touching.friction);
   }

@@ -271,8 +271,12 @@ struct MassMaker {
     turn.damping = turn_damping(scene, members.numbers[k], free.h);
     turn.inertia = members.numbers[k].inertia.minCoeff();
     turn.spin = w.members[k].spin;
-    for (int r = pair.row_begin; r < pair.row_end; ++r)
-      out.arms.push_back(arm_on(scene, class_of(r), members.blocks[k]));
+    for (int r = pair.row_begin; r < pair.row_end; ++r) {
+      const MassContact& contact = out.contacts[r];
+      const double approach = contact.is_hit ? std::max(0.0, -contact.speed_start) : 0;
+      out.arms.push_back(arm_on(scene, class_of(r), contact.a)
+                             .at_least(dent_on(scene, class_of(r), contact.a).arm_at(approach)));
+    }
     out.turns.push_back(turn);
   }
 

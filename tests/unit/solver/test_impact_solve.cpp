@@ -152,6 +152,54 @@ TEST(SolveImpact, KeepsWhatMustBeKept) {
 
 // A plate that lands flat on a slope, with friction, does not begin to turn; whatever the order of
 // its corners.
+// A ball that rolls and hits ground which gives way: friction holds its point, so the couple
+// arm p_n takes (arm / R) p_n / (m + I / R^2) of its speed.
+struct RollingBall {
+  static constexpr double m = 780, radius = 0.41, e = 0.5;
+  GroundClass ground;
+  ImpactWork work;
+  double speed = 8;
+
+  explicit RollingBall(double strength) { ground.bearing = strength; }
+
+  void hit(double approach) {
+    std::vector<ImpactBody> bodies(1);
+    bodies[0].per_mass = 1 / m;
+    bodies[0].inertia = 0.4 * m * radius * radius * Mat3::Identity();
+    bodies[0].per_inertia = bodies[0].inertia.inverse();
+    bodies[0].velocity << speed, 0, -approach, 0, speed / radius, 0;
+    std::vector<ImpactContact> contacts = {
+        contact(0, -1, Vec3::UnitZ(), Vec3(0, 0, -radius), e, 0.8)};
+    contacts[0].dent = dent_in(ground, m, radius);
+    const Impact impact = solve_impact(bodies, contacts, work);
+    EXPECT_TRUE(impact.converged);
+    EXPECT_GT(impact.by_rolling, 0);
+    EXPECT_NEAR(bodies[0].velocity[2], e * approach, 1e-9);
+    speed = bodies[0].velocity[0];
+    EXPECT_NEAR(bodies[0].velocity[4], speed / radius, 1e-6);
+  }
+};
+
+TEST(SolveImpact, ADentTakesItsShareOfARoll) {
+  for (const double approach : {0.5, 2.0, 6.0}) {
+    RollingBall ball(3e6);
+    ball.hit(approach);
+    const double arm = dent_in(ball.ground, ball.m, ball.radius).arm_at(approach);
+    EXPECT_NEAR(8 - ball.speed, 5.0 / 7 * arm / ball.radius * (1 + ball.e) * approach, 1e-6);
+  }
+}
+
+// Over the rebounds of a fall the losses are a geometric series: each approach is e of the last,
+// and an arm goes with the root of it.
+TEST(SolveImpact, DentsOfAllReboundsAddUp) {
+  RollingBall ball(3e6);
+  const double first = 5, arm = dent_in(ball.ground, ball.m, ball.radius).arm_at(first);
+  for (double approach = first; approach > 1e-6; approach *= ball.e) ball.hit(approach);
+  EXPECT_NEAR(8 - ball.speed,
+              5.0 / 7 * arm / ball.radius * (1 + ball.e) * first / (1 - std::pow(ball.e, 1.5)),
+              1e-6);
+}
+
 TEST(SolveImpact, AFlatLandingStaysFlat) {
   ImpactWork work;
   for (const double slip : {0.3, 3.0}) {

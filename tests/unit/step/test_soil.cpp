@@ -141,6 +141,25 @@ TEST(SoilArm, FollowsTheSizeOnCohesiveGround) {
   }
 }
 
+// The dent of a hit: q times its volume is the energy of the approach.
+TEST(SoilDent, TakesTheEnergyOfTheApproach) {
+  using std::numbers::pi;
+  GroundClass ground = ground_of(30);
+  EXPECT_EQ(dent_in(ground, 780, 0.41).arm_at(5), 0);
+  ground.bearing = 3e6;
+  for (const double v : {0.5, 2.0, 6.0}) {
+    const double width = dent_in(ground, 780, 0.41).arm_at(v) * 3 * pi / 4;
+    const double depth = width * width / (2 * 0.41);
+    EXPECT_NEAR(ground.bearing * pi * 0.41 * depth * depth, 780 * v * v / 2, 1e-6 * 780 * v * v);
+  }
+  // over the radius it knows no size
+  for (const double radius : {0.1, 1.0}) {
+    const double mass = 2650 * 4.0 / 3 * pi * std::pow(radius, 3);
+    EXPECT_NEAR(dent_in(ground, mass, radius).arm_at(4) / radius, 0.18700, 1e-5);
+  }
+  EXPECT_NEAR(dent_in(ground, 780, 0.41).arm_at(1e3), 4 * 0.41 / (3 * pi), 1e-12);
+}
+
 // --- friction ----------------------------------------------------------------------------------
 
 const GroundClass soft = scarring_ground(0.25, 1.25, 100);
