@@ -418,7 +418,7 @@ struct Site {
 void override_value(Site& site, const std::string& key, const std::string& value);
 
 /// A value in effect, as TOML, and where it came from: "default", "file, line 7", "cli", "soil
-/// meadow (calibrated at one site)", "sample 7 of uncertainty.friction".
+/// meadow (field test)", "sample 7 of uncertainty.friction".
 struct EffectiveValue {
   std::string section, key, value, source;  ///< value is empty when not given
   std::string note = {};                    ///< where what it stands for is from; mostly empty

@@ -11,25 +11,29 @@
 namespace talus {
 namespace {
 
-constexpr const char* calibrated = "calibrated at one site";
-constexpr const char* estimated = "estimate, not calibrated";
+constexpr const char* tested = "field test";
+constexpr const char* untested = "no field test";
 
-constexpr const char* from_tschamut =
-    "18 runs at Tschamut (Volkwein and Gerber 2018, doi 10.16904/envidat.34), blocks of 40 to 79 "
-    "kg as hulls of 20 points, by a prototype of this program";
-constexpr const char* from_judgement =
-    "cor and cor_half_speed_m_s for what a hull of 20 points returns in all, rolling_resistance by "
-    "judgement between bare rock and meadow; no field test";
+constexpr const char* at_tschamut =
+    "18 runs at Tschamut (Volkwein and Gerber 2018, doi 10.16904/envidat.34), 11 hits at Chant "
+    "Sura (doi 10.16904/envidat.174), blocks of 40 to 780 kg as hulls of 20 points";
+constexpr const char* at_authume =
+    "41 boulders of 0.2 to 1.8 t at the Authume quarry (Bourrier et al. 2021), as hulls of 20 "
+    "points";
+constexpr const char* as_meadow = "values of meadow";
+constexpr const char* by_judgement = "by judgement between the soils with field tests";
 
+// The field tests agree with one ground of 2 kJ and 4 MPa. Hard ground has twice the energy, soft
+// ground half of both.
 constexpr std::array<Soil, 8> table = {{
-    {"rock", 35, 0.9, 100, 0.02, estimated, from_judgement},
-    {"thin_soil", 35, 0.9, 24, 0.05, estimated, from_judgement},
-    {"talus", 38, 0.9, 15, 0.08, estimated, from_judgement},
-    {"scree", 35, 0.9, 11, 0.12, estimated, from_judgement},
-    {"meadow", 35, 0.9, 10, 0.17, calibrated, from_tschamut},
-    {"soft_soil", 35, 0.9, 6, 0.25, estimated, from_judgement},
-    {"swamp", 30, 0, not_given, 0.5, estimated, from_judgement},
-    {"asphalt", 35, 0.9, 13, 0.02, estimated, from_judgement},
+    {"rock", 35, 0.9, 4, 4000, tested, at_authume},
+    {"thin_soil", 35, 0.9, 2, 4000, tested, at_authume},
+    {"talus", 35, 0.9, 2, 4000, untested, as_meadow},
+    {"scree", 35, 0.9, 2, 4000, untested, as_meadow},
+    {"meadow", 35, 0.9, 2, 4000, tested, at_tschamut},
+    {"soft_soil", 35, 0.9, 1, 2000, untested, by_judgement},
+    {"swamp", 30, 0, not_given, 500, untested, by_judgement},
+    {"asphalt", 35, 0.9, 4, 4000, untested, by_judgement},
 }};
 
 /// The keys that soils set.
@@ -42,10 +46,10 @@ struct SoilKey {
 constexpr std::array<SoilKey, 4> keys = {{
     {"friction_deg", &GroundSettings::friction_deg, &Soil::friction_deg, nullptr},
     {"cor", &GroundSettings::cor, &Soil::cor, nullptr},
-    {"cor_half_speed_m_s", &GroundSettings::cor_half_speed_m_s, &Soil::cor_half_speed_m_s,
-     &GroundSettings::cor_half_energy_kj},
-    {"rolling_resistance", &GroundSettings::rolling_resistance, &Soil::rolling_resistance,
-     &GroundSettings::bearing_kpa},
+    {"cor_half_energy_kj", &GroundSettings::cor_half_energy_kj, &Soil::cor_half_energy_kj,
+     &GroundSettings::cor_half_speed_m_s},
+    {"bearing_kpa", &GroundSettings::bearing_kpa, &Soil::bearing_kpa,
+     &GroundSettings::rolling_resistance},
 }};
 
 std::string key_of(const GroundSettings& ground, const char* key) {
@@ -113,6 +117,8 @@ struct GroundCheck {
 };
 
 }  // namespace
+
+bool Soil::is_tested() const { return mark == tested; }
 
 std::span<const Soil> soils() { return table; }
 

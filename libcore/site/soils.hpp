@@ -14,9 +14,11 @@ namespace talus {
 /// A kind of ground. NaN: the key is not set.
 struct Soil {
   const char* name;
-  double friction_deg, cor, cor_half_speed_m_s, rolling_resistance;
-  const char* mark;    ///< how sure the values are
-  const char* source;  ///< where they are from
+  double friction_deg, cor, cor_half_energy_kj, bearing_kpa;
+  const char* mark;    ///< whether a field test supports the values
+  const char* source;  ///< which one, or where they are from
+
+  [[nodiscard]] bool is_tested() const;
 };
 
 [[nodiscard]] std::span<const Soil> soils();

@@ -19,6 +19,7 @@
 #include "setup/source_cut_gdal.hpp"
 #include "site/joint_plan.hpp"
 #include "site/plan.hpp"
+#include "site/soils.hpp"
 #include "terrain/smooth.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
 
@@ -358,6 +359,10 @@ void look_at(Tool& tool, const Site& site, const CheckFiles& files, Look& look) 
   look.work.ground = read_trn(files.trn);
   check_times(site);
   static_cast<void>(warn_of_settings(tool, site));
+  for (const GroundSettings& ground : site.grounds)
+    if (const Soil* soil = soil_named(ground.soil); soil != nullptr && !soil->is_tested())
+      tool.warn("ground." + ground.name + ": soil " + soil->name +
+                " has no field test: " + soil->source);
   look.inputs = read_dda_inputs(tool, site, {files.bed, files.blocks, files.settle});
   look.is_cut = look.work.is_cut();
   const Trn& bed = look.inputs.parts.trn;

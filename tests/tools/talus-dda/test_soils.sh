@@ -23,10 +23,10 @@ make_classes 1
 
 expect 0 run_dda -o run.h5 --print-config
 prints "ground.grass.soil = \"'meadow'\""
-prints "calibrated at one site: 18 runs at Tschamut"
-prints "ground.grass.rolling_resistance = 0.17"
-prints "soil meadow (calibrated at one site)"
-prints "soil rock (estimate, not calibrated)"
+prints "field test: 18 runs at Tschamut"
+prints "ground.grass.bearing_kpa = 4000"
+prints "soil meadow (field test)"
+prints "soil rock (field test)"
 
 displacement() { # displacement VALUE: the one that 90 % of the mass stays below on that soil
   make_classes "$1"

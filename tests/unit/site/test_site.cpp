@@ -280,12 +280,12 @@ TEST(SiteSoil, FillsKeysThatAreNotGiven) {
   const talus::GroundSettings& ground = site.grounds.at(0);
   EXPECT_EQ(ground.friction_deg, 31);
   EXPECT_EQ(ground.cor, 0.9);
-  EXPECT_EQ(ground.cor_half_speed_m_s, 10);
-  EXPECT_EQ(ground.rolling_resistance, 0.17);
+  EXPECT_EQ(ground.cor_half_energy_kj, 2);
+  EXPECT_EQ(ground.bearing_kpa, 4000);
   const std::string printed = talus::print_config(site);
-  EXPECT_NE(printed.find("cor = 0.9  # soil meadow (calibrated at one site)"), std::string::npos);
+  EXPECT_NE(printed.find("cor = 0.9  # soil meadow (field test)"), std::string::npos);
   EXPECT_NE(printed.find("friction_deg = 31  # file, line 3"), std::string::npos);
-  EXPECT_NE(printed.find("\n# calibrated at one site: 18 runs at Tschamut"), std::string::npos);
+  EXPECT_NE(printed.find("\n# field test: 18 runs at Tschamut"), std::string::npos);
   EXPECT_EQ(parse_site(printed, "s/site.toml").grounds.at(0).cor, 0.9);
 }
 
@@ -293,19 +293,19 @@ TEST(SiteSoil, AnotherOneTakesThePlaceOfWhatTheFirstFilled) {
   Site site = parse_site("[ground.g]\nsoil = 'meadow'\n", "s/site.toml");
   talus::override_value(site, "ground.g.soil", "swamp");
   EXPECT_EQ(site.grounds[0].cor, 0);
-  EXPECT_TRUE(std::isnan(site.grounds[0].cor_half_speed_m_s));
+  EXPECT_TRUE(std::isnan(site.grounds[0].cor_half_energy_kj));
   EXPECT_EQ(site.grounds[0].friction_deg, 30);
-  talus::override_value(site, "ground.g.rolling_resistance", "0.1");
-  talus::override_value(site, "ground.g.soil", "scree");
-  EXPECT_EQ(site.grounds[0].rolling_resistance, 0.1);
-  EXPECT_EQ(site.grounds[0].cor_half_speed_m_s, 11);
+  talus::override_value(site, "ground.g.bearing_kpa", "100");
+  talus::override_value(site, "ground.g.soil", "rock");
+  EXPECT_EQ(site.grounds[0].bearing_kpa, 100);
+  EXPECT_EQ(site.grounds[0].cor_half_energy_kj, 4);
 }
 
 TEST(SiteSoil, LeavesOutWhatAGivenKeyExcludes) {
-  const Site site =
-      parse_site("[ground.g]\nsoil = 'talus'\nbearing_kpa = 90\ncor_half_energy_kj = 5\n", "s");
-  EXPECT_TRUE(std::isnan(site.grounds[0].rolling_resistance));
-  EXPECT_TRUE(std::isnan(site.grounds[0].cor_half_speed_m_s));
+  const Site site = parse_site(
+      "[ground.g]\nsoil = 'talus'\nrolling_resistance = 0.1\ncor_half_speed_m_s = 5\n", "s");
+  EXPECT_TRUE(std::isnan(site.grounds[0].bearing_kpa));
+  EXPECT_TRUE(std::isnan(site.grounds[0].cor_half_energy_kj));
   talus::check_grounds(site);
 }
 

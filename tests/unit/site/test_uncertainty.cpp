@@ -190,24 +190,24 @@ TEST(Uncertainty, EffectiveValuesSayWhichSampleTheyAreOf) {
 TEST(Uncertainty, KeysThatASoilFilledAreDrawnAroundItsValues) {
   const std::string text =
       "[ground.slope]\nsoil = \"meadow\"\n[uncertainty.rolling]\n"
-      "keys = \"ground.slope.rolling_resistance\"\napply = \"factor\"\n"
+      "keys = \"ground.slope.bearing_kpa\"\napply = \"factor\"\n"
       "distribution = \"lognormal\"\nstd = 0.2\n";
   std::set<double> drawn;
   for (std::int64_t sample = 1; sample <= 4; ++sample) {
     Site site = site_of(text, sample);
     apply_draws(site, DrawScope::all);
-    const double rolling = site.grounds[0].rolling_resistance;
-    EXPECT_TRUE(rolling > 0.17 / 3 && rolling < 0.17 * 3) << rolling;
-    drawn.insert(rolling);
+    const double bearing = site.grounds[0].bearing_kpa;
+    EXPECT_TRUE(bearing > 4000.0 / 3 && bearing < 4000.0 * 3) << bearing;
+    drawn.insert(bearing);
     const std::string printed = print_config(site);
     EXPECT_TRUE(has(printed, "  # sample " + std::to_string(sample) + " of uncertainty.rolling\n"));
-    EXPECT_TRUE(has(printed, "cor = 0.9  # soil meadow (calibrated at one site)"));
-    EXPECT_EQ(parse_site(printed, "run").grounds[0].rolling_resistance, rolling);
+    EXPECT_TRUE(has(printed, "cor = 0.9  # soil meadow (field test)"));
+    EXPECT_EQ(parse_site(printed, "run").grounds[0].bearing_kpa, bearing);
   }
   EXPECT_EQ(drawn.size(), 4U);
-  EXPECT_FALSE(drawn.contains(0.17));
+  EXPECT_FALSE(drawn.contains(4000));
   EXPECT_THROW((void)site_of(text + "[solver]\nrolling_scatter = 0.2\n"), InputError);
-  EXPECT_TRUE(has(print_config(site_of(text)), "rolling_resistance = 0.17  # soil meadow"));
+  EXPECT_TRUE(has(print_config(site_of(text)), "bearing_kpa = 4000  # soil meadow"));
 }
 
 TEST(Uncertainty, TheCommandLineHoldsAKey) {
