@@ -9,18 +9,23 @@ import pathlib
 import re
 import sys
 
-KEYWORDS = {"if", "for", "while", "switch", "return", "operator", "alignas", "requires", "noexcept", "decltype"}
+KEYWORDS = {"if", "for", "while", "switch", "return", "operator", "alignas", "requires", "noexcept", "decltype",
+            "static_assert", "TEST", "TEST_F", "TEST_P", "INSTANTIATE_TEST_SUITE_P", "RC_GTEST_PROP",
+            "RC_GTEST_FIXTURE_PROP"}
 TYPE = re.compile(r"(?:struct|class|enum|union|concept|namespace)(?: class| struct)? (\w+)")
 ALIAS = re.compile(r"using (\w+) =")
 CALLABLE = re.compile(r"(?<![:.>\w])([A-Za-z_]\w*)\(")
-VARIABLE = re.compile(r"(?<![:.>\w])([A-Za-z_]\w*)(?:\[[^\]]*\])*(?: =|\{|;)")
+VARIABLE = re.compile(r"(?<![-:.>\w])(?<![-+*/=] )([A-Za-z_]\w*)(?:\[[^\]]*\])*(?: =|\{|;)")
+REMARK = re.compile(r' *//.*|"(?:\\.|[^"\\])*"')
 INCLUDE = re.compile(r'#include "([^"]+)"', re.MULTILINE)
 
 
 def declared(line):
     """Names that a line at the margin of a file may declare."""
-    names = set(TYPE.findall(line)) | set(ALIAS.findall(line)) | set(VARIABLE.findall(line))
-    names.update(CALLABLE.findall(line))
+    line = REMARK.sub("", line)
+    names = set(TYPE.findall(line)) | set(ALIAS.findall(line))
+    called = CALLABLE.findall(line.split(" = ")[0].split("{")[0])  # before a value or a body
+    names.update(called[:1] or VARIABLE.findall(line))
     if line.startswith("using "):
         names.update(re.findall(r"(\w+)(?=[,;])", line))
     return names - KEYWORDS

@@ -16,7 +16,7 @@ namespace talus {
 namespace {
 
 // Rock that no joint parts: cells joined through walls, and what they add up to.
-struct Piece {
+struct CellPiece {
   std::vector<int> cells;
   Moments sum;
 };
@@ -72,8 +72,8 @@ int root(std::vector<int>& parent, int i) {
 }
 
 // Cells joined through walls within their joint cell, in the order of the cells.
-std::vector<Piece> find_pieces(const CellComplex& c, const std::vector<Polyhedron>& bodies,
-                               std::vector<int>& piece_of_cell) {
+std::vector<CellPiece> find_pieces(const CellComplex& c, const std::vector<Polyhedron>& bodies,
+                                   std::vector<int>& piece_of_cell) {
   const int n_cells = static_cast<int>(c.cell_leaf.size());
   std::vector<int> parent(n_cells);
   std::iota(parent.begin(), parent.end(), 0);
@@ -84,7 +84,7 @@ std::vector<Piece> find_pieces(const CellComplex& c, const std::vector<Polyhedro
     const int b = root(parent, c.face_cell[c.dart_face[other]]);
     parent[std::max(a, b)] = std::min(a, b);
   }
-  std::vector<Piece> pieces;
+  std::vector<CellPiece> pieces;
   piece_of_cell.assign(n_cells, -1);
   for (int cell = 0; cell < n_cells; ++cell) {
     int& piece = piece_of_cell[cell];
@@ -121,7 +121,7 @@ bool is_sliver(const Moments& m, const AssembleOptions& options) {
 
 // Gives slivers, smallest first, to the neighbour with the largest shared area. owner[p] is the
 // piece whose block piece p belongs to; -1 for slivers that have no neighbour.
-std::vector<int> merge_slivers(const std::vector<Piece>& pieces, const Contacts& contacts,
+std::vector<int> merge_slivers(const std::vector<CellPiece>& pieces, const Contacts& contacts,
                                const AssembleOptions& options, AssembleReport& report) {
   const int n = static_cast<int>(pieces.size());
   std::vector<std::map<int, double>> area_with(n);
@@ -212,12 +212,12 @@ class Assembler {
 
   AssembleReport run(BlockSet& set, const ProgressFunction& progress) {
     std::vector<int> piece_of_cell;
-    const std::vector<Piece> pieces = find_pieces(complex_, cells_, piece_of_cell);
+    const std::vector<CellPiece> pieces = find_pieces(complex_, cells_, piece_of_cell);
     const Contacts contacts = find_contacts(complex_, joints_, piece_of_cell);
     AssembleReport report;
     report.n_cells = static_cast<int>(complex_.cell_leaf.size());
     report.n_pieces = static_cast<int>(pieces.size());
-    for (const Piece& piece : pieces) report.cut_volume += piece.sum.volume;
+    for (const CellPiece& piece : pieces) report.cut_volume += piece.sum.volume;
     const std::vector<int> owner = merge_slivers(pieces, contacts, options_, report);
 
     std::vector<std::vector<int>> members(pieces.size());
@@ -249,7 +249,7 @@ class Assembler {
 
   int joint_cell_of(int cell) const { return complex_.leaf_joint_cell[complex_.cell_leaf[cell]]; }
 
-  void add_shares(const Piece& piece, int number,
+  void add_shares(const CellPiece& piece, int number,
                   std::vector<std::vector<Share>>& shares_in) const {
     for (const int cell : piece.cells) {
       const int leaf = complex_.cell_leaf[cell];
@@ -259,14 +259,14 @@ class Assembler {
     }
   }
 
-  Draft draft(const std::vector<Piece>& pieces, int main, const std::vector<int>& members,
+  Draft draft(const std::vector<CellPiece>& pieces, int main, const std::vector<int>& members,
               const std::vector<std::vector<Share>>& shares_in) const {
     Moments exact = pieces[members[0]].sum;
     Draft block;
     block.joint_cell = joint_cell_of(pieces[main].cells[0]);
     block.cells = pieces[members[0]].cells;
     for (size_t k = 1; k < members.size(); ++k) {
-      const Piece& piece = pieces[members[k]];
+      const CellPiece& piece = pieces[members[k]];
       exact = joined(exact, piece.sum);
       block.cells.insert(block.cells.end(), piece.cells.begin(), piece.cells.end());
     }
@@ -407,7 +407,7 @@ class Assembler {
 
   // What the piece's joint cell leaves it to be convex in, leaf by leaf; what it took in is shared
   // out by volume.
-  std::vector<ConvexTask> convex_tasks(const Piece& piece, int number,
+  std::vector<ConvexTask> convex_tasks(const CellPiece& piece, int number,
                                        const std::vector<std::vector<Share>>& shares_in,
                                        double volume) const {
     std::map<int, const Share*> shares;
@@ -425,7 +425,7 @@ class Assembler {
     return tasks;
   }
 
-  std::vector<Polyhedron> convex_bodies(const Piece& piece, int number,
+  std::vector<Polyhedron> convex_bodies(const CellPiece& piece, int number,
                                         const std::vector<std::vector<Share>>& shares_in,
                                         double volume) const {
     ConvexOptions options;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/numbers.hpp"
 #include "base/percentile.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
@@ -20,7 +20,6 @@ struct ValuesInside {
 };
 
 ValuesInside values_inside(const Trn& ground, const Area& area, const std::vector<double>& raster) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Vec2 low = Vec2::Constant(infinity), high = -low;
   for (const auto& ring : area.rings)
     for (const Vec2& p : ring) low = low.cwiseMin(p), high = high.cwiseMax(p);

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numbers.hpp"
 #include "blocks/placement.hpp"
 #include "blocks/solid.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Faces that touch share what rounding of their coordinates leaves.
 constexpr double rounding_share = 1e-6;
 

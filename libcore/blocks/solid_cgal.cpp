@@ -23,21 +23,21 @@ using Segment = Kernel::Segment_3;
 Point point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
 // A triangle of a face and its extent along x.
-struct Piece {
+struct SurfacePiece {
   std::array<int, 3> v;
   int face;
   double low, high;
 };
 
-std::vector<Piece> pieces_of(const Polyhedron& surface) {
-  std::vector<Piece> pieces;
+std::vector<SurfacePiece> pieces_of(const Polyhedron& surface) {
+  std::vector<SurfacePiece> pieces;
   for (int f = 0; f < n_faces(surface); ++f)
     for (const auto& v : triangles_of_face(surface, f)) {
       const auto [low, high] = std::minmax(
           {surface.vertices[v[0]].x(), surface.vertices[v[1]].x(), surface.vertices[v[2]].x()});
       pieces.push_back({v, f, low, high});
     }
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+  std::sort(pieces.begin(), pieces.end(), [](const SurfacePiece& a, const SurfacePiece& b) {
     return std::tie(a.low, a.face, a.v) < std::tie(b.low, b.face, b.v);
   });
   return pieces;
@@ -45,7 +45,7 @@ std::vector<Piece> pieces_of(const Polyhedron& surface) {
 
 // Pieces that share an edge collide when they lie on top of each other, those that share a corner
 // when the far edge of one meets the other; others when they have a point in common.
-bool collide(const Polyhedron& surface, const Piece& a, const Piece& b) {
+bool collide(const Polyhedron& surface, const SurfacePiece& a, const SurfacePiece& b) {
   const auto at = [&](int v) { return point(surface.vertices[v]); };
   std::vector<int> shared, rest_a, rest_b;
   for (const int v : a.v)
@@ -92,10 +92,10 @@ Polyhedron hull_if_as_even(const Polyhedron& body, double tolerance) {
 }  // namespace
 
 std::optional<std::pair<int, int>> find_self_intersection(const Polyhedron& surface) {
-  const std::vector<Piece> pieces = pieces_of(surface);
-  const auto apart = [&](const Piece& a, const Piece& b) {
+  const std::vector<SurfacePiece> pieces = pieces_of(surface);
+  const auto apart = [&](const SurfacePiece& a, const SurfacePiece& b) {
     for (const Eigen::Index axis : {1, 2}) {
-      const auto extent = [&](const Piece& p) {
+      const auto extent = [&](const SurfacePiece& p) {
         return std::minmax({surface.vertices[p.v[0]][axis], surface.vertices[p.v[1]][axis],
                             surface.vertices[p.v[2]][axis]});
       };

@@ -2,15 +2,13 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <limits>
 
+#include "base/numbers.hpp"
 #include "contact/pair_axes.hpp"
 #include "contact/scales.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // No more than this are two parts in each other: what their faces say, a fraction of all axes.
 double depth_by_faces(const PartPair& parts) {

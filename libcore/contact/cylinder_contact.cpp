@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/numbers.hpp"
 #include "contact/scales.hpp"
 #include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double hardly_more = 0.05;  // farther than the nearest point, of the part's thickness
 
 // The point of a segment that is nearest to the origin.

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "contact/entrance.hpp"
 #include "contact/lanes.hpp"
 #include "contact/pair_axes.hpp"
@@ -17,7 +17,6 @@ namespace {
 
 using Parts = PartPair;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double none = -infinity;
 // Edges parallel within a degree bear where no face is nearer to their direction than 8 degrees.
 constexpr double no_face_cos = 0.990268068741570;

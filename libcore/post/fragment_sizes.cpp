@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "base/numbers.hpp"
 
 namespace talus {
 
@@ -12,12 +13,11 @@ double fractal_dimension(double ratio, double probability) {
 }
 
 double fitted_dimension(std::span<const double> volumes) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (volumes.size() < 2) return none;
+  if (volumes.size() < 2) return no_value;
   const double least = *std::min_element(volumes.begin(), volumes.end());
   double sum = 0;
   for (const double volume : volumes) sum += std::log(volume / least);
-  return sum > 0 ? 3 * static_cast<double>(volumes.size() - 1) / sum : none;
+  return sum > 0 ? 3 * static_cast<double>(volumes.size() - 1) / sum : no_value;
 }
 
 FragmentSizes fragment_sizes(const RunFile& run) {

@@ -1,15 +1,13 @@
 #include "post/moved.hpp"
 
-#include <limits>
-
 #include "base/grouped_text.hpp"
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "post/deposit.hpp"
 
 namespace talus {
 Moved moved_of(std::vector<WeightedValue> displacement_and_mass, bool of_rocks) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   sort_values(displacement_and_mass);
   Moved out;
   out.of_rocks = of_rocks;
@@ -19,7 +17,7 @@ Moved moved_of(std::vector<WeightedValue> displacement_and_mass, bool of_rocks) 
     if (displacement > moved_m) moved += mass;
     if (displacement > moved_far_m) far += mass;
   }
-  if (!(out.mass > 0)) return {0, of_rocks, none, none, none, none, none, 0};
+  if (!(out.mass > 0)) return {0, of_rocks, no_value, no_value, no_value, no_value, no_value, 0};
   const auto percentile = [&](double p) { return weighted_percentile(displacement_and_mass, p); };
   out.share = moved / out.mass;
   out.share_far = far / out.mass;

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double rounding = 1e-24;  // of squares of weights: what is smaller is no variance
 constexpr double whole_cluster = 1 - 1e-12;
 
@@ -157,7 +156,7 @@ ShareBasis share_basis(Clusters clusters, double failed_share) {
 
 Interval share_interval(const ShareBasis& basis, std::span<const BlockWeight> blocks,
                         double share) {
-  if (!basis.bounded) return {none, none};
+  if (!basis.bounded) return {no_value, no_value};
   if (basis.single_blocks)
     return with_failed(wilson_interval(share, effective_number(basis.over)), basis.failed_share);
   return with_failed(interval_over(basis.over, shares_of(basis.clusters, blocks), share),
@@ -165,7 +164,7 @@ Interval share_interval(const ShareBasis& basis, std::span<const BlockWeight> bl
 }
 
 Interval interval_of_none_or_all(const ShareBasis& basis, bool all) {
-  if (!basis.bounded) return {none, none};
+  if (!basis.bounded) return {no_value, no_value};
   return with_failed(wilson_interval(all ? 1 : 0, effective_number(basis.over)),
                      basis.failed_share);
 }

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr int most_degree = 8;  // of the polynomial: two waves over the range are followed
 
 double mean_of(const std::vector<double>& values) {
@@ -56,7 +55,7 @@ int n_distinct(const std::vector<double>& ascending) {
 // Of what `n_terms` explain by chance too: the adjusted share of n values' squares.
 double adjusted(double explained, int n_terms, std::size_t n) {
   const auto rest = static_cast<double>(n) - 1 - n_terms;
-  return rest < 1 ? none : 1 - (1 - explained) * (static_cast<double>(n) - 1) / rest;
+  return rest < 1 ? no_value : 1 - (1 - explained) * (static_cast<double>(n) - 1) / rest;
 }
 
 }  // namespace
@@ -77,7 +76,7 @@ std::vector<double> ranks_of(const std::vector<double>& values) {
 
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {
   TALUS_ASSERT(x.size() == y.size());
-  if (is_constant(x) || is_constant(y)) return none;
+  if (is_constant(x) || is_constant(y)) return no_value;
   const std::vector<double> a = ranks_of(x), b = ranks_of(y);
   const double mean = (static_cast<double>(x.size()) + 1) / 2;
   double ab = 0, aa = 0, bb = 0;
@@ -91,7 +90,7 @@ double rank_correlation(const std::vector<double>& x, const std::vector<double>&
 
 double first_order_index(const std::vector<double>& x, const std::vector<double>& y) {
   TALUS_ASSERT(x.size() == y.size());
-  if (is_constant(x) || is_constant(y)) return none;
+  if (is_constant(x) || is_constant(y)) return no_value;
   const Pairs pairs = in_order(x, y);
   const std::size_t n = x.size();
   const int degree = std::min(most_degree, n_distinct(pairs.x) - 1);
@@ -119,7 +118,7 @@ double first_order_index(const std::vector<double>& x, const std::vector<double>
 
 double share_between_groups(const std::vector<double>& group, const std::vector<double>& y) {
   TALUS_ASSERT(group.size() == y.size());
-  if (is_constant(group) || is_constant(y)) return none;
+  if (is_constant(group) || is_constant(y)) return no_value;
   const Pairs pairs = in_order(group, y);
   double explained = 0;
   for (std::size_t first = 0, end = 0; first < pairs.x.size(); first = end) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/numbers.hpp"
 #include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
 #include "io/level_lines.hpp"
@@ -12,7 +13,6 @@
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr int most_nodes = 300;  // a side of the search's grid
 
 // Points of an object a spacing apart, with the ground at each.
@@ -36,7 +36,7 @@ std::vector<Vec3> samples_of(const RecordObject& object, const Trn& trn, double 
 }
 
 double ground_at_nearest(const std::vector<Vec3>& samples, const Vec2& p) {
-  double nearest = std::numeric_limits<double>::infinity(), z = none;
+  double nearest = std::numeric_limits<double>::infinity(), z = no_value;
   for (const Vec3& s : samples) {
     const double distance = (s.head<2>() - p).squaredNorm();
     if (distance < nearest) {
@@ -68,12 +68,12 @@ SampledField value_grid(const Trn& trn, const RecordObject& object,
     for (int c = 0; c < grid.n_cols; ++c) {
       const Vec2 p = grid.corner + grid.spacing * Vec2(c, r);
       const double distance = gap_to(object, p);
-      const double z = contains(trn, p.x(), p.y()) ? elevation_at(trn, p.x(), p.y()) : none;
+      const double z = contains(trn, p.x(), p.y()) ? elevation_at(trn, p.x(), p.y()) : no_value;
       // a margin on both sides, so that lines at the limits themselves are found
       const bool in_zone = distance >= settings.nearest - grid.spacing &&
                            distance <= settings.farthest + grid.spacing &&
                            z > ground_at_nearest(samples, p);
-      grid.value.push_back(in_zone ? (settings.by_contours ? z : distance) : none);
+      grid.value.push_back(in_zone ? (settings.by_contours ? z : distance) : no_value);
     }
   return grid;
 }

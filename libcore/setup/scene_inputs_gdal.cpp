@@ -73,7 +73,7 @@ std::string depth_finding(const BlockSet& blocks, const Trn& trn) {
          std::to_string(deepest - depths.begin()) + " by " + text(*deepest, 4) + " m, the most";
 }
 
-void check_size(const BlockSet& blocks, const DdaFiles& files) {
+void check_number_of_blocks(const BlockSet& blocks, const DdaFiles& files) {
   const auto smallest = std::min_element(blocks.volume.begin(), blocks.volume.end());
   if (*smallest >= least_volume) return;
   throw InputError({files.blocks, 0, "block " + std::to_string(smallest - blocks.volume.begin())},
@@ -96,7 +96,7 @@ BlockSet read_checked_blocks(InputLog& log, const Trn& trn, const std::string& d
   BlockSet blocks = read_blocks(files.blocks);
   if (n_blocks(blocks) == 0)
     throw InputError({files.blocks}, "there is no block in it", "nothing would move");
-  check_size(blocks, files);
+  check_number_of_blocks(blocks, files);
   check_crs(blocks, trn, files);
   move_to_origin(blocks, trn.origin);
   check_place(blocks, trn, files);

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/numbers.hpp"
 #include "terrain/trn_pyramid.hpp"
 #include "terrain/trn_walk.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void deepen(double& depth, double candidate) {
   if (candidate > depth) depth = candidate;  // false for NaN: unknown ground

@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
@@ -17,7 +17,6 @@
 namespace talus {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_cut = 0.01;    // of a distribution, by what a key may hold
 constexpr double least_kept = 1e-6;  // of one that is truncated
 

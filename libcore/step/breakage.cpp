@@ -55,7 +55,7 @@ Motion inherited(const Scene& scene, size_t piece, size_t whole, const Motion& m
   return made;
 }
 
-void push(const Vec3& impulse, const Vec3& at, double mass, Motion& motion) {
+void push_piece(const Vec3& impulse, const Vec3& at, double mass, Motion& motion) {
   motion.velocity += impulse / mass;
   motion.angular_momentum += (at - motion.pose.position).cross(impulse);
 }
@@ -71,8 +71,8 @@ void drive_apart(const Scene& scene, size_t first, const Vec3& at, const Vec3& n
     mobility += mobility_of(scene, b, m, at - m.pose.position, normal);
   }
   const Vec3 impulse = std::sqrt(2 * separation / mobility) * normal;
-  push(-impulse, at, scene.blocks.mass[first], state.motion[first]);
-  push(impulse, at, scene.blocks.mass[first + 1], state.motion[first + 1]);
+  push_piece(-impulse, at, scene.blocks.mass[first], state.motion[first]);
+  push_piece(impulse, at, scene.blocks.mass[first + 1], state.motion[first + 1]);
 }
 
 void begin_life(const Scene& scene, size_t b, State& state) {

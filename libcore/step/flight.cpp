@@ -63,18 +63,18 @@ CellRange cells_passed(const Trn& trn, const Passing& at, double T) {
 
 /// A plane of the ground: `up` is its normal over the cosine of the slope, whose inverse is
 /// `length`; `height` is up . x of its points.
-struct Plane {
+struct CellPlane {
   Vec3 up;
   double length, height;
 };
 
-Plane plane_of(const Trn& trn, const Cell& cell, bool upper) {
+CellPlane plane_of(const Trn& trn, const Cell& cell, bool upper) {
   const Vec2 gradient = triangle_gradient(trn, cell, upper);
   const Vec3 up(-gradient.x(), -gradient.y(), 1);
   return {up, std::sqrt(1 + gradient.squaredNorm()), up.dot(node_point(trn, cell.row, cell.col))};
 }
 
-Plane plane_of(const Trn& trn, const GridPoint& point) {
+CellPlane plane_of(const Trn& trn, const GridPoint& point) {
   return plane_of(trn, point.cell, is_upper(point));
 }
 
@@ -86,7 +86,8 @@ double time_to_zero(double c, double v, double a, double longest) {
 
 // Time from the start of the flight until a vertex reaches the plane, 0 when one has; at most
 // `longest`.
-double time_of_vertices(const Plane& plane, const FlyingBody& body, const Vec3& a, double longest) {
+double time_of_vertices(const CellPlane& plane, const FlyingBody& body, const Vec3& a,
+                        double longest) {
   const double height = plane.up.dot(body.position) - plane.height,
                rate = plane.up.dot(body.velocity),
                bend = plane.up.dot(a) - plane.length * body.bend * body.radius;
@@ -107,7 +108,7 @@ double time_of_vertices(const Plane& plane, const FlyingBody& body, const Vec3& 
 
 // Time until the body may reach the plane: until its ball and one of its vertices have. 0 when
 // that is so already or when the triangle is not ground; `longest` when not before that.
-double time_to_plane(const Plane& plane, const Passing& at, double longest) {
+double time_to_plane(const CellPlane& plane, const Passing& at, double longest) {
   const double height = plane.up.dot(at.x) - plane.height,
                gap = height - plane.length * at.body.radius;
   double by_ball = 0;
@@ -125,7 +126,7 @@ bool is_few(const CellRange& cells) {
 }
 
 // Heights of a cell's corners above the plane: north-west, north-east, south-west, south-east.
-std::array<double, 4> corner_heights(const Trn& trn, int row, int col, const Plane& plane) {
+std::array<double, 4> corner_heights(const Trn& trn, int row, int col, const CellPlane& plane) {
   std::array<double, 4> heights;
   for (int k = 0; k < 4; ++k)
     heights[k] = plane.up.dot(node_point(trn, row + k / 2, col + k % 2)) - plane.height;
@@ -135,10 +136,10 @@ std::array<double, 4> corner_heights(const Trn& trn, int row, int col, const Pla
 // Where the body touches the ground, it reaches any plane that no corner of a triangle in one of
 // the cells below stands above: that of the triangle below the centroid does for many, over convex
 // ground for all, each other triangle has its own.
-double time_to_touch(const Trn& trn, const CellRange& cells, const GridPoint& below,
-                     const Passing& at, double longest) {
+double time_to_ground(const Trn& trn, const CellRange& cells, const GridPoint& below,
+                      const Passing& at, double longest) {
   const double flat = flat_ratio * trn.cell_size;
-  const Plane plane = plane_of(trn, below);
+  const CellPlane plane = plane_of(trn, below);
   double first = time_to_plane(plane, at, longest);
   for (int row = cells.row_first; row <= cells.row_last && first > 0; ++row)
     for (int col = cells.col_first; col <= cells.col_last; ++col) {
@@ -213,7 +214,7 @@ double free_time(const Ground& ground, const FlyingBody& body, const Vec3& a, do
     } else if (T > one_cell) {
       T = one_cell;
     } else {
-      const double touch = time_to_touch(ground.trn, cells, below, at, T);
+      const double touch = time_to_ground(ground.trn, cells, below, at, T);
       if (touch < T) return t + touch;
       t += T;
     }

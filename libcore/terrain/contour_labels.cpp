@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
+#include "base/numbers.hpp"
 #include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
 
 constexpr double clearly_nearer = 0.5;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A line as a label sees it.
 struct LineBeside {

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
+#include "terrain/as_index.hpp"
 
 namespace talus {
 namespace {
@@ -28,8 +29,6 @@ struct Network {
   std::vector<int> line;   // of each point; spots count on from breaklines
   std::vector<Segment> segments;
 };
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 Vec2 plan(const Vec3& point) { return point.head<2>(); }
 
@@ -133,11 +132,11 @@ void join_equal_points(Network& network, HeightJudge& judge, CleaningCounts& cou
     return p.y != q.y ? p.y < q.y : rank(p.id) < rank(q.id);
   });
   std::vector<int> joined_to(n);
-  for (std::size_t i = 0, first = 0; i < index(n); ++i) {
+  for (std::size_t i = 0, first = 0; i < as_index(n); ++i) {
     if (sorted[i].x != sorted[first].x || sorted[i].y != sorted[first].y) first = i;
     joined_to[sorted[i].id] = sorted[first].id;
     if (i == first) continue;
-    const auto kept = index(sorted[first].id), other = index(sorted[i].id);
+    const auto kept = as_index(sorted[first].id), other = as_index(sorted[i].id);
     judge.agree(plan(network.points[kept]), network.points[kept].z(), network.kind[kept],
                 network.points[other].z(), network.kind[other]);
     ++(network.kind[kept] == network.kind[other] ? counts.duplicate_points
@@ -145,7 +144,7 @@ void join_equal_points(Network& network, HeightJudge& judge, CleaningCounts& cou
   }
   std::vector<int> new_id(n, -1);
   std::size_t n_kept = 0;
-  for (std::size_t i = 0; i < index(n); ++i) {
+  for (std::size_t i = 0; i < as_index(n); ++i) {
     if (joined_to[i] != static_cast<int>(i)) continue;
     network.points[n_kept] = network.points[i];
     network.kind[n_kept] = network.kind[i];

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "geometry/plan2d.hpp"
+#include "terrain/as_index.hpp"
 #include "terrain/contours.hpp"
 #include "terrain/lattice.hpp"
 #include "terrain/plate.hpp"
@@ -23,8 +24,6 @@ constexpr int fewest_nodes = 4;  // a flat region of fewer is narrower than the 
 constexpr double nearest_in_spacings = 0.35;  // nodes nearer to a line would make slivers
 constexpr double full_density_in_spacings =
     3;  // all nodes up to here, then every second, fourth ...
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 double plan_area(const TriangleMesh& mesh, std::size_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
@@ -53,7 +52,7 @@ std::vector<int> number_regions(const TriangleMesh& mesh, const std::vector<std:
     region[seed] = n_regions;
     stack.push_back(static_cast<int>(seed));
     while (!stack.empty()) {
-      const std::size_t t = index(stack.back());
+      const std::size_t t = as_index(stack.back());
       stack.pop_back();
       for (std::size_t k = 0; k < 3; ++k) {
         const int next = mesh.neighbors[t][k];
@@ -122,7 +121,7 @@ std::vector<float> tension(const TriangleMesh& mesh, const Lattice& lattice,
     const int t = lattice.triangle[node];
     if (t < 0 || part[t] != Part::kept) continue;
     known[node] = 1;
-    tau[node] = static_cast<float>(std::min(slope(mesh, index(t)), steepest_slope));
+    tau[node] = static_cast<float>(std::min(slope(mesh, as_index(t)), steepest_slope));
   }
   spread_values(lattice.n_x, lattice.n_y, tau, std::move(known));
   const auto scale = static_cast<float>(lattice.spacing / interval);
@@ -132,7 +131,7 @@ std::vector<float> tension(const TriangleMesh& mesh, const Lattice& lattice,
 
 // Whether a corner of the lattice cell at `at`, in nodes, is free.
 bool touches_free_node(const PlateProblem& problem, const Vec2& at) {
-  const auto n_x = index(problem.n_x);
+  const auto n_x = as_index(problem.n_x);
   const auto corner = static_cast<std::size_t>(at.y()) * n_x + static_cast<std::size_t>(at.x());
   const auto is_free = [&](std::size_t node) {
     return problem.node[node] == PlateProblem::Node::free;

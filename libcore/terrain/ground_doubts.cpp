@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/lone_levels.hpp"
@@ -14,8 +14,6 @@
 
 namespace talus {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 class DoubtFinder {
  public:
@@ -49,7 +47,7 @@ class DoubtFinder {
     Doubt doubt;
   };
 
-  Doubt& add(int row, int col, const char* what, double expected = nan) {
+  Doubt& add(int row, int col, const char* what, double expected = no_value) {
     Doubt& doubt = found_.emplace_back(PlacedDoubt{node_index(trn_, row, col), {}}).doubt;
     doubt.where.file = source_;
     doubt.what = what;
@@ -72,7 +70,7 @@ class DoubtFinder {
 
   [[nodiscard]] double height(int row, int col) const {
     const bool is_inside = row >= 0 && col >= 0 && row < trn_.n_rows && col < trn_.n_cols;
-    return is_inside ? trn_.elevation[node_index(trn_, row, col)] : nan;
+    return is_inside ? trn_.elevation[node_index(trn_, row, col)] : no_value;
   }
 
   void add_sunken(int row, int col) {

@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "geometry/plan2d.hpp"
+#include "terrain/as_index.hpp"
 
 namespace talus {
 namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 // An edge that runs upwards, or along a row of nodes.
 struct RisingEdge {
@@ -54,7 +53,7 @@ void scan_triangle(const TriangleMesh& mesh, int t, Lattice& lattice) {
     const int first = rounded_up((x_low - lattice.low.x()) / lattice.spacing);
     const int last = rounded_down((x_high - lattice.low.x()) / lattice.spacing);
     for (int i = first; i <= last; ++i)
-      lattice.triangle[index(row) * index(lattice.n_x) + index(i)] = t;
+      lattice.triangle[as_index(row) * as_index(lattice.n_x) + as_index(i)] = t;
   }
 }
 
@@ -64,7 +63,7 @@ void seed_distance(const Lattice& lattice, const Vec2& point, std::vector<float>
   const int i_near = static_cast<int>(at.x()), j_near = static_cast<int>(at.y());
   for (int j = std::max(j_near - 1, 0); j <= std::min(j_near + 2, lattice.n_y - 1); ++j)
     for (int i = std::max(i_near - 1, 0); i <= std::min(i_near + 2, lattice.n_x - 1); ++i) {
-      float& nearest = distance[index(j) * index(lattice.n_x) + index(i)];
+      float& nearest = distance[as_index(j) * as_index(lattice.n_x) + as_index(i)];
       const double gap = lattice.spacing * (Vec2(i, j) - at).norm();
       nearest = std::min(nearest, static_cast<float>(gap));
     }
@@ -76,7 +75,7 @@ void sweep(const Lattice& lattice, bool backwards, std::vector<float>& distance)
   const float diagonal = straight * std::sqrt(2.0F);
   const int n_x = lattice.n_x, n_y = lattice.n_y, step = backwards ? 1 : -1;
   const auto at = [&](int i, int j) -> float& {
-    return distance[index(j) * index(n_x) + index(i)];
+    return distance[as_index(j) * as_index(n_x) + as_index(i)];
   };
   for (int j_count = 0; j_count < n_y; ++j_count) {
     const int j = backwards ? n_y - 1 - j_count : j_count;
@@ -100,12 +99,12 @@ void coarsen(int n_x, int n_y, const std::vector<float>& values,
              const std::vector<std::uint8_t>& known, std::vector<float>& coarse,
              std::vector<std::uint8_t>& coarse_known) {
   const int n_coarse_x = (n_x + 1) / 2, n_coarse_y = (n_y + 1) / 2;
-  coarse.assign(index(n_coarse_x) * index(n_coarse_y), 0);
+  coarse.assign(as_index(n_coarse_x) * as_index(n_coarse_y), 0);
   coarse_known.assign(coarse.size(), 0);
   for (int j = 0; j < n_y; ++j)
     for (int i = 0; i < n_x; ++i) {
-      const std::size_t node = index(j) * index(n_x) + index(i);
-      const std::size_t parent = index(j / 2) * index(n_coarse_x) + index(i / 2);
+      const std::size_t node = as_index(j) * as_index(n_x) + as_index(i);
+      const std::size_t parent = as_index(j / 2) * as_index(n_coarse_x) + as_index(i / 2);
       if (known[node] == 0) continue;
       coarse[parent] += values[node];
       ++coarse_known[parent];
@@ -120,7 +119,7 @@ float interpolate(const std::vector<float>& coarse, int n_x, int n_y, int i, int
   const auto [i0, i1] = std::pair(i / 2, std::clamp(i / 2 + (i % 2 == 0 ? -1 : 1), 0, n_x - 1));
   const auto [j0, j1] = std::pair(j / 2, std::clamp(j / 2 + (j % 2 == 0 ? -1 : 1), 0, n_y - 1));
   const auto at = [&](int column, int row) {
-    return coarse[index(row) * index(n_x) + index(column)];
+    return coarse[as_index(row) * as_index(n_x) + as_index(column)];
   };
   return 0.5625F * at(i0, j0) + 0.1875F * (at(i1, j0) + at(i0, j1)) + 0.0625F * at(i1, j1);
 }
@@ -136,7 +135,7 @@ Lattice lay_lattice(const TriangleMesh& mesh, double spacing) {
   lattice.low = low - Vec2::Constant(spacing / 2);
   lattice.n_x = static_cast<int>((high.x() - lattice.low.x()) / spacing) + 2;
   lattice.n_y = static_cast<int>((high.y() - lattice.low.y()) / spacing) + 2;
-  lattice.triangle.assign(index(lattice.n_x) * index(lattice.n_y), -1);
+  lattice.triangle.assign(as_index(lattice.n_x) * as_index(lattice.n_y), -1);
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) scan_triangle(mesh, t, lattice);
   return lattice;
 }
@@ -189,7 +188,7 @@ void spread_values(int n_x, int n_y, std::vector<float>& values, std::vector<std
   spread_values(n_coarse_x, n_coarse_y, coarse, std::move(coarse_known));
   for (int j = 0; j < n_y; ++j)
     for (int i = 0; i < n_x; ++i) {
-      const std::size_t node = index(j) * index(n_x) + index(i);
+      const std::size_t node = as_index(j) * as_index(n_x) + as_index(i);
       if (known[node] == 0) values[node] = interpolate(coarse, n_coarse_x, n_coarse_y, i, j);
     }
 }

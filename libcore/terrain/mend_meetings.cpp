@@ -2,24 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
 
+#include "base/numbers.hpp"
 #include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
+#include "terrain/as_index.hpp"
 
 namespace talus {
 namespace {
 
 constexpr int max_rounds = 40;
 constexpr double gap_share = 0.05;  // of the tolerance: what lines that met stand apart then
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 // One contour in plan. A closed one does not repeat its first point.
 struct PlanLine {
@@ -28,7 +26,7 @@ struct PlanLine {
   bool is_closed = false;
   [[nodiscard]] int n_points() const { return static_cast<int>(points.size()); }
   [[nodiscard]] int n_segments() const { return is_closed ? n_points() : n_points() - 1; }
-  [[nodiscard]] const Vec2& at(int i) const { return points[index(i) % points.size()]; }
+  [[nodiscard]] const Vec2& at(int i) const { return points[as_index(i) % points.size()]; }
 };
 
 std::vector<PlanLine> plan_lines(const Polylines& contours) {
@@ -79,7 +77,7 @@ Joined join(const std::vector<PlanLine>& lines) {
   std::map<std::array<int, 2>, int> segment_of;
   for (std::size_t l = 0; l < lines.size(); ++l)
     for (int i = 0; i < lines[l].n_segments(); ++i) {
-      const int a = ids[l][i], b = ids[l][(index(i) + 1) % ids[l].size()];
+      const int a = ids[l][i], b = ids[l][(as_index(i) + 1) % ids[l].size()];
       if (a == b) continue;
       const std::array<int, 2> ends = {std::min(a, b), std::max(a, b)};
       const auto [at, is_new] =

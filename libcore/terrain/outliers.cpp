@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
+#include "base/numbers.hpp"
 #include "base/percentile.hpp"
+#include "terrain/as_index.hpp"
 #include "terrain/contours.hpp"
 #include "terrain/lone_levels.hpp"
 
@@ -15,9 +16,6 @@ namespace {
 constexpr double contour_steps = 1.5;  // off its neighbours: more than one label, with room
 constexpr double measured_steps = 2;   // beyond its neighbours
 constexpr double most_edges = 0.8;     // to contours of another height
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 // Calls visit(point, contour point) for the edges of triangles that end at the contour of another
 // line. Edges inside the map come twice, so that they weigh more than those of its rim.
@@ -72,7 +70,7 @@ std::vector<int> find_candidates(const TriangleMesh& mesh, const LinesOfPoints& 
                                  double interval, std::vector<Candidate>& candidates) {
   std::vector<std::int64_t> n_above(lines.n_lines), n_below = n_above, n_edges = n_above;
   for_each_step(mesh, lines, [&](int point, int, double above) {
-    const std::size_t line = index(lines.line[point]);
+    const std::size_t line = as_index(lines.line[point]);
     n_above[line] += above > contour_steps * interval ? 1 : 0;
     n_below[line] += above < -contour_steps * interval ? 1 : 0;
     ++n_edges[line];
@@ -162,16 +160,16 @@ std::vector<Outlier> contour_outliers(const TriangleMesh& mesh, const LinesOfPoi
 
 std::vector<Outlier> measured_outliers(const TriangleMesh& mesh, const LinesOfPoints& lines,
                                        double interval) {
-  const std::size_t first = index(lines.n_contour_points);
+  const std::size_t first = as_index(lines.n_contour_points);
   std::vector<double> low(lines.line.size() - first, infinity), high(low.size(), -infinity);
   std::vector<std::int64_t> n_edges(low.size()), n_impossible(low.size());
   for_each_edge(mesh, lines, [&](int point, int contour) {
-    if (index(point) < first) return;
+    if (as_index(point) < first) return;
     const double z = mesh.points[contour].z();
-    low[index(point) - first] = std::min(low[index(point) - first], z);
-    high[index(point) - first] = std::max(high[index(point) - first], z);
-    ++n_edges[index(point) - first];
-    n_impossible[index(point) - first] += is_impossible_edge(mesh, point, contour) ? 1 : 0;
+    low[as_index(point) - first] = std::min(low[as_index(point) - first], z);
+    high[as_index(point) - first] = std::max(high[as_index(point) - first], z);
+    ++n_edges[as_index(point) - first];
+    n_impossible[as_index(point) - first] += is_impossible_edge(mesh, point, contour) ? 1 : 0;
   });
   std::vector<Outlier> found;
   for (std::size_t i = 0; i < low.size(); ++i) {

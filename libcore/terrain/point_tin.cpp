@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <tuple>
 
+#include "base/numbers.hpp"
 #include "base/percentile.hpp"
 #include "terrain/lone_levels.hpp"
 
@@ -14,7 +14,6 @@ namespace {
 
 constexpr double steepest = 2.7474774194546222;  // tan 70 degrees: a height field ends there
 constexpr double survey_noise_m = 0.5;  // of heights whose places are rounded to centimetres
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Points in one place become one, in the order of x, y, z.
 void join_repeated(std::vector<Vec3>& points, PointMesh& found) {

@@ -273,7 +273,7 @@ Body rock_of(const RockfallSection& section, const ReleasePlace& place, const Jo
   return body;
 }
 
-void add_section(const RockfallSection& section, BlockSet& set) {
+void add_rock_section(const RockfallSection& section, BlockSet& set) {
   const RockfallSettings& s = section.settings;
   if (s.blshape_raster.empty() || !s.file.empty()) check_form(section);
   check_frequency(section);
@@ -318,7 +318,7 @@ void add_section(const RockfallSection& section, BlockSet& set) {
 
 void add_rocks(Tool& tool, const Site& site, const Trn& ground, BlockSet& set) {
   for (const RockfallSettings& settings : site.rockfalls)
-    add_section({{tool, site, ground, settings, "rockfall." + settings.name}, settings}, set);
+    add_rock_section({{tool, site, ground, settings, "rockfall." + settings.name}, settings}, set);
 }
 
 }  // namespace talus

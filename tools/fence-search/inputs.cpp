@@ -95,7 +95,7 @@ std::vector<double> touches_of(const RunFile& run, int object) {
   return out;
 }
 
-void add_run(SearchCase& of, const RunFile& run, int index, const std::string& file) {
+void add_search_run(SearchCase& of, const RunFile& run, int index, const std::string& file) {
   const std::vector<double> touched = touches_of(run, object_in(run, of.object, file));
   SearchRuns& runs = of.runs;
   for (int b = 0; b < n_blocks(run); ++b)
@@ -271,7 +271,7 @@ void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
     const int first = static_cast<int>(runs.members.size());
     runs.read(set, "class." + kind.name, wanted, [&](RunFile& run, int index) {
       const RunMember& member = runs.members[static_cast<std::size_t>(index)];
-      for (SearchCase& search : cases) add_run(search, run, index, where_of(member));
+      for (SearchCase& search : cases) add_search_run(search, run, index, where_of(member));
       for (int b = 0; b < n_blocks(run); ++b) {
         rock.mass += run.blocks.mass[b];
         rock.volume += run.blocks.volume[b];

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/grouped_text.hpp"
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "draw/chart.hpp"
@@ -12,8 +13,6 @@
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::string bounded(double share, const Interval& interval) {
   if (std::isnan(interval.high)) return percent(share);
@@ -23,7 +22,7 @@ std::string bounded(double share, const Interval& interval) {
 // Events a year with a block on the object, in these runs by the weight of such blocks; NaN where
 // no frequencies are known.
 Rate rate_of_runs(const SearchCase& search, const std::vector<BlockWeight>& hit) {
-  if (search.classes.empty()) return {none, none, none};
+  if (search.classes.empty()) return {no_value, no_value, no_value};
   std::vector<EventRow> rows;
   for (const BlockWeight& of : hit) rows.push_back({0, of.run, of.block, 1, 0, of.weight});
   sort_events(rows);

@@ -42,7 +42,7 @@ std::vector<int> lines_of(const RunFile& run, const std::vector<FenceCase>& fenc
 }
 
 // Largest speeds of the runs of a part that were not left out, by cell.
-void add_speeds(GroundSums& sums, const PartInput& part) {
+void add_part_speeds(GroundSums& sums, const PartInput& part) {
   constexpr std::uint64_t most_rows = 1'000'000;
   for_each_strip(part.file, 1, {}, most_rows, [&](const auto& by_run) {
     for (std::size_t r = 0; r < by_run.size(); ++r)
@@ -90,7 +90,7 @@ FenceRuns read_fence_runs(RunInputs& inputs, const std::vector<std::string>& wit
     inputs.read(inputs.set_of(without_files, "without"), "runs_without", parts,
                 take_into(out.ground_without), RunSettings::with_other_fences);
   for (std::size_t p = 0; p < inputs.parts().size(); ++p)
-    add_speeds(p < n_parts_with ? out.ground_with : out.ground_without, inputs.parts()[p]);
+    add_part_speeds(p < n_parts_with ? out.ground_with : out.ground_without, inputs.parts()[p]);
   const auto split = [&](std::size_t first, std::size_t last) {
     const std::span members(inputs.members.begin() + first, inputs.members.begin() + last);
     return FenceRunGroup{{members.begin(), members.end()},

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/grouped_text.hpp"
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "draw/chart.hpp"
@@ -14,7 +14,6 @@
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double kilo = 1e3;
 
 using Value = FieldValue;
@@ -235,7 +234,7 @@ bool has_values(const ChartSeries& series) {
 }
 
 // Only what has any value: a chart of nothing would have a legend of nothing.
-void add(Chart& chart, ChartSeries series) {
+void add_series(Chart& chart, ChartSeries series) {
   if (has_values(series)) chart.series.push_back(std::move(series));
 }
 
@@ -258,13 +257,13 @@ std::string ground_chart(const LineProfile& profile) {
   ChartSeries tops = line_over(profile, "up to the highest top over each cell", "#fdbf6f", ground);
   for (const StationSummary& s : profile.stations) {
     tops.y_high.push_back(s.place.z() + s.top.largest);
-    if (std::isnan(s.top.largest)) tops.y[tops.y_high.size() - 1] = none;
+    if (std::isnan(s.top.largest)) tops.y[tops.y_high.size() - 1] = no_value;
   }
-  add(chart, std::move(tops));
-  add(chart, line_over(profile, "ground", "#5b4636", ground));
-  add(chart, crossing_points(profile, "#cb181d", [](const LineCrossing& c) {
-        return c.by_cells ? none : c.place.z() - c.at.centroid + c.at.top;
-      }));
+  add_series(chart, std::move(tops));
+  add_series(chart, line_over(profile, "ground", "#5b4636", ground));
+  add_series(chart, crossing_points(profile, "#cb181d", [](const LineCrossing& c) {
+               return c.by_cells ? no_value : c.place.z() - c.at.centroid + c.at.top;
+             }));
   for (ChartSeries& series : chart.series)
     for (double& y : series.y) y += profile.origin.z();
   return chart_file(chart);
@@ -276,9 +275,9 @@ std::string quantity_chart(const LineProfile& profile, const std::string& title,
                            double (*median)(const StationSummary&),
                            double (*of)(const LineCrossing&)) {
   Chart chart{title, x_label, y_label, {whole_line(profile)}};
-  add(chart, line_over(profile, "largest over each cell", "#3182bd", largest));
-  add(chart, line_over(profile, "median over each cell", "#9ecae1", median));
-  add(chart, crossing_points(profile, "#cb181d", of));
+  add_series(chart, line_over(profile, "largest over each cell", "#3182bd", largest));
+  add_series(chart, line_over(profile, "median over each cell", "#9ecae1", median));
+  add_series(chart, crossing_points(profile, "#cb181d", of));
   return chart_file(chart);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "import/crs_place_gdal.hpp"
 #include "post/profile/line_sums.hpp"
@@ -21,11 +22,9 @@ namespace {
 using namespace talus;  // NOLINT: a program of its own
 namespace fs = std::filesystem;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 struct Options {
   std::string line, line_file, out, tables, json;
-  double step_m = none, bin_m = none;
+  double step_m = no_value, bin_m = no_value;
 };
 
 void declare(Tool& tool, Options& o) {

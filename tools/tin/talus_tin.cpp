@@ -129,7 +129,7 @@ void refresh_inside(const ContourMap& map, talus::Triangulation& triangulation, 
     throw InputError({file_of_boundary(o)}, "the boundary and the contours share no ground");
 }
 
-Json as_json(const talus::CleaningCounts& c) {
+Json cleaning_json(const talus::CleaningCounts& c) {
   return {{"duplicate_points", c.duplicate_points},
           {"duplicate_segments", c.duplicate_segments},
           {"touches_at_one_height", c.touches},
@@ -153,7 +153,7 @@ void warn_of_measured(Tool& tool, const talus::CleaningCounts& c, const talus::V
   tool.doubts({doubt});
 }
 
-Json as_json(const ContourMap& map, const talus::LayerReading& taken) {
+Json cleaning_json(const ContourMap& map, const talus::LayerReading& taken) {
   const std::vector<double> levels = talus::contour_levels(map);
   return {{"n_features", taken.n_features},
           {"n_lines", map.contours.n_lines()},
@@ -216,7 +216,7 @@ talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Jso
   const int n_lines =
       map.contours.n_lines() + map.breaklines.n_lines() + static_cast<int>(map.spots.size());
   talus::forget_lines(map);
-  report["cleaning"] = as_json(clean.counts);
+  report["cleaning"] = cleaning_json(clean.counts);
   warn_of_measured(tool, clean.counts, map.origin);
   const talus::MeasuredPoints measured{clean.n_contour_points,
                                        static_cast<int>(clean.points.size())};
@@ -265,7 +265,7 @@ Json build(Tool& tool, Options& o, talus::Tin& tin) {
                  {"layer", reading.layers.front().layer},
                  {"elevation_from", reading.layers.front().elevation_from},
                  {"crs", talus::crs_name(map.crs_wkt)},
-                 {"contours", as_json(map, reading.layers.front())},
+                 {"contours", cleaning_json(map, reading.layers.front())},
                  {"layers_read", tool.layers_read()}};
   if (o.hold_out_every > 0) {
     const auto held_back = talus::hold_back_contours(o.hold_out_every, map);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include "base/file_paths.hpp"
 #include "base/grouped_text.hpp"
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "post/hazard/hazard_rates.hpp"
@@ -26,11 +26,9 @@ namespace {
 using namespace talus;  // NOLINT: a program of its own
 namespace fs = std::filesystem;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 struct Options {
   std::string out, csv, json, rasters;
-  double source_cell_m = none;
+  double source_cell_m = no_value;
   bool by_cells = false;
   PageOptions pages;
 };
@@ -257,7 +255,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   std::string summary;
   const bool rocks_alone = !runs.members.empty() && runs.members.front().info.independent;
   for (int i = 0; i < static_cast<int>(sums.objects.size()); ++i) {
-    TracedObject object{object_trace(sums, i, basis, links), none, none, none};
+    TracedObject object{object_trace(sums, i, basis, links), no_value, no_value, no_value};
     if (!classes.empty()) put_rate(traced, i, object);
     const RecordObject& of = sums.objects[static_cast<std::size_t>(i)];
     if (object.trace.method != "recorded")

@@ -10,20 +10,20 @@ namespace talus {
 namespace {
 
 // Cases that are taken together: their names begin so.
-struct Group {
+struct ClaimGroup {
   const char* words;
   std::vector<std::string> begins;
 };
 
-const std::vector<Group>& groups() {
-  static const std::vector<Group> list = {
+const std::vector<ClaimGroup>& groups() {
+  static const std::vector<ClaimGroup> list = {
       {"a block that slides, straight and obliquely", {"slide_", "oblique"}},
       {"bounce", {"bounce_"}},
       {"the slide of 39 blocks", {"slide39"}}};
   return list;
 }
 
-bool is_of(const Group& group, const std::string& case_name) {
+bool is_of(const ClaimGroup& group, const std::string& case_name) {
   return std::any_of(group.begins.begin(), group.begins.end(),
                      [&](const std::string& with) { return case_name.rfind(with, 0) == 0; });
 }
@@ -78,7 +78,7 @@ std::string where_paper_errs_by(double error, const VerifyCase& of) {
   return ", where law paper errs by " + text(error, 2) + (of.norm == "m" ? " m" : "");
 }
 
-std::string line_on_paper(const Group& group, const std::vector<MeasuredCase>& cases) {
+std::string line_on_paper(const ClaimGroup& group, const std::vector<MeasuredCase>& cases) {
   Least over_all, at_best;
   for (const MeasuredCase& measured : cases) {
     const VerifyCase& c = *measured.about;
@@ -145,7 +145,7 @@ std::string claims_by_group(const std::vector<MeasuredCase>& cases) {
   std::string table =
       "| CPU time at equal error, over that of law talus | least at its smallest errors | least "
       "over all its errors |\n|---|---|---|\n";
-  for (const Group& group : groups()) table += line_on_paper(group, cases);
+  for (const ClaimGroup& group : groups()) table += line_on_paper(group, cases);
   return table + line_on_peers(cases, false) + line_on_peers(cases, true);
 }
 

@@ -72,7 +72,7 @@ struct Pivoting {
 };
 
 // A side comes down flat, plastically: the next edge, down or up the slope, is the pivot then.
-void land(double half, double dip, Pivoting& at) {
+void touch_down(double half, double dip, Pivoting& at) {
   const double c = std::cos(2 * half), left = std::max(0.0, (2 + 7 * c) / (8 + c));
   const int down = at.angle > 0 ? 1 : -1;
   at.sides += down;
@@ -87,7 +87,7 @@ void pivot_on(double half, double dip, double h, Pivoting& at) {
   at.spin += h / 2 * g * std::sin(at.angle + dip) / inertia;
   at.angle += h * at.spin;
   at.spin += h / 2 * g * std::sin(at.angle + dip) / inertia;
-  if (std::abs(at.angle) >= half && at.angle * at.spin > 0) land(half, dip, at);
+  if (std::abs(at.angle) >= half && at.angle * at.spin > 0) touch_down(half, dip, at);
 }
 
 double way_of(double half, const Pivoting& at) {

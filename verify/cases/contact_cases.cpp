@@ -2,9 +2,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "base/random.hpp"
 #include "verify/cases/block_cases.hpp"
 #include "verify/cases/case_run.hpp"
@@ -13,8 +13,6 @@
 
 namespace talus::cases {
 namespace {
-
-constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 // All contacts of one class, without gravity where bodies fly.
 Scene all_alike(Trn trn, const GroundClass& ground, const std::vector<Body>& bodies,
@@ -46,7 +44,7 @@ CaseResult tower_topples(const CaseSettings& settings) {
   Run run(scene_of_pile(pile, settings), settings.paper);
   const double expected =
       timed_reference(run.result, [&] { return rigid_topple_time(pile, angle); });
-  double value = nowhere, turned = 0;
+  double value = no_value, turned = 0;
   while (run.state.time < 1.5 * expected && std::isnan(value)) {
     run.advance();
     const double before = turned;
@@ -108,7 +106,7 @@ Body tumbling_cube(const Vec3& place, const Vec3& velocity, Random& random) {
 
 CaseResult tumbling_pairs(const CaseSettings& settings, double restitution) {
   CaseResult worst;
-  worst.value = nowhere;
+  worst.value = no_value;
   Random random(11, "cubes");
   for (int i = 0; i < 12; ++i) {
     const std::vector<Body> bodies = {tumbling_cube(Vec3(0, 0, 50), Vec3::Zero(), random),
@@ -124,7 +122,7 @@ CaseResult tumbling_pairs(const CaseSettings& settings, double restitution) {
     add_counts(run.counted(), worst);
   }
   worst.expected = restitution;
-  if (std::isnan(worst.value)) worst.error = nowhere;
+  if (std::isnan(worst.value)) worst.error = no_value;
   return worst;
 }
 
@@ -221,7 +219,7 @@ CaseResult elastic_bowl(const CaseSettings& settings) {
   const double before = total();
   run.advance_to(4);
   const double error = std::abs(total() / before - 1);
-  return run.finish(total() / before, 1, run.state.counters.impacts > 50 ? error : nowhere);
+  return run.finish(total() / before, 1, run.state.counters.impacts > 50 ? error : no_value);
 }
 
 // --- edges and bodies of several parts -----------------------------------------------------------
@@ -280,7 +278,7 @@ CaseResult parts_land_flat(const CaseSettings& settings) {
   const double value = run.spin(after).norm() * run.scene.blocks.shapes.radius[0];
   // it flies after its first hit
   const bool has_hit = run.state.counters.impacts > 0 && after.pose.position.z() > side + 0.3;
-  return run.finish(value, 0, has_hit ? value / speed : nowhere);
+  return run.finish(value, 0, has_hit ? value / speed : no_value);
 }
 
 }  // namespace talus::cases

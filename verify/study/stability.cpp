@@ -19,7 +19,7 @@ namespace {
 
 using namespace cases;
 
-constexpr double g = 10;
+constexpr double gravity = 10;
 
 // Mechanical energy and what has been dissipated or is stored in contacts: constant but for what
 // the numbers add.
@@ -85,7 +85,7 @@ Seen watch(Run& run, double duration) {
   const Energies first = energies(run.scene, run.state);
   double scale = first.translation + first.rotation;
   for (std::size_t b = 0; b < blocks.mass.size(); ++b)
-    scale += blocks.mass[b] * g * blocks.shapes.radius[b];
+    scale += blocks.mass[b] * gravity * blocks.shapes.radius[b];
   const double start = total_energy(run.scene, run.state);
   while (run.state.time < duration - run.scene.settings.dt / 2 && seen.finite) {
     run.advance();
@@ -113,7 +113,7 @@ struct SlideSpec {
 // steps. Error: of the displacement, over the closed form (26), or over the side where it sticks.
 Seen slide(const SlideSpec& spec) {
   const SlopeFrame frame = slope_frame(spec.dip_deg, 37);
-  const double h = spec.side / 2, down = g * std::sin(spec.dip_deg * degree);
+  const double h = spec.side / 2, down = gravity * std::sin(spec.dip_deg * degree);
   const Body body = body_of(box_in(frame, spec.offset, Vec3(-h, -h, 0), Vec3(h, h, spec.side)));
   const GroundClass ground = ground_of(spec.friction_deg);
   Run run(scene_of(plane_trn(frame, spec.side / 2, 12 * spec.side, spec.offset), ground, {body},
@@ -124,7 +124,7 @@ Seen slide(const SlideSpec& spec) {
   const double duration = std::max(2.0, std::ceil(std::sqrt(4 * spec.side / down) / dt)) * dt;
   Seen seen = watch(run, duration);
   const double t = run.state.time;
-  const double a = down - ground.friction * g * std::cos(spec.dip_deg * degree);
+  const double a = down - ground.friction * gravity * std::cos(spec.dip_deg * degree);
   const double expected = std::max(0.0, a) * t * t / 2;
   const double off = (run.motion().pose.position - from - expected * frame.dip).norm();
   seen.error = off / (expected > 0 ? expected : spec.side);
@@ -330,7 +330,7 @@ void add_contacts(std::vector<Corner>& corners) {
                        [half_angle] { return seen_of(parts_on_ridge({}, half_angle)); }});
 }
 
-void add_blocks(std::vector<Corner>& corners) {
+void add_block_corners(std::vector<Corner>& corners) {
   const double dt = Settings{}.dt;
   const std::string norm = "movement over the side";
   corners.push_back({"mass ratio", 1, "1", "cube at rest on its like", norm, 0.05,
@@ -392,7 +392,7 @@ std::vector<Corner> stability_corners() {
   std::vector<Corner> corners;
   add_slides(corners);
   add_throws(corners);
-  add_blocks(corners);
+  add_block_corners(corners);
   add_contacts(corners);
   return corners;
 }

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "base/numbers.hpp"
 #include "geometry/plan2d.hpp"
 #include "record/pieces.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 int field_at(const Fence& fence, double chainage) {
   const auto after = std::upper_bound(fence.chainage.begin(), fence.chainage.end(), chainage);
@@ -106,7 +104,7 @@ FenceArrival arrival_of(const FenceHit& hit, const RunFile& file, const Fence& f
   a.speed = hit.velocity.norm();
   a.translation = hit.translational_energy;
   a.rotation = hit.rotational_energy;
-  a.spin = a.centroid = none;
+  a.spin = a.centroid = no_value;
   a.top = hit.top_height;
   a.bottom = hit.bottom_height;
   a.volume = file.blocks.volume[hit.block];

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/grouped_text.hpp"
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "post/statistics.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double factor(const DesignCode& code, const std::string& key) { return code.factor.at(key); }
 
@@ -296,7 +294,7 @@ DesignResult check_design(const DesignCode& code, const std::vector<BarrierClass
     for (double* value : {&result.design_energy, &result.required_capacity, &result.design_height,
                           &result.required_height, &result.largest_class, &result.energy_use,
                           &result.height_use, &result.required_distance, &result.distance_use})
-      *value = none;
+      *value = no_value;
     return result;
   }
   Demand demand = demand_of(code, input, part);

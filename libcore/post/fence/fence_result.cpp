@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "post/statistics.hpp"
@@ -12,8 +12,6 @@
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<FenceArrival> only(const std::vector<FenceArrival>& list, int FenceArrival::*member,
                                int value) {
@@ -138,7 +136,7 @@ FenceResult fence_result(const FenceCase& fence_case, std::size_t index, const F
   r.kept =
       n_runs(runs.without) > 0
           ? settings.bulking * (volume_behind(runs.without, index) - volume_behind(group, index))
-          : none;
+          : no_value;
   return r;
 }
 
@@ -188,13 +186,13 @@ GroundBehind ground_behind(const FenceRunGroup& group, std::size_t fence) {
     out.centre_of_mass_path += run.run_weight * run.centre.path;
   }
   for (double* sum : {&out.path, &out.path_angle_deg, &out.centre_of_mass_path})
-    *sum = out.n_moved > 0 ? *sum / weight_moved : none;
+    *sum = out.n_moved > 0 ? *sum / weight_moved : no_value;
   sort_values(energy);
   out.share = weight / total;
   out.volume /= weight_of_runs(group);
   const bool enough = effective_size(weight, weight_sq) + 1e-9 >= smallest_sample(0.5);
-  out.energy_p50 = enough ? weighted_percentile(energy, 0.5) : none;
-  out.energy_largest = energy.empty() ? none : energy.back().value;
+  out.energy_p50 = enough ? weighted_percentile(energy, 0.5) : no_value;
+  out.energy_largest = energy.empty() ? no_value : energy.back().value;
   return out;
 }
 

@@ -1,15 +1,13 @@
 #include "post/fence/fence_summary.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
+#include "base/numbers.hpp"
 #include "post/percentile_bounds.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_eff,
                            PercentileBounds& bounds, double (*quantity)(const FenceArrival&)) {
@@ -27,12 +25,12 @@ QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_e
     blocks.push_back({a->run, a->block, a->weight});
   }
   QuantitySummary summary;
-  summary.largest = values.empty() ? none : values.back().value;
+  summary.largest = values.empty() ? no_value : values.back().value;
   const BoundPlaces upper = upper_bound_places(bounds, blocks);
   for (std::size_t k = 0; k < percentile_levels.size(); ++k) {
     const double p = percentile_levels[k].p;
     BoundedPercentile& out = summary.percentile[k];
-    out = {none, none};
+    out = {no_value, no_value};
     if (static_cast<int>(n_eff + 1e-9) < smallest_sample(p)) continue;
     out.value = weighted_percentile(values, p);
     if (upper[k] >= 0) out.upper = values[upper[k]].value;

@@ -5,13 +5,12 @@
 #include <map>
 #include <tuple>
 
+#include "base/numbers.hpp"
 #include "base/percentile.hpp"
 #include "post/fence/fence_result.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 auto order_of(const SearchHit& hit) {
   return std::tuple(hit.arrival.run, hit.arrival.world, hit.arrival.time, hit.block);
@@ -159,7 +158,7 @@ ScreenOutcome follow(const SearchRuns& runs, const std::vector<SearchLine>& line
     is_kept_off[event.hit->block] = true;
   }
   const double all = weight_on_object(runs);
-  out.stopped = all > 0 ? std::min(1.0, weight / all) : none;
+  out.stopped = all > 0 ? std::min(1.0, weight / all) : no_value;
   for (const BlockOnObject& block : runs.on_object)
     if (!is_kept_off[block.block]) out.hit.push_back(block.of);
   for (std::vector<double>& of_fence : volumes) out.retained.push_back(median(std::move(of_fence)));
@@ -215,7 +214,7 @@ FenceDemand fence_demand(const SearchRuns& runs, const SearchLine& line, const P
   DesignInput input;
   input.density = runs.density;
   input.mean_block_size = runs.mean_block_size;
-  input.block_volume = input.deflection = input.distance_to_object = none;
+  input.block_volume = input.deflection = input.distance_to_object = no_value;
   set_design_block(input, arrivals);
   const FencePartSummary part = summarise(arrivals, runs.basis.clusters);
   Fence as_built;

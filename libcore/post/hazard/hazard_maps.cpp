@@ -4,14 +4,12 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <limits>
 
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // The limits of a recipe as they stand in names: "0kJ", "30kJ", "300kJ".
 std::vector<std::string> limit_names(const Recipe& recipe) {
@@ -125,7 +123,7 @@ std::vector<MapLayer> empty_layers(const HazardSources& sources,
 }
 
 Rate period_of(const Rate& rate) {
-  const auto inverse = [](double r) { return r > 0 ? 1 / r : none; };
+  const auto inverse = [](double r) { return r > 0 ? 1 / r : no_value; };
   return {inverse(rate.value), inverse(rate.high), inverse(rate.low)};
 }
 
@@ -212,8 +210,6 @@ std::vector<MapLayer> hazard_layers(const HazardSources& sources,
 }
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Colour opaque(const std::array<std::uint8_t, 3>& rgb) { return {rgb[0], rgb[1], rgb[2], 255}; }
 

@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-void add(Rate& sum, const Rate& more) {
+void add_rate(Rate& sum, const Rate& more) {
   sum.value += more.value;
   sum.low += more.low;
   sum.high += more.high;
@@ -154,7 +152,7 @@ template <class Counts>
 Rate HazardRates::rate_of_rows(std::span<const EventRow> rows, Counts&& counts) {
   take_rows(rows, counts);
   Rate sum;
-  for (std::size_t c = 0; c < classes_.size(); ++c) add(sum, rate_of(classes_[c], hit_[c]));
+  for (std::size_t c = 0; c < classes_.size(); ++c) add_rate(sum, rate_of(classes_[c], hit_[c]));
   return sum;
 }
 
@@ -215,14 +213,14 @@ Rate HazardRates::rate_of_first(std::size_t n_events) {
     hit_[c].push_back({event.run - classes_[c].first, event.block, event.weight});
   }
   Rate sum;
-  for (std::size_t c = 0; c < classes_.size(); ++c) add(sum, rate_of(classes_[c], hit_[c]));
+  for (std::size_t c = 0; c < classes_.size(); ++c) add_rate(sum, rate_of(classes_[c], hit_[c]));
   return sum;
 }
 
 std::vector<Rate> HazardRates::energies(std::span<const EventRow> rows,
                                         std::span<const double> periods) {
   find_events(rows);
-  std::vector<Rate> out(periods.size(), Rate{none, none, none});
+  std::vector<Rate> out(periods.size(), Rate{no_value, no_value, no_value});
   // So many events in, each rate comes often enough; the energy of the last of them is the answer.
   const auto settle = [&](std::size_t n, const Rate& rate, std::vector<std::array<bool, 3>>& done) {
     const float energy = n == 0 ? std::nanf("") : events_[n - 1].energy;
@@ -263,7 +261,7 @@ std::vector<Rate> HazardRates::energies(std::span<const EventRow> rows,
     const auto c = static_cast<std::size_t>(events_[i].kind);
     of_class[c] = rate_of(classes_[c], ++n_hit_[c]);
     Rate sum;
-    for (const Rate& rate : of_class) add(sum, rate);
+    for (const Rate& rate : of_class) add_rate(sum, rate);
     settle(i + 1, sum, done);
   }
   return out;

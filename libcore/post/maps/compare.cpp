@@ -7,12 +7,11 @@
 #include <limits>
 #include <span>
 
+#include "base/numbers.hpp"
 #include "post/percentile_bounds.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 struct Compared {
   const char *name, *unit;
@@ -78,7 +77,7 @@ Estimate percentile_of(Side& side, std::span<const MapRow> rows, const Compared&
   for (const Item& item : items) blocks.push_back(item.block);
   const BoundedPlaces places = percentile_places(side.bounds, blocks, p);
   const auto value_at = [&](int place) {
-    return place < 0 ? none : static_cast<double>(items[place].value) * quantity.scale;
+    return place < 0 ? no_value : static_cast<double>(items[place].value) * quantity.scale;
   };
   return {value_at(places.place), value_at(places.low), value_at(places.high)};
 }

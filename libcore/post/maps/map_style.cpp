@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "post/maps/map_layers.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // From the largest loss (blue) over no change (transparent) to the largest gain (red).
 std::vector<StyleClass> change_classes(const std::vector<double>& limits, const std::string& unit) {

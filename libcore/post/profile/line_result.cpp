@@ -2,22 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <set>
 
+#include "base/numbers.hpp"
 #include "post/statistics.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 Envelope envelope_of(std::vector<WeightedValue> values) {
   std::erase_if(values, [](const WeightedValue& v) { return std::isnan(v.value); });
-  if (values.empty()) return {none, none, none};
+  if (values.empty()) return {no_value, no_value, no_value};
   sort_values(values);
-  Envelope out{weighted_percentile(values, 0.5), none, values.back().value};
+  Envelope out{weighted_percentile(values, 0.5), no_value, values.back().value};
   double w = 0, w_sq = 0;
   for (const WeightedValue& v : values) {
     w += v.weight;
@@ -46,7 +44,7 @@ double share_of_runs(const LineSums& sums, const ShareBasis& basis,
     all += basis.clusters.run_weight[r];
     if (runs.count(r) > 0) hit += basis.clusters.run_weight[r];
   }
-  return all > 0 ? hit / all : none;
+  return all > 0 ? hit / all : no_value;
 }
 
 // The cell under a station; that of the line's part which ends there at the last one.
@@ -83,7 +81,7 @@ AcrossSummary across_summary(const LineSums& sums, const ShareBasis& basis, doub
   std::vector<FenceArrival> arrivals;
   std::vector<BlockWeight> blocks;
   double mass = 0, weight_of_runs = 0, weight = 0;
-  out.first_arrival = none;
+  out.first_arrival = no_value;
   for (const LineCrossing& crossing : sums.crossings) {
     const FenceArrival& at = crossing.at;
     if (at.chainage < from || (at.chainage >= to && !is_last)) continue;

@@ -6,13 +6,12 @@
 #include <tuple>
 #include <utility>
 
+#include "base/numbers.hpp"
 #include "post/profile/whole_bodies.hpp"
 #include "terrain/trn_walk.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 struct PlanBox {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
@@ -52,7 +51,7 @@ LineCrossing crossing_between(const RunFile& run, int index, int b, const WholeB
   at.direction = met.direction;
   at.field = met.segment;
   at.speed = between(from.velocity.norm(), to.velocity.norm());
-  at.spin = none;
+  at.spin = no_value;
   at.translation = between(from.translation, to.translation);
   at.rotation = between(from.rotation, to.rotation);
   out.energy_change = std::abs(to.translation + to.rotation - from.translation - from.rotation);
@@ -129,16 +128,16 @@ LineCrossing crossing_by_cell(const LineSums& sums, const RunFile& run, int inde
   at.time = row.first_time;
   at.chainage = 0.5 * (cell.from + cell.to);
   at.speed = row.largest.speed;
-  at.spin = none;
+  at.spin = no_value;
   at.translation = row.largest.translational_energy;
   at.rotation = row.largest.total_energy - row.largest.translational_energy;
   at.centroid = row.largest.centroid_height;
   at.top = row.largest.top_height;
-  at.bottom = none;
+  at.bottom = no_value;
   out.place = point_on(sums.line, at.chainage);
   out.n_crossings = 0;
   out.by_cells = true;
-  out.energy_change = none;
+  out.energy_change = no_value;
   return out;
 }
 

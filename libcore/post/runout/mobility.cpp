@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "base/units.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
@@ -54,7 +52,7 @@ ChartSeries relation_line(const MobilityRelation& r, const Charted& shown) {
   for (int i = 0; i <= n; ++i) {
     const double log_v = log_v_high * i / n, hl = std::pow(10, r.a + r.b * log_v);
     line.x.push_back(std::pow(10, log_v));
-    line.y.push_back(hl < hl_low || hl > hl_high ? none : hl);
+    line.y.push_back(hl < hl_low || hl > hl_high ? no_value : hl);
   }
   return line;
 }
@@ -83,9 +81,9 @@ std::vector<MobilityRelation> mobility_relations(const CsvTable& table) {
     r.path = table.at(row, "path");
     r.kind = kind_of(table, row);
     r.a = needed(table, row, "a");
-    r.b = r.kind == MobilityKind::angle ? none : needed(table, row, "b");
-    r.c = r.kind == MobilityKind::length ? needed(table, row, "c") : none;
-    r.d = r.kind == MobilityKind::length ? needed(table, row, "d") : none;
+    r.b = r.kind == MobilityKind::angle ? no_value : needed(table, row, "b");
+    r.c = r.kind == MobilityKind::length ? needed(table, row, "c") : no_value;
+    r.d = r.kind == MobilityKind::length ? needed(table, row, "d") : no_value;
     r.lower = table.number(row, "lower");
     r.n = table.number(row, "n");
     r.sd = table.number(row, "sd");
@@ -97,7 +95,7 @@ std::vector<MobilityRelation> mobility_relations(const CsvTable& table) {
 }
 
 MobilityRow compare(const MobilityRelation& r, const MobilityEvent& event) {
-  MobilityRow row{none, none, none, none};
+  MobilityRow row{no_value, no_value, no_value, no_value};
   if (!(event.volume > 0 && event.height > 0 && event.length > 0)) return row;
   const double log_v = std::log10(event.volume), log_h = std::log10(event.height);
   const double log_l = std::log10(event.length);

@@ -5,16 +5,15 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "geometry/plan2d.hpp"
 #include "record/motion.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 double angle_of(double height, double length) {
-  return length > 0 ? std::atan2(height, length) : none;
+  return length > 0 ? std::atan2(height, length) : no_value;
 }
 
 double plan_distance(const Vec3& a, const Vec3& b) { return (b - a).head<2>().norm(); }
@@ -133,7 +132,7 @@ MassReach mass_reach(const RunFile& run, const std::vector<WeightedValue>& displ
     all += counted[block];
     reach.moved_volume += run.blocks.volume[block];
   }
-  if (ends.empty()) return {none, none, 0, none, none, 0, 0};
+  if (ends.empty()) return {no_value, no_value, 0, no_value, no_value, 0, 0};
   std::stable_sort(ends.begin(), ends.end(),
                    [](const End& a, const End& b) { return a.distance < b.distance; });
   double within = 0;
@@ -154,7 +153,7 @@ MassReach mass_reach(const RunFile& run, const std::vector<WeightedValue>& displ
   return reach;
 }
 
-double AngleProfile::at_end() const { return angle.empty() ? none : angle.back(); }
+double AngleProfile::at_end() const { return angle.empty() ? no_value : angle.back(); }
 
 TimedPath block_path(const RunFile& run, int block) {
   constexpr double least_change = 0.5, gravity = 9.81;  // [m/s], [m/s2]
@@ -253,7 +252,7 @@ TimedPath shown_path(const RunFile& run, int block, const Trn& trn, double toler
   for (std::size_t i = 0; i < path.point.size(); ++i) {
     const Vec3& p = path.point[i];
     path.height.push_back(contains(trn, p.x(), p.y()) ? p.z() - elevation_at(trn, p.x(), p.y())
-                                                      : none);
+                                                      : no_value);
     path.distance.push_back(i == 0 ? 0
                                    : path.distance.back() + plan_distance(path.point[i - 1], p));
   }
@@ -285,7 +284,7 @@ ReachLine reach_along(std::span<const Vec3> points) {
 
 AngleProfile angle_profile(std::span<const Vec3> points, double from, double tolerance) {
   AngleProfile profile;
-  profile.smallest = profile.smallest_at = none;
+  profile.smallest = profile.smallest_at = no_value;
   double distance = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i > 0) distance += plan_distance(points[i - 1], points[i]);
@@ -340,8 +339,8 @@ EventReach event_reach(const RunFile& run, const Trn& trn, const ReachSettings& 
   const std::vector<WeightedValue> displacement = displacements(run);
   event.moved = moved_of_run(run);
   if (!event.moved.any()) {
-    event.event = event.centre_of_mass = {none, none, none};
-    event.sum_angle = event.profile.smallest = event.profile.smallest_at = none;
+    event.event = event.centre_of_mass = {no_value, no_value, no_value};
+    event.sum_angle = event.profile.smallest = event.profile.smallest_at = no_value;
     event.mass = mass_reach(run, displacement);
     return event;
   }

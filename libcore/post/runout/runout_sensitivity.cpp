@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/numbers.hpp"
 #include "base/units.hpp"
 #include "sampling/sensitivity.hpp"
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // A number a run; NaN where the run has none.
 struct Column {
@@ -35,7 +33,7 @@ Column column(const std::string& name, const std::vector<RunoutRun>& runs, const
 double drawn_value(const RunoutRun& run, const std::string& name) {
   for (const DrawnValue& value : run.drawn)
     if (value.name == name) return value.value;
-  return none;
+  return no_value;
 }
 
 // A ground's own column says the same as that of its key, where the key is drawn.
@@ -60,13 +58,14 @@ std::vector<Column> quantities_of(const std::vector<RunoutRun>& runs) {
 double crossed(const RunoutRun& run, const std::string& line, double LineReach::*member) {
   for (const LineReach& reach : run.lines)
     if (reach.name == line) return reach.*member;
-  return none;
+  return no_value;
 }
 
 std::vector<Column> results_of(const std::vector<RunoutRun>& runs) {
   const auto if_moved = [](double (*value)(const EventReach&)) {
-    return
-        [value](const RunoutRun& run) { return run.event.moved.any() ? value(run.event) : none; };
+    return [value](const RunoutRun& run) {
+      return run.event.moved.any() ? value(run.event) : no_value;
+    };
   };
   std::vector<Column> columns = {
       column("L_path_m", runs, if_moved([](const EventReach& e) { return e.event.path; })),
@@ -93,7 +92,7 @@ SensitivityRow row_of(const Column& result, const Column& quantity) {
       x.push_back(quantity.values[i]);
       y.push_back(result.values[i]);
     }
-  SensitivityRow row{result.name, quantity.name, static_cast<int>(x.size()), none, none};
+  SensitivityRow row{result.name, quantity.name, static_cast<int>(x.size()), no_value, no_value};
   if (row.n < least_runs_for_sensitivity) return row;
   const bool has_order = quantity.name != "rock_mass";
   if (has_order) row.rank_correlation = rank_correlation(x, y);

@@ -13,8 +13,8 @@ namespace {
 // What tells stems apart: of stands that each run draws anew, the place too.
 using StemName = std::tuple<std::string, std::int32_t, double, double>;
 
-void add_run(const RunTrees& run, std::map<StemName, HitStem>& stems,
-             std::map<std::string, ForestSummary>& forests) {
+void add_trees(const RunTrees& run, std::map<StemName, HitStem>& stems,
+               std::map<std::string, ForestSummary>& forests) {
   for (const ForestInfo& forest : run.forests) {
     ForestSummary& sum = forests[forest.name];
     const int n_worlds = run.independent ? count_worlds(run.worlds) : 1;
@@ -58,7 +58,7 @@ RunTrees trees_of(const RunFile& run) {
 TreeSummary summary_of(const std::vector<RunTrees>& runs) {
   std::map<StemName, HitStem> stems;
   std::map<std::string, ForestSummary> forests;
-  for (const RunTrees& run : runs) add_run(run, stems, forests);
+  for (const RunTrees& run : runs) add_trees(run, stems, forests);
   TreeSummary out;
   for (auto& [key, stem] : stems) out.stems.push_back(std::move(stem));
   for (auto& [name, sum] : forests) {

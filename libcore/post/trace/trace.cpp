@@ -6,12 +6,12 @@
 #include <set>
 #include <tuple>
 
+#include "base/numbers.hpp"
 #include "post/percentile_bounds.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double cell_slack = 2e-3;  // a touch is within 1e-3 [m]
 
 std::vector<Vec2> square_of(const PassageGrid& grid, int row, int col) {
@@ -198,7 +198,7 @@ namespace {
 
 // Of the hits of one object.
 TracePercentiles percentiles_of(std::vector<TraceHit> hits, const ShareBasis& basis) {
-  TracePercentiles out{none, none, none, none};
+  TracePercentiles out{no_value, no_value, no_value, no_value};
   if (hits.empty()) return out;
   std::sort(hits.begin(), hits.end(), [](const TraceHit& a, const TraceHit& b) {
     return std::tie(a.energy, a.run, a.block) < std::tie(b.energy, b.run, b.block);
@@ -250,7 +250,7 @@ ObjectTrace object_trace(const TraceSums& sums, int object, const ShareBasis& ba
   std::vector<BlockWeight> blocks;
   std::vector<WeightedValue> heights;
   double weight = 0, volume = 0;
-  out.first_arrival = hits.empty() ? none : std::numeric_limits<double>::infinity();
+  out.first_arrival = hits.empty() ? no_value : std::numeric_limits<double>::infinity();
   for (const TraceHit& hit : hits) {
     if (blocks.empty() || blocks.back().run != hit.run) ++out.n_runs_hit;
     blocks.push_back({hit.run, hit.block, hit.weight});
@@ -268,7 +268,7 @@ ObjectTrace object_trace(const TraceSums& sums, int object, const ShareBasis& ba
   out.weight_share_interval = share_interval(basis, blocks, out.weight_share);
   out.volume_share = volume / sums.volume_released;
   out.energy = percentiles_of(hits, basis);
-  out.top_height_p95 = heights.empty() ? none : p95_or_largest(heights);
+  out.top_height_p95 = heights.empty() ? no_value : p95_or_largest(heights);
   const auto o = static_cast<std::size_t>(object);
   out.deposited_a_run = sums.deposited[o] / n;
   out.method = sums.n_recorded[o] == sums.n_runs ? "recorded"

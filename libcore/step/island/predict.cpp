@@ -8,8 +8,8 @@ namespace {
 using std::size_t;
 
 // Mass, free velocity, first guess of the velocity, and where the member's impulses act.
-void add_body(const Scene& scene, const State& state, const BlockNumbers& c, const Substep& s,
-              const FreeTurn& turn, size_t b, Island& island) {
+void add_predicted(const Scene& scene, const State& state, const BlockNumbers& c, const Substep& s,
+                   const FreeTurn& turn, size_t b, Island& island) {
   Vec6 free, guess;
   free << s.free.velocity, turn.spin_end;
   if (c.stands || state.acceleration[b] == scene.gravity)  // nothing pressed it
@@ -71,8 +71,8 @@ void predict(const Scene& scene, const State& state, const IslandMembers& member
   predict_free(scene, state, members, t, h, nullptr, free);
   clear_bodies(island);
   for (size_t k = 0; k < members.size(); ++k)
-    add_body(scene, state, members.numbers[k], free.substeps[k], free.turns[k], members.block(k),
-             island);
+    add_predicted(scene, state, members.numbers[k], free.substeps[k], free.turns[k],
+                  members.block(k), island);
 }
 
 }  // namespace talus

@@ -21,7 +21,7 @@ namespace {
 
 using std::size_t;
 
-constexpr double rounding = 1e-5;  // of single precision, where an impulse is at its bound
+constexpr double bound_rounding = 1e-5;  // of single precision, where an impulse is at its bound
 
 Vec3 of_floats(const float (&from)[3]) { return {from[0], from[1], from[2]}; }
 
@@ -73,11 +73,11 @@ struct MassEnd {
     return gap_free + free.h / 2 * along;
   }
   [[nodiscard]] bool is_limited(const MassRow& row, double p_n) const {
-    return p_n >= (1 - rounding) * static_cast<double>(row.limit);
+    return p_n >= (1 - bound_rounding) * static_cast<double>(row.limit);
   }
   [[nodiscard]] bool slips(const MassRow& row, const PressedRow& pressed) const {
     const double cap = static_cast<double>(row.friction) * pressed.p_n;
-    return pressed.along_face().norm() >= (1 - rounding) * cap;
+    return pressed.along_face().norm() >= (1 - bound_rounding) * cap;
   }
 
   [[nodiscard]] ContactEnd end_of(const MassContact& contact, const MassPair& pair,

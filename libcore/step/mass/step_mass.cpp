@@ -44,8 +44,8 @@ bool predict_contacts(const Scene& scene, double t, double h, const State& state
 }
 
 // Stages 3 and 4.
-void solve_contacts(const Scene& scene, const MassSettings& settings, const State& state,
-                    Work& work) {
+void solve_mass_contacts(const Scene& scene, const MassSettings& settings, const State& state,
+                         Work& work) {
   IslandScratch& island = work.island;
   MassScratch& w = work.mass;
   {
@@ -84,7 +84,7 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
     set_recovery_time(scene, h, island.members);
     if (!is_tried || cuts > 0) {
       if (!predict_contacts(scene, t, h, state, work)) return false;
-      solve_contacts(scene, settings_of(scene, share, h, work.workers), state, work);
+      solve_mass_contacts(scene, settings_of(scene, share, h, work.workers), state, work);
     }
     report.passes += w.solved.sweeps;
     if (w.solved.diverges) {
@@ -125,7 +125,7 @@ bool begins_as_mass(const Scene& scene, double h, State& state, Work& work) {
   settings.most_sweeps = mass::most_first_sweeps;
   settings.from_rest = true;
   if (settings.sweeps > settings.most_sweeps) return false;
-  solve_contacts(scene, settings, state, work);
+  solve_mass_contacts(scene, settings, state, work);
   return has_settled(scene, h, w.solved.change) &&
          leaves_as_mass(scene, members, work.island.free, w, state);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "convex_bodies.hpp"
 
 namespace talus::test {
@@ -89,7 +90,6 @@ inline std::vector<WaysOut> ways_out_of_bodies(const Bodies& bodies, int body_a,
 
 /// How far A moves along `direction` until it is out of all of B, past what it meets on the path.
 inline double path_along(const std::vector<WaysOut>& pairs, const Vec3& direction) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   double at = 0;
   for (bool moved = true; moved;) {
     moved = false;

@@ -14,7 +14,7 @@ using namespace talus;
 using Quat = Eigen::Quaterniond;
 
 // A box cut by random planes: convex, up to a dozen faces.
-Polyhedron random_convex(Random& random) {
+Polyhedron random_convex(talus::Random& random) {
   Polyhedron body = box(Vec3::Constant(-1), Vec3::Constant(1));
   for (int i = 0; i < 5; ++i) {
     const Vec3 n = Vec3(random.normal(), random.normal(), random.normal()).normalized();
@@ -70,7 +70,7 @@ std::vector<Entrance> entrances(const Polyhedron& A, const Polyhedron& B) {
 // The entrances are the faces of B (+) (-A): each plane supports that body, and together they close
 // it (their area vectors add up to nothing), so that none is missing and none is too many.
 TEST(Entrance, FacesAreThoseOfTheMinkowskiDifference) {
-  Random random(11, "entrance");
+  talus::Random random(11, "entrance");
   for (int trial = 0; trial < 20; ++trial) {
     const Polyhedron A = random_convex(random), B = random_convex(random);
     Vec3 closure = Vec3::Zero();
@@ -88,7 +88,7 @@ TEST(Entrance, FacesAreThoseOfTheMinkowskiDifference) {
 }
 
 TEST(NearestOnLines, IsPerpendicularToBoth) {
-  Random random(3, "lines");
+  talus::Random random(3, "lines");
   for (int trial = 0; trial < 100; ++trial) {
     const auto point = [&] { return Vec3(random.normal(), random.normal(), random.normal()); };
     const Vec3 p = point(), e = point(), q = point(), f = point();

@@ -21,8 +21,8 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-constexpr double drag = 500, heavy = 1000;        // [kg/s], [kg]
-const double half = std::cbrt(heavy / 2500) / 2;  // of a cube, density of Material{}
+constexpr double drag = 500, heavy_mass = 1000;        // [kg/s], [kg]
+const double half = std::cbrt(heavy_mass / 2500) / 2;  // of a cube, density of Material{}
 
 Canopy canopy_on(double x_low, double x_high, double height = 20) {
   return make_canopy({{{Vec2(x_low, -50), Vec2(x_high, -50), Vec2(x_high, 50), Vec2(x_low, 50)}}},
@@ -72,7 +72,7 @@ TEST_P(Canopies, LeaveTheSpinAndTakeWhatTheyBook) {
   run.advance_to(2);
   EXPECT_EQ(run.motion().angular_momentum, spin);
   EXPECT_NEAR(run.motion().velocity.x(), 15 * std::exp(-1), 1e-9);
-  EXPECT_GT(run.state.ledger.drag, 0.8 * 0.5 * heavy * 15 * 15);
+  EXPECT_GT(run.state.ledger.drag, 0.8 * 0.5 * heavy_mass * 15 * 15);
   EXPECT_NEAR(kinetic(run) + run.state.ledger.drag, before, 1e-11 * before);
 }
 
@@ -81,7 +81,7 @@ TEST_P(Canopies, SlowAFall) {
   cases::Run run(
       in_forest(settings, {cube_at(Vec3(0, 0, 15), Vec3::Zero())}, canopy_on(-50, 50), g), {});
   run.advance_to(1);
-  const double nu = drag / heavy, v = g / nu * (1 - std::exp(-nu)),
+  const double nu = drag / heavy_mass, v = g / nu * (1 - std::exp(-nu)),
                z = 15 - g / nu * (1 - (1 - std::exp(-nu)) / nu);
   EXPECT_NEAR(run.motion().velocity.z(), -v, 1e-5 * v);
   EXPECT_NEAR(run.motion().pose.position.z(), z, 1e-5 * z);
@@ -159,7 +159,7 @@ TEST_P(Canopies, TakeTheirDragOverTheWayInThem) {
       cases::Run run(in_forest(settings, bodies, canopy), {});
       run.advance_to(1.5);
       const Vec3 v = run.motion().velocity;
-      EXPECT_NEAR(v.norm(), velocity.norm() - drag * way / heavy, 1e-4 * way) << is_alone;
+      EXPECT_NEAR(v.norm(), velocity.norm() - drag * way / heavy_mass, 1e-4 * way) << is_alone;
       EXPECT_NEAR(v.y() / v.x(), 2.0 / 9, 1e-9);
     }
 }
@@ -173,7 +173,7 @@ TEST_P(Canopies, EndAtTheirTop) {
         {});
     run.advance_to(0.9);
     const double z = run.motion().pose.position.z(), way = up > 0 ? 6.013 - from : 6.013 - z;
-    EXPECT_NEAR(std::abs(run.motion().velocity.z()), 9 - drag * way / heavy, 1e-4 * way);
+    EXPECT_NEAR(std::abs(run.motion().velocity.z()), 9 - drag * way / heavy_mass, 1e-4 * way);
   }
 }
 

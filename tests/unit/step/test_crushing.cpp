@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "base/numbers.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/crushing.hpp"
 #include "step/step.hpp"
@@ -12,8 +12,6 @@ namespace {
 
 using namespace talus;
 using namespace talus::cases;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void press(const Vec3& normal, double force, BlockLoad& load) {
   load.press += force * normal * normal.transpose();
