@@ -1,30 +1,20 @@
 #include "site/number_key.hpp"
 
 #include <cmath>
-#include <type_traits>
 
 #include "base/error.hpp"
+#include "site/site_keys.hpp"
 
 namespace talus {
 namespace {
 
-// Calls take(path, section, row) for each key of each section that stands in the site.
-template <class SiteType, class Take>
-void for_each_key(SiteType& site, const Take& take) {
-  for_each_section(site, [&take](const char* group, const std::string& name, auto& section) {
-    for (const auto& row : keys_of<std::remove_cvref_t<decltype(section)>>())
-      take(path_of(group, name) + "." + row.name, section, row);
-  });
-}
-
-template <class Section>
-NumberKey read_number(const Section& section, const SiteKey<Section>& row) {
+NumberKey read_number(const KeyOf<ConstField>& row) {
   NumberKey key;
   key.range = row.range;
-  if (const auto* field = std::get_if<double Section::*>(&row.field))
-    key.kind = NumberKey::number, key.value = section.**field;
-  else if (const auto* whole = std::get_if<std::int64_t Section::*>(&row.field))
-    key.kind = NumberKey::whole_number, key.value = static_cast<double>(section.**whole);
+  if (const auto* number = std::get_if<const double*>(&row.field))
+    key.kind = NumberKey::number, key.value = **number;
+  else if (const auto* whole = std::get_if<const std::int64_t*>(&row.field))
+    key.kind = NumberKey::whole_number, key.value = static_cast<double>(**whole);
   return key;
 }
 
@@ -32,31 +22,32 @@ NumberKey read_number(const Section& section, const SiteKey<Section>& row) {
 
 std::optional<NumberKey> number_key(const Site& site, const std::string& path) {
   std::optional<NumberKey> found;
-  for_each_key(site, [&](const std::string& at, const auto& section, const auto& row) {
-    if (at == path) found = read_number(section, row);
-  });
+  for (const auto& section : sections_in(site))
+    for (const auto& row : section.keys)
+      if (path_of(section.group, section.name) + "." + row.name == path) found = read_number(row);
   return found;
 }
 
 void set_number(Site& site, const std::string& path, double value, const ValueSource& source) {
   bool is_set = false;
-  for_each_key(site, [&](const std::string& at, auto& section, const auto& row) {
-    using Section = std::remove_reference_t<decltype(section)>;
-    if (at != path) return;
-    if (const auto* field = std::get_if<double Section::*>(&row.field))
-      section.** field = value, is_set = true;
-    else if (const auto* whole = std::get_if<std::int64_t Section::*>(&row.field))
-      section.** whole = std::llround(value), is_set = true;
-  });
+  for (const auto& section : sections_in(site))
+    for (const auto& row : section.keys) {
+      if (path_of(section.group, section.name) + "." + row.name != path) continue;
+      if (const auto* number = std::get_if<double*>(&row.field))
+        **number = value, is_set = true;
+      else if (const auto* whole = std::get_if<std::int64_t*>(&row.field))
+        **whole = std::llround(value), is_set = true;
+    }
   TALUS_ASSERT(is_set);
   if (is_set) site.sources[path] = source;
 }
 
 std::vector<std::string> number_keys(const Site& site) {
   std::vector<std::string> paths;
-  for_each_key(site, [&](const std::string& at, const auto& section, const auto& row) {
-    if (read_number(section, row).kind != NumberKey::other) paths.push_back(at);
-  });
+  for (const auto& section : sections_in(site))
+    for (const auto& row : section.keys)
+      if (read_number(row).kind != NumberKey::other)
+        paths.push_back(path_of(section.group, section.name) + "." + row.name);
   return paths;
 }
 

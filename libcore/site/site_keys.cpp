@@ -402,6 +402,27 @@ template <> const std::vector<SiteKey<PlaceSettings>>& keys_of() {
 }
 // clang-format on
 
+namespace {
+
+template <class FieldType>
+std::vector<SectionOf<FieldType>> sections_of(auto& site) {
+  std::vector<SectionOf<FieldType>> found;
+  for_each_group(site, [&found](const char* group, auto& sections) {
+    if constexpr (requires { sections.front(); })
+      for (auto& section : sections) found.push_back({group, section.name, keys_in(section)});
+    else
+      found.push_back({group, "", keys_in(sections)});
+  });
+  return found;
+}
+
+}  // namespace
+
+std::vector<SectionOf<Field>> sections_in(Site& site) { return sections_of<Field>(site); }
+std::vector<SectionOf<ConstField>> sections_in(const Site& site) {
+  return sections_of<ConstField>(site);
+}
+
 std::string text_of(const KeyRange& range) {
   const bool has_low = std::isfinite(range.low), has_high = std::isfinite(range.high);
   if (has_low && has_high)

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -69,6 +70,42 @@ template <> const std::vector<SiteKey<HazardSettings>>& keys_of();
 template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of();
 // clang-format on
 
+/// A field of a section that stands in the site, by its type.
+template <class... T>
+using PointerTo = std::variant<T*...>;
+using Field = PointerTo<double, std::int64_t, bool, std::string, std::vector<double>,
+                        std::vector<Vec3>, std::vector<std::string>>;
+using ConstField =
+    PointerTo<const double, const std::int64_t, const bool, const std::string,
+              const std::vector<double>, const std::vector<Vec3>, const std::vector<std::string>>;
+
+/// A key as of SiteKey, with the field that it sets. What is done with a key is written for all
+/// sections at once, and compiled once.
+template <class FieldType>
+struct KeyOf {
+  const char* name;
+  FieldType field;
+  const char* help;
+  KeyRange range;
+  const char* choices;
+  const char* hint;
+  int n_min, n_max;
+};
+template <class FieldType>
+using Keys = std::vector<KeyOf<FieldType>>;
+
+/// The keys of a section, with its fields.
+template <class Section>
+[[nodiscard]] auto keys_in(Section& section) {
+  using FieldType = std::conditional_t<std::is_const_v<Section>, ConstField, Field>;
+  Keys<FieldType> keys;
+  for (const auto& key : keys_of<std::remove_const_t<Section>>())
+    keys.push_back({key.name,
+                    std::visit([&](auto field) { return FieldType(&(section.*field)); }, key.field),
+                    key.help, key.range, key.choices, key.hint, key.n_min, key.n_max});
+  return keys;
+}
+
 /// Calls visit(name, section) for the single sections and visit(group, vector) for the named ones,
 /// whose group may be a part of a section ("hazard.class").
 template <class SiteType, class Visit>
@@ -97,17 +134,14 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("hazard.class", site.hazard_classes);
 }
 
-/// Calls visit(group, name, section) for every section that stands in the site; the name of a
-/// single one is empty.
-template <class SiteType, class Visit>
-void for_each_section(SiteType& site, const Visit& visit) {
-  for_each_group(site, [&visit](const char* group, auto& sections) {
-    if constexpr (requires { sections.front(); })
-      for (auto& section : sections) visit(group, section.name, section);
-    else
-      visit(group, std::string(), sections);
-  });
-}
+/// A section that stands in the site; the name of a single one is empty.
+template <class FieldType>
+struct SectionOf {
+  std::string group, name;
+  Keys<FieldType> keys;
+};
+[[nodiscard]] std::vector<SectionOf<Field>> sections_in(Site& site);
+[[nodiscard]] std::vector<SectionOf<ConstField>> sections_in(const Site& site);
 
 /// "joints.J1"; the group alone for a single section.
 [[nodiscard]] inline std::string path_of(const std::string& group, const std::string& name) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -129,68 +128,61 @@ Vec3 point_of(const toml::node& node, const Place& place) {
   return point;
 }
 
-template <class Section>
 struct Reader {
-  Section& section;
-  const SiteKey<Section>& key;
+  const KeyOf<Field>& key;
   const toml::node& node;
   const Place& place;
 
-  void operator()(double Section::*field) const {
-    section.*field = number_of(node, key.range, place);
-  }
-  void operator()(std::int64_t Section::*field) const {
-    section.*field = whole_number_of(node, key.range, place);
-  }
-  void operator()(bool Section::*field) const {
+  void operator()(double* field) const { *field = number_of(node, key.range, place); }
+  void operator()(std::int64_t* field) const { *field = whole_number_of(node, key.range, place); }
+  void operator()(bool* field) const {
     const auto* flag = node.as_boolean();
     if (!flag) place.refuse(type_name(node.type()), "true or false");
-    section.*field = flag->get();
+    *field = flag->get();
   }
-  void operator()(std::string Section::*field) const {
+  void operator()(std::string* field) const {
     const auto* value = node.as_string();
     if (!value) place.refuse(type_name(node.type()), "text");
     const std::string choices = std::string("|") + key.choices + "|";
     const bool is_plain = value->get().find_first_of(std::string("|\0", 2)) == std::string::npos;
     if (*key.choices && (!is_plain || choices.find("|" + value->get() + "|") == std::string::npos))
       place.refuse("\"" + value->get() + "\"", "one of " + std::string(key.choices));
-    section.*field = value->get();
+    *field = value->get();
   }
-  void operator()(Numbers Section::*field) const {
-    (section.*field).clear();
+  void operator()(Numbers* field) const {
+    field->clear();
     for (const toml::node& entry : list_of(node, place, key.n_min, key.n_max))
-      (section.*field).push_back(number_of(entry, key.range, place));
+      field->push_back(number_of(entry, key.range, place));
   }
   // One text may stand without the list.
-  void operator()(Texts Section::*field) const {
-    (section.*field).clear();
+  void operator()(Texts* field) const {
+    field->clear();
     const auto add = [&](const toml::node& entry) {
       const auto* value = entry.as_string();
       if (!value) place.refuse(type_name(entry.type()), "text");
-      (section.*field).push_back(value->get());
+      field->push_back(value->get());
     };
     if (node.is_string()) return add(node);
     for (const toml::node& entry : list_of(node, place, key.n_min, key.n_max)) add(entry);
   }
   // One point may stand without the outer list.
-  void operator()(Points Section::*field) const {
-    (section.*field).clear();
+  void operator()(Points* field) const {
+    field->clear();
     const toml::array& list = list_of(node, place, 1, key.n_max);
     if (!list[0].is_array() && key.n_min <= 1) {
-      (section.*field).push_back(point_of(node, place));
+      field->push_back(point_of(node, place));
       return;
     }
     for (const toml::node& entry : list_of(node, place, key.n_min, key.n_max))
-      (section.*field).push_back(point_of(entry, place));
+      field->push_back(point_of(entry, place));
   }
 };
 
 // --- sections ----------------------------------------------------------------------------------
 
-template <class Section>
-Texts key_names() {
+Texts key_names(const auto& keys) {
   Texts names;
-  for (const auto& key : keys_of<Section>()) names.emplace_back(key.name);
+  for (const auto& key : keys) names.emplace_back(key.name);
   return names;
 }
 
@@ -227,49 +219,45 @@ const toml::table& table_of(const toml::node& node, const Where& where, const st
   return *table;
 }
 
-template <class Section>
-void read_value(Section& section, const SiteKey<Section>& key, const std::string& path,
-                const toml::node& node, const Where& where) {
-  std::visit(Reader<Section>{section, key, node, Place{where, path, key.hint}}, key.field);
+void read_value(const KeyOf<Field>& key, const std::string& path, const toml::node& node,
+                const Where& where) {
+  std::visit(Reader{key, node, Place{where, path, key.hint}}, key.field);
 }
 
 // The row of `name`, or an InputError that names the nearest.
-template <class Section>
-const SiteKey<Section>& key_named(std::string_view name, const std::string& section,
-                                  const Where& where) {
-  for (const auto& key : keys_of<Section>())
+const KeyOf<Field>& key_named(const Keys<Field>& keys, std::string_view name,
+                              const std::string& section, const Where& where) {
+  for (const auto& key : keys)
     if (name == key.name) return key;
   if (const std::string instead = written_instead(section, name); !instead.empty())
     throw InputError(where, "the key " + std::string(name) + " of [" + section + "] is gone",
                      "write " + instead);
   throw InputError(where, "unknown key " + std::string(name) + " in [" + section + "]",
-                   did_you_mean(name, key_names<Section>()));
+                   did_you_mean(name, key_names(keys)));
 }
 
 // [joints] and [uncertainty] hold keys of their own beside the sections [joints.NAME] and so on.
-template <class Section>
-constexpr bool stands_beside_named =
-    std::is_same_v<Section, JointNorth> || std::is_same_v<Section, UncertaintySettings>;
+bool stands_beside_named(const std::string& section) {
+  return section == "joints" || section == "uncertainty";
+}
 
 // [hazard] holds the named sections [hazard.class.NAME].
 bool is_group_within(const std::string& section, std::string_view key) {
   return section == "hazard" && key == "class";
 }
 
-template <class Section>
-bool has_key(std::string_view name) {
-  const auto& keys = keys_of<Section>();
+bool has_key(const auto& keys, std::string_view name) {
   return std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return name == key.name; });
 }
 
-template <class Section>
-void read_section(Site& site, Section& section, const std::string& name, const toml::table& table) {
+void read_section(Site& site, const Keys<Field>& keys, const std::string& name,
+                  const toml::table& table) {
   for (const auto& [key_text, node] : table) {
-    if (stands_beside_named<Section> && !has_key<Section>(key_text.str())) continue;
+    if (stands_beside_named(name) && !has_key(keys, key_text.str())) continue;
     if (is_group_within(name, key_text.str())) continue;
     const Where where{site.file, line_of(node)};
-    const auto& key = key_named<Section>(key_text.str(), name, where);
-    read_value(section, key, std::string(key_text.str()), node, where);
+    const auto& key = key_named(keys, key_text.str(), name, where);
+    read_value(key, std::string(key_text.str()), node, where);
     site.sources[name + "." + key.name] = {ValueSource::from_file, where.line};
   }
 }
@@ -283,8 +271,8 @@ int& line_field(auto& section) {
 
 // Keys of a group that stand beside its named sections; none in most groups.
 Texts keys_beside(const std::string& group) {
-  if (group == "joints") return key_names<JointNorth>();
-  if (group == "uncertainty") return key_names<UncertaintySettings>();
+  if (group == "joints") return key_names(keys_of<JointNorth>());
+  if (group == "uncertainty") return key_names(keys_of<UncertaintySettings>());
   return {};
 }
 
@@ -331,7 +319,7 @@ void read_named(Site& site, std::vector<Section>& sections, const std::string& g
     Section section;
     section.name = name;
     line_field(section) = where.line;
-    read_section(site, section, group + "." + name, *table);
+    read_section(site, keys_in(section), group + "." + name, *table);
     sections.push_back(std::move(section));
   }
 }
@@ -350,8 +338,9 @@ struct GroupReader {
   template <class Section>
   void operator()(const char* name, Section& section) const {
     if (const toml::node* node = root.get(name)) {
-      if (!stands_beside_named<Section>) site.sections.emplace_back(name);
-      read_section(site, section, name, table_of(*node, {site.file, line_of(*node)}, name));
+      if (!stands_beside_named(name)) site.sections.emplace_back(name);
+      read_section(site, keys_in(section), name,
+                   table_of(*node, {site.file, line_of(*node)}, name));
     }
   }
   template <class Section>
@@ -455,40 +444,31 @@ toml::array parsed_value(const std::string& value) {
 }
 
 // As parsed_value(); what a key that takes text is given without quotes is text, also 2024 or true.
-template <class Section>
-toml::array value_for(const SiteKey<Section>& key, const std::string& value) {
+toml::array value_for(const KeyOf<Field>& key, const std::string& value) {
   toml::array parsed = parsed_value(value);
-  const bool takes_text = std::holds_alternative<std::string Section::*>(key.field);
+  const bool takes_text = std::holds_alternative<std::string*>(key.field);
   return takes_text && !parsed[0].is_string() ? toml::array{value} : std::move(parsed);
 }
 
 // --- layers ------------------------------------------------------------------------------------
 
 // Databases have no list and often no truth value: text that is TOML where the key is no text.
-struct LayerNode {
-  const std::string& words;
-  template <class Field>
-  toml::array operator()(Field) const {
-    return parsed_value(words);
-  }
-  template <class Section>
-  toml::array operator()(bool Section::*) const {
-    return parsed_value(words == "1" ? "true" : words == "0" ? "false" : words);
-  }
-  template <class Section>
-  toml::array operator()(std::string Section::*) const {
-    return toml::array{words};
-  }
-};
+toml::array layer_value(const Field& field, const std::string& words) {
+  if (std::holds_alternative<std::string*>(field)) return toml::array{words};
+  const bool is_truth = std::holds_alternative<bool*>(field);
+  return parsed_value(is_truth && words == "1"   ? "true"
+                      : is_truth && words == "0" ? "false"
+                                                 : words);
+}
 
 struct SectionTaker {
   Site& site;
   const LayerSection& from;
 
-  void take_value(auto& fields, const std::string& path, const LayerSection::Value& value) const {
-    using Section = std::remove_reference_t<decltype(fields)>;
+  void take_value(const Keys<Field>& keys, const std::string& path,
+                  const LayerSection::Value& value) const {
     const Where where{from.place};
-    const SiteKey<Section>& row = key_named<Section>(value.key, path, where);
+    const KeyOf<Field>& row = key_named(keys, value.key, path, where);
     const auto given = site.sources.find(path + "." + row.name);
     if (given != site.sources.end() && given->second.kind != ValueSource::from_soil)
       throw InputError(where,
@@ -497,14 +477,14 @@ struct SectionTaker {
                                 ? given->second.words
                                 : site.file + ":" + std::to_string(given->second.line)),
                        "say it once: take it out of one of the two");
-    const toml::array holder = std::visit(LayerNode{value.text}, row.field);
-    read_value(fields, row, path + "." + row.name, holder[0], where);
+    const toml::array holder = layer_value(row.field, value.text);
+    read_value(row, path + "." + row.name, holder[0], where);
     site.sources[path + "." + row.name] = {ValueSource::from_layer, 0, from.place};
   }
   template <class Section>
   void operator()(const char* name, Section& fields) const {
     if (!from.name.empty() || from.group != name) return;
-    for (const auto& value : from.values) take_value(fields, name, value);
+    for (const auto& value : from.values) take_value(keys_in(fields), name, value);
   }
   template <class Section>
   void operator()(const char* group, std::vector<Section>& sections) const {
@@ -516,7 +496,8 @@ struct SectionTaker {
       at = sections.emplace(sections.end());
       at->name = from.name;
     }
-    for (const auto& value : from.values) take_value(*at, group + ("." + from.name), value);
+    for (const auto& value : from.values)
+      take_value(keys_in(*at), group + ("." + from.name), value);
   }
 };
 
@@ -575,11 +556,9 @@ std::size_t end_of_key(const Site& site, const std::string& words) {
     const std::size_t last = words.rfind('.', at);
     if (last == std::string::npos) continue;
     bool is_found = false;
-    for_each_section(site, [&](const char* group, const std::string& name, const auto& fields) {
-      is_found |=
-          path_of(group, name) == words.substr(0, last) &&
-          has_key<std::remove_cvref_t<decltype(fields)>>(words.substr(last + 1, at - last - 1));
-    });
+    for (const auto& [group, name, keys] : sections_in(site))
+      is_found |= path_of(group, name) == words.substr(0, last) &&
+                  has_key(keys, words.substr(last + 1, at - last - 1));
     if (is_found) return at;
   }
   return words.find('=');
@@ -594,15 +573,15 @@ void override_value(Site& site, const std::string& key, const std::string& value
                     word = key.substr(last + 1);
   Texts known;
   bool is_done = false;
-  for_each_section(site, [&](const std::string& candidate, const std::string& name, auto& fields) {
+  for (const auto& [candidate, name, keys] : sections_in(site)) {
     if (!name.empty() && candidate == group) known.push_back(path_of(group, name));
-    if (path_of(candidate, name) != section) return;
+    if (path_of(candidate, name) != section) continue;
     const Where where{"", 0, "command line"};
-    const auto& row = key_named<std::remove_cvref_t<decltype(fields)>>(word, section, where);
-    read_value(fields, row, section + "." + word, value_for(row, value)[0], where);
+    const auto& row = key_named(keys, word, section, where);
+    read_value(row, section + "." + word, value_for(row, value)[0], where);
     site.sources[section + "." + word] = {ValueSource::from_cli, 0};
     is_done = true;
-  });
+  }
   if (!is_done)
     throw InputError(
         {"", 0, "command line"}, "no section [" + section + "]",

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <sstream>
-#include <type_traits>
+#include <string_view>
 #include <variant>
 
 #include "base/text.hpp"
@@ -65,61 +65,61 @@ std::string key_text(const std::string& name) {
   return is_bare ? name : quoted(name);
 }
 
-std::string source_of(const Site& site, const auto& fields, const std::string& path) {
+// That a section names; nullptr: none.
+const Soil* soil_of(const Keys<ConstField>& keys) {
+  for (const auto& key : keys)
+    if (key.name == std::string_view("soil"))
+      return soil_named(*std::get<const std::string*>(key.field));
+  return nullptr;
+}
+
+std::string source_of(const Site& site, const Soil* soil, const std::string& path) {
   const auto found = site.sources.find(path);
   if (found == site.sources.end()) return "default";
   const ValueSource& source = found->second;
-  if constexpr (requires { fields.soil; })
-    if (const Soil* soil = soil_named(fields.soil);
-        soil != nullptr && source.kind == ValueSource::from_soil)
-      return std::string("soil ") + soil->name + " (" + soil->mark + ")";
+  if (soil != nullptr && source.kind == ValueSource::from_soil)
+    return std::string("soil ") + soil->name + " (" + soil->mark + ")";
   if (source.kind == ValueSource::from_cli) return "cli";
   if (source.kind == ValueSource::from_draw || source.kind == ValueSource::from_layer)
     return source.words;
   return "file, line " + std::to_string(source.line);
 }
 
-// How sure the values of a soil are, and where they are from.
-std::string note_on(const auto& fields, const std::string& key) {
-  if constexpr (requires { fields.soil; })
-    if (const Soil* soil = soil_named(fields.soil); soil != nullptr && key == "soil")
-      return std::string(soil->mark) + ": " + soil->source;
-  return "";
+// Empty: not given.
+std::string value_text(const ConstField& field) {
+  return std::visit(
+      [](const auto* value) { return is_given(*value) ? literal(*value) : std::string(); }, field);
 }
 
-template <class Section>
-void describe_keys(const std::string& name, const Section& values,
+void describe_keys(const std::string& name, const Keys<ConstField>& keys,
                    std::vector<KeyDescription>& rows) {
-  for (const auto& key : keys_of<Section>())
-    std::visit(
-        [&](auto field) {
-          const bool has_range = std::isfinite(key.range.low) || std::isfinite(key.range.high);
-          rows.push_back({name, key.name, type_text(values.*field),
-                          is_given(values.*field) ? literal(values.*field) : "",
-                          *key.choices ? key.choices
-                          : has_range  ? text_of(key.range)
-                                       : "",
-                          key.help});
-        },
-        key.field);
+  for (const auto& key : keys) {
+    const bool has_range = std::isfinite(key.range.low) || std::isfinite(key.range.high);
+    rows.push_back({name, key.name,
+                    std::visit([](const auto* value) { return type_text(*value); }, key.field),
+                    value_text(key.field),
+                    *key.choices ? key.choices
+                    : has_range  ? text_of(key.range)
+                                 : "",
+                    key.help});
+  }
 }
 
 }  // namespace
 
 std::vector<EffectiveValue> effective_values(const Site& site) {
   std::vector<EffectiveValue> values;
-  for_each_section(site, [&](const char* group, const std::string& name, const auto& fields) {
+  for (const auto& [group, name, keys] : sections_in(site)) {
     const std::string shown = path_of(group, name.empty() ? name : key_text(name));
-    for (const auto& key : keys_of<std::remove_cvref_t<decltype(fields)>>())
-      std::visit(
-          [&](auto field) {
-            const auto& value = fields.*field;
-            values.push_back({shown, key.name, is_given(value) ? literal(value) : "",
-                              source_of(site, fields, path_of(group, name) + "." + key.name),
-                              note_on(fields, key.name)});
-          },
-          key.field);
-  });
+    const Soil* soil = soil_of(keys);
+    for (const auto& key : keys) {
+      // how sure the values of a soil are, and where they are from
+      const bool has_note = soil != nullptr && key.name == std::string_view("soil");
+      values.push_back({shown, key.name, value_text(key.field),
+                        source_of(site, soil, path_of(group, name) + "." + key.name),
+                        has_note ? std::string(soil->mark) + ": " + soil->source : ""});
+    }
+  }
   return values;
 }
 
@@ -139,10 +139,12 @@ std::vector<KeyDescription> site_keys() {
   std::vector<KeyDescription> rows;
   const Site site;
   for_each_group(site, [&rows]<class Group>(const std::string& group, const Group& fields) {
-    if constexpr (requires { fields.front(); })
-      describe_keys(group + ".NAME", typename Group::value_type(), rows);
-    else
-      describe_keys(group, fields, rows);
+    if constexpr (requires { fields.front(); }) {
+      const typename Group::value_type section;
+      describe_keys(group + ".NAME", keys_in(section), rows);
+    } else {
+      describe_keys(group, keys_in(fields), rows);
+    }
   });
   return rows;
 }
