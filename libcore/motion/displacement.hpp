@@ -11,7 +11,6 @@
 
 namespace talus {
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Vec12 = Eigen::Matrix<double, 12, 1>;
 using Mat12 = Eigen::Matrix<double, 12, 12>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;

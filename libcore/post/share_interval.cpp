@@ -182,7 +182,7 @@ Interval run_share_interval(const ShareBasis& basis, double share) {
 Interval run_share_interval(const ShareBasis& basis, std::span<const BlockWeight> blocks) {
   const double share = share_of_runs(basis, blocks);
   if (basis.runs.n == n_runs(basis.clusters)) return run_share_interval(basis, share);
-  if (basis.runs.n < least_clusters) return {none, none};
+  if (basis.runs.n < least_clusters) return {no_value, no_value};
   std::vector<double> hit(basis.run_weight.size(), 0);
   for_each_run(blocks,
                [&](int run) { hit[basis.clusters.of_run[run]] += basis.clusters.run_weight[run]; });

@@ -10,6 +10,7 @@
 #include "geometry/plan2d.hpp"
 #include "motion/rotation.hpp"
 #include "record/motion.hpp"
+#include "scene/scene.hpp"
 #include "terrain/extent_text.hpp"
 
 namespace talus {
@@ -114,7 +115,7 @@ Crossing crossing_at(const Scene& scene, const RecordLine& line, int i, const Se
   return row;
 }
 
-void add(CrossingRecorder& recorder, int line, Crossing row) {
+void add_crossing(CrossingRecorder& recorder, int line, Crossing row) {
   const std::size_t n_lines = recorder.lines.size();
   std::int32_t& index =
       recorder
@@ -252,7 +253,7 @@ void record_crossings(CrossingRecorder& recorder, const Scene& scene, const Segm
     std::stable_sort(met.begin(), met.end(),
                      [](const auto& p, const auto& q) { return p.second.s < q.second.s; });
     for (const auto& [i, meeting] : met)
-      add(recorder, static_cast<int>(l), crossing_at(scene, line, i, segment, meeting));
+      add_crossing(recorder, static_cast<int>(l), crossing_at(scene, line, i, segment, meeting));
   }
 }
 

@@ -13,11 +13,12 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/scene.hpp"
-#include "step/work.hpp"
+#include "step/segment.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
+
+struct Scene;
 
 /// A line that is watched; its base is straight between points.
 struct RecordLine {

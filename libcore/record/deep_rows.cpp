@@ -7,6 +7,8 @@
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "scene/fence.hpp"
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
 #include "step/step.hpp"
 
 namespace talus {

@@ -11,9 +11,10 @@
 
 #include "record/crossings.hpp"
 #include "record/run_file.hpp"
-#include "scene/state.hpp"
 
 namespace talus {
+
+struct Mishap;
 
 /// A row a block that was deep, as things stand at state.time; by block.
 [[nodiscard]] std::vector<DeepRow> deep_rows(const Scene& scene, const State& state,

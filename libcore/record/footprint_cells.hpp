@@ -4,6 +4,7 @@
 // out:   cells; on a way the part of it over each, in closed form
 #pragma once
 
+#include "contact/shapes.hpp"
 #include "record/passage_recorder.hpp"
 #include "terrain/trn_pyramid.hpp"
 

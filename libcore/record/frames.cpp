@@ -1,6 +1,7 @@
 #include "record/frames.hpp"
 
 #include "motion/rotation.hpp"
+#include "scene/scene.hpp"
 
 namespace talus {
 namespace {

@@ -4,14 +4,15 @@
 // out:   frames; they change nothing in the run, whatever their interval
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <vector>
 
 #include "record/motion.hpp"
-#include "scene/scene.hpp"
-#include "step/work.hpp"
 
 namespace talus {
+
+struct Scene;
 
 /// One block in one frame.
 struct FrameBlock {

@@ -1,12 +1,11 @@
 // libcore/record/motion.hpp: public
 // A block's motion at any moment of a segment, and what is recorded of it.
-// in:    segments of the solver (step/work.hpp), pieces of constant acceleration of the centroid
+// in:    segments of the solver (step/segment.hpp), pieces of constant acceleration of the centroid
 // out:   motion, energies; the same numbers for frames, passages and crossings
 #pragma once
 
 #include "motion/free_spin.hpp"
-#include "scene/scene.hpp"
-#include "step/work.hpp"
+#include "step/segment.hpp"
 
 namespace talus {
 

@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "base/numbers.hpp"
 #include "geometry/plan2d.hpp"
 #include "record/footprint_cells.hpp"
+#include "scene/scene.hpp"
 
 namespace talus {
 namespace {
 
 constexpr double touch_gap = 1e-3;  // [m]
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const double s1 = cross(b - a, c - a), s2 = cross(b - a, d - a);
@@ -133,7 +133,7 @@ void raise(ObjectHit& known, const ObjectHit& other) {
   up(known.largest_top_height, other.largest_top_height);
 }
 
-void add(ObjectRecorder& recorder, const ObjectHit& hit) {
+void add_object_hit(ObjectRecorder& recorder, const ObjectHit& hit) {
   const std::size_t n_objects = recorder.objects.size();
   std::int32_t& index = recorder.row_of[static_cast<std::size_t>(hit.block) * n_objects +
                                         static_cast<std::size_t>(hit.object)];
@@ -154,7 +154,7 @@ void follow(ObjectRecorder& recorder, const Scene& scene, SegmentMotion& motion,
     const Motion now = motion.at(t);
     make_footprint(scene, segment.block, now, recorder.footprint);
     const double gap = gap_to(shape, recorder.footprint);
-    if (gap <= touch_gap) add(recorder, hit_at(scene, segment.block, object, now, t));
+    if (gap <= touch_gap) add_object_hit(recorder, hit_at(scene, segment.block, object, now, t));
     if (t >= segment.t_end) return;
     const double way = gap <= touch_gap ? stride : gap - 0.5 * touch_gap;
     t = std::min(segment.t_end, t + way / fastest);
@@ -202,7 +202,7 @@ void record_objects(ObjectRecorder& recorder, const Scene& scene, SegmentMotion&
 }
 
 void restore(ObjectRecorder& recorder, const std::vector<ObjectHit>& rows) {
-  for (const ObjectHit& row : rows) add(recorder, row);
+  for (const ObjectHit& row : rows) add_object_hit(recorder, row);
 }
 
 std::vector<ObjectHit> sorted(const ObjectRecorder& recorder) {

@@ -14,10 +14,11 @@
 #include <vector>
 
 #include "record/motion.hpp"
-#include "scene/scene.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
+
+struct Scene;
 
 /// A piece of an object: an area, or a line or point with a radius about it.
 struct ObjectPart {

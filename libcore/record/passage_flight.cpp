@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/scene.hpp"
+
 namespace talus {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "record/footprint_cells.hpp"
+#include "scene/scene.hpp"
 #include "terrain/trn_walk.hpp"
 
 namespace talus {

@@ -8,11 +8,11 @@
 #include "record/motion.hpp"
 #include "record/passage_table.hpp"
 #include "record/path_heights.hpp"
-#include "scene/scene.hpp"
-#include "step/work.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
+
+struct Scene;
 
 /// Square cells, north-up; cell (r, c) has index r * n_cols + c.
 struct PassageGrid {

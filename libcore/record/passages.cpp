@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "record/passage_flight.hpp"
 #include "record/passage_piece.hpp"
+#include "scene/scene.hpp"
 
 namespace talus {
 namespace {

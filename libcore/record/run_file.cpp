@@ -1,5 +1,6 @@
 #include "record/run_file.hpp"
 
+#include "scene/state.hpp"
 #include "scene/worlds.hpp"
 
 namespace talus {

@@ -19,11 +19,13 @@
 #include "record/object_hits.hpp"
 #include "record/passages.hpp"
 #include "record/reach.hpp"
-#include "scene/forest.hpp"
-#include "scene/state.hpp"
+#include "scene/events.hpp"
+#include "scene/phase.hpp"
 #include "step/report.hpp"
 
 namespace talus {
+
+struct State;
 
 /// What is said of a run as a whole.
 struct RunInfo {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
 #include "scene/stems.hpp"
 #include "scene/worlds.hpp"
 

@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "record/run_file.hpp"
-#include "scene/scene.hpp"
-#include "scene/state.hpp"
 
 namespace talus {
 

@@ -16,6 +16,7 @@
 #include "base/types.hpp"
 #include "contact/ground.hpp"
 #include "motion/pose.hpp"
+#include "scene/events.hpp"
 #include "scene/hit_chain.hpp"
 
 namespace talus {
@@ -82,20 +83,6 @@ struct YieldPush {
   double shift = 0;             ///< that the body is pushed on, along `along` [m]
   double to = 0;  ///< position along `along` that it is pushed to, where shift is not 0 [m]
   Vec3 along = Vec3::Zero();  ///< the body's axis; without one, normal of the contact
-};
-
-/// First touch of a block and a panel, and what became of it.
-struct FenceHit {
-  std::int32_t block = 0, line = 0, panel = 0;  ///< panel: number in its line
-  double time = 0;                              ///< of the first touch [s]
-  double chainage = 0;                          ///< of the place, from the line's first point [m]
-  Vec3 velocity = Vec3::Zero();                 ///< of the centroid before [m/s]
-  double translational_energy = 0;              ///< before [J]
-  double rotational_energy = 0;                 ///< before [J]
-  double energy_after = 0;   ///< kinetic, with spin, at the end of the last touch so far [J]
-  double work = 0;           ///< taken from this block by the panel's giving way so far [J]
-  double top_height = 0;     ///< of the block's highest vertex above the panel's base there [m]
-  double bottom_height = 0;  ///< of its lowest vertex [m]
 };
 
 /// What touched the panels of fences since the start; part of the state.

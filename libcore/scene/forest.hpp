@@ -40,16 +40,4 @@ struct Forest {  // clang-format off
   double widest = 0;                  ///< largest radius [m]
 };  // clang-format on
 
-/// First touch of a block and a stem, and what became of it.
-struct StemHit {
-  std::int32_t block = 0, stem = 0;  ///< stem: of the scene
-  double time = 0;                   ///< of the first touch [s]
-  double height = 0;                 ///< of the place above the foot [m]
-  Vec3 velocity = Vec3::Zero();      ///< of the centroid before [m/s]
-  double translational_energy = 0;   ///< before [J]
-  double rotational_energy = 0;      ///< before [J]
-  double energy_after = 0;  ///< kinetic, with spin, at the end of the last touch so far [J]
-  double work = 0;          ///< taken from this block so far [J]
-};
-
 }  // namespace talus

@@ -1,4 +1,4 @@
-// libcore/scene/phase.hpp
+// libcore/scene/phase.hpp: public
 // A block's life: the states that it may be in, the questions that the engine asks of them, and the
 // transitions between them. Nothing else sets a phase.
 //

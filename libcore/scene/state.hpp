@@ -8,19 +8,13 @@
 
 #include "contact/block_pairs.hpp"
 #include "contact/contact.hpp"
-#include "motion/pose.hpp"
+#include "motion/motion.hpp"
 #include "scene/bonds.hpp"
+#include "scene/events.hpp"
 #include "scene/phase.hpp"
 #include "scene/scene.hpp"
 
 namespace talus {
-
-/// Motion of one block at its own time.
-struct Motion {
-  Pose pose;                             ///< centroid [m], attitude
-  Vec3 velocity = Vec3::Zero();          ///< of the centroid [m/s]
-  Vec3 angular_momentum = Vec3::Zero();  ///< about the centroid, local axes [kg m2/s]
-};
 
 /// Sums since the start over all blocks, all in joule; what each adds is >= 0 except `contact` and
 /// `base`.
@@ -78,31 +72,6 @@ struct BlockLoad {
   Vec3 push = Vec3::Zero();        ///< sum of their forces [N]
   Mat3 step_press = Mat3::Zero();  ///< [N s]
   Vec3 step_push = Vec3::Zero();   ///< [N s]
-};
-
-/// A block that was crushed.
-struct CrushedBlock {
-  std::int32_t block = 0;
-  double time = 0;            ///< [s]
-  double load = 0;            ///< that went through it, mean over law::load_time [N]
-  double strength = 0;        ///< the load that it could bear [N]
-  Vec3 place = Vec3::Zero();  ///< of its centroid; it stays there as debris [m]
-  double volume = 0;          ///< [m3]
-  double mass = 0;            ///< [kg]
-};
-
-/// A block that broke into two pieces.
-struct Break {
-  std::int32_t block = 0;
-  std::int32_t first_piece = 0;  ///< the other one is the next
-  std::int32_t released = 0;     ///< the released block that it was part of
-  std::int32_t generation = 0;   ///< of the block
-  double time = 0;               ///< [s]
-  Vec3 place = Vec3::Zero();     ///< of its centroid [m]
-  double volume = 0;             ///< of the block [m3]
-  double hit_loss = 0;           ///< normal energy that the hit took, or left of it to a piece [J]
-  double fracture = 0;           ///< work of fracture, part of that [J]
-  double separation = 0;         ///< that drives the pieces apart, part of that [J]
 };
 
 /// What became of a block that was deep in something (step/deep_blocks.hpp).

@@ -14,19 +14,9 @@
 #include "step/deep_work.hpp"
 #include "step/island/data.hpp"
 #include "step/mass/data.hpp"
+#include "step/segment.hpp"
 
 namespace talus {
-
-/// A piece of a block's motion with constant acceleration of the centroid, from one event to the
-/// next: position(t) = start + v_start (t - t_start) + a (t - t_start)^2 / 2. A flight is one
-/// piece.
-struct Segment {
-  int block = 0;
-  bool flight = false;               ///< nothing was touched
-  double t_start = 0, t_end = 0;     ///< [s]
-  Motion start, end;                 ///< motion just after t_start and just before t_end
-  Vec3 acceleration = Vec3::Zero();  ///< of the centroid, constant over the segment [m/s2]
-};
 
 /// What ground that gives way does over a substep of one block (step/soil.hpp).
 struct SoilWork {

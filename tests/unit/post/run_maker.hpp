@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ensemble/clusters.hpp"
+#include "geometry/polyhedron.hpp"
 #include "post/deposit.hpp"
 #include "record/run_file.hpp"
 #include "terrain/trn.hpp"
