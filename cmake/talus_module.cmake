@@ -20,8 +20,13 @@ else()  # in a group, a local name may be that of a function of another source
 endif()
 target_include_directories(talus_options INTERFACE ${PROJECT_SOURCE_DIR}/libcore ${PROJECT_SOURCE_DIR})
 
-# The headers that nearly every source includes are compiled once. A source names all that it uses
-# nevertheless: the preset asan builds without this.
+# What moves blocks is compiled with options of its own.
+set(TALUS_ENGINE_OPTIONS "" CACHE STRING "Options of the engine's modules beside those of all sources")
+set(talus_engine geometry motion terrain contact solver scene step paper record)
+
+# The headers that nearly every source includes are compiled once for each set of options: g++ takes
+# the optimisation level of a precompiled header for all that is compiled with it. A source names all
+# that it uses nevertheless: the preset asan builds without this.
 option(TALUS_PRECOMPILED "Compile the common headers of libcore, tools and tests once" ON)
 set(talus_common_headers <Eigen/Geometry> <algorithm> <array> <cmath> <functional> <map> <optional>
     <span> <string> <vector>)
@@ -48,7 +53,7 @@ function(talus_together target)
   list(FILTER sources EXCLUDE REGEX "_avx2\\.cpp$")  # code for wide registers stays apart
   list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ REGEX "^[^/]")
   execute_process(
-    COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/source_groups.py ${PROJECT_SOURCE_DIR}/libcore 8 ${sources}
+    COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/source_groups.py ${PROJECT_SOURCE_DIR}/libcore 12 ${sources}
     OUTPUT_VARIABLE groups OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   foreach(source group IN ZIP_LISTS sources groups)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
@@ -72,10 +77,17 @@ function(talus_module name)
   set(plain ${sources})
   list(FILTER plain EXCLUDE REGEX "_(boost|cairo|cgal|crypto|gdal|hdf5|json|sqlite|toml)\\.cpp$")
   list(TRANSFORM ARG_DEPENDS PREPEND talus_ OUTPUT_VARIABLE modules)
+  set(own_options "")
+  set(owner talus_base)
+  if(TALUS_ENGINE_OPTIONS AND name IN_LIST talus_engine)
+    set(own_options ${TALUS_ENGINE_OPTIONS})
+    set(owner talus_geometry)  # the first of them
+  endif()
 
   if(plain)
     add_library(talus_${name} STATIC ${plain})
-    talus_precompiled(talus_${name} talus_base)
+    target_compile_options(talus_${name} PRIVATE ${own_options})
+    talus_precompiled(talus_${name} ${owner})
     talus_together(talus_${name})
     set(scope PUBLIC)
   else()
@@ -89,7 +101,8 @@ function(talus_module name)
     list(FILTER own INCLUDE REGEX "_${library}\\.cpp$")
     if(own)
       add_library(talus_${name}_${library} STATIC ${own})
-      talus_precompiled(talus_${name}_${library} talus_base)
+      target_compile_options(talus_${name}_${library} PRIVATE ${own_options})
+      talus_precompiled(talus_${name}_${library} ${owner})
       talus_together(talus_${name}_${library})
       target_link_libraries(talus_${name}_${library} PUBLIC talus_${name}
                             PRIVATE ${TALUS_LIBRARY_${library}})
@@ -111,12 +124,4 @@ function(talus_module_parts module out)
     endif()
   endforeach()
   set(${out} ${parts} PARENT_SCOPE)
-endfunction()
-
-# What reads, checks and writes gains nothing from more than -O1, which compiles in half the time.
-function(talus_plain_speed target)
-  get_target_property(type ${target} TYPE)
-  if(NOT type STREQUAL INTERFACE_LIBRARY AND "${CMAKE_CXX_FLAGS} ${CMAKE_BUILD_TYPE}" MATCHES "-O[23]|Rel")
-    target_compile_options(${target} PRIVATE -O1)
-  endif()
 endfunction()
