@@ -26,14 +26,14 @@ constexpr const char* by_judgement = "by judgement between the soils with field 
 // The field tests agree with one ground of 2 kJ and 4 MPa. Hard ground has twice the energy, soft
 // ground half of both.
 constexpr std::array<Soil, 8> table = {{
-    {"rock", 35, 0.9, 4, 4000, tested, at_authume},
-    {"thin_soil", 35, 0.9, 2, 4000, tested, at_authume},
-    {"talus", 35, 0.9, 2, 4000, untested, as_meadow},
-    {"scree", 35, 0.9, 2, 4000, untested, as_meadow},
-    {"meadow", 35, 0.9, 2, 4000, tested, at_tschamut},
-    {"soft_soil", 35, 0.9, 1, 2000, untested, by_judgement},
-    {"swamp", 30, 0, not_given, 500, untested, by_judgement},
-    {"asphalt", 35, 0.9, 4, 4000, untested, by_judgement},
+    {"rock", 35, 0.9, 4, 4000, tested, at_authume, 1.8},
+    {"thin_soil", 35, 0.9, 2, 4000, tested, at_authume, 1.8},
+    {"talus", 35, 0.9, 2, 4000, untested, as_meadow, not_given},
+    {"scree", 35, 0.9, 2, 4000, untested, as_meadow, not_given},
+    {"meadow", 35, 0.9, 2, 4000, tested, at_tschamut, 0.78},
+    {"soft_soil", 35, 0.9, 1, 2000, untested, by_judgement, not_given},
+    {"swamp", 30, 0, not_given, 500, untested, by_judgement, not_given},
+    {"asphalt", 35, 0.9, 4, 4000, untested, by_judgement, not_given},
 }};
 
 /// The keys that soils set.

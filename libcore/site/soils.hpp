@@ -17,6 +17,7 @@ struct Soil {
   double friction_deg, cor, cor_half_energy_kj, bearing_kpa;
   const char* mark;    ///< whether a field test supports the values
   const char* source;  ///< which one, or where they are from
+  double heaviest_t;   ///< block of these tests [t]
 
   [[nodiscard]] bool is_tested() const;
 };

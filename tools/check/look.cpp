@@ -351,6 +351,29 @@ void doubt_fences(Look& look) {
   }
 }
 
+// Values that no field test supports, for blocks like these.
+void warn_of_soils(Tool& tool, const Site& site, const BlockSet& blocks) {
+  const auto density_of = [&](int block) {
+    const std::string& name = blocks.material_names[blocks.material[block]];
+    return site.materials[material_index(site, name)].density_kg_m3;
+  };
+  double heaviest_t = 0;
+  for (int b = 0; b < n_blocks(blocks); ++b)
+    heaviest_t = std::max(heaviest_t, blocks.volume[b] * density_of(b) / 1000);
+  for (const GroundSettings& ground : site.grounds) {
+    const Soil* soil = soil_named(ground.soil);
+    if (soil == nullptr) continue;
+    const std::string words = "ground." + ground.name + ": soil " + soil->name;
+    if (!soil->is_tested())
+      tool.warn(words + " has no field test: " + soil->source);
+    else if (heaviest_t > soil->heaviest_t)
+      tool.warn(words + " was tested with blocks up to " + text(soil->heaviest_t) +
+                " t; the heaviest here has " + text(heaviest_t, 3) +
+                " t, and rebounds less than any test shows. The other bound: "
+                "cor_half_speed_m_s = 10 in its section");
+  }
+}
+
 }  // namespace
 
 void look_at(Tool& tool, const Site& site, const CheckFiles& files, Look& look) {
@@ -359,11 +382,8 @@ void look_at(Tool& tool, const Site& site, const CheckFiles& files, Look& look) 
   look.work.ground = read_trn(files.trn);
   check_times(site);
   static_cast<void>(warn_of_settings(tool, site));
-  for (const GroundSettings& ground : site.grounds)
-    if (const Soil* soil = soil_named(ground.soil); soil != nullptr && !soil->is_tested())
-      tool.warn("ground." + ground.name + ": soil " + soil->name +
-                " has no field test: " + soil->source);
   look.inputs = read_dda_inputs(tool, site, {files.bed, files.blocks, files.settle});
+  warn_of_soils(tool, site, look.inputs.parts.blocks);
   look.is_cut = look.work.is_cut();
   const Trn& bed = look.inputs.parts.trn;
   const Trn& ground = look.work.ground;
