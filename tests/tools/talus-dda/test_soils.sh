@@ -9,6 +9,7 @@ raster_values = [1]
 [ground.bare]
 soil = "rock"
 rolling_resistance = 0
+cor_half_speed_m_s = 100
 raster_values = [2]
 [terrain]
 ground_raster = "classes.asc"
