@@ -1,14 +1,17 @@
 #include "tools/frame/stop_signals.hpp"
 
+#include <atomic>
 #include <csignal>
 
 namespace talus {
 namespace {
 
-volatile std::sig_atomic_t signal_has_come = 0;
+// Threads ask for it, and a signal handler sets it.
+std::atomic<bool> signal_has_come = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 void request_stop(int signal) {
-  signal_has_come = 1;
+  signal_has_come = true;
   // A line that is cut may be told of twice, by the terminal and by its shell: only a second order
   // of a person kills.
   if (signal != SIGHUP) std::signal(signal, SIG_DFL);
@@ -29,6 +32,6 @@ void listen_for_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool stop_requested() { return signal_has_come != 0; }
+bool stop_requested() { return signal_has_come; }
 
 }  // namespace talus
