@@ -12,6 +12,8 @@ namespace {
 constexpr double rounding = 1e-24;  // of squares of weights: what is smaller is no variance
 constexpr double whole_cluster = 1 - 1e-12;
 
+double effective_number(const ShareOver& over) { return effective_size(over.whole, over.squares); }
+
 // A share of blocks is at most that of the clusters with any, and at least that of the clusters
 // with all.
 Interval within_clusters(const Interval& interval, const ShareOver& over,
@@ -21,7 +23,7 @@ Interval within_clusters(const Interval& interval, const ShareOver& over,
     any += cluster.whole;
     if (cluster.part >= cluster.whole * whole_cluster) all += cluster.whole;
   }
-  const double n_eff = effective_size(over.whole, over.squares);
+  const double n_eff = effective_number(over);
   const auto of_clusters = [&](double weight) {
     return wilson_interval(std::min(1.0, weight / over.whole), n_eff);
   };
@@ -39,8 +41,6 @@ ShareOver over_of(const std::vector<double>& weights) {
   }
   return over;
 }
-
-double effective_number(const ShareOver& over) { return effective_size(over.whole, over.squares); }
 
 Interval interval_over(const ShareOver& over, std::span<const ClusterShare> some, double share) {
   return within_clusters(sample_interval(share_sample(over, some, share), share), over, some);
