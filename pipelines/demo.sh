@@ -15,7 +15,7 @@ sh pipelines/install_packages.sh build
 export CCACHE_SLOPPINESS=pch_defines,time_macros
 cmake --preset release -DTALUS_TESTS=OFF -DTALUS_BENCH=OFF -B build/demo >/dev/null
 compiled=$(ls build/demo/tools/talus-report 2>/dev/null || true)
-[ -n "$compiled" ] || echo "Building the tools: 5 to 10 minutes on two cores, once." \
+[ -n "$compiled" ] || echo "Building the tools: 4 to 7 minutes on two cores, once." \
   "Then the site: a minute or two."
 cmake --build build/demo --target pipeline
 goals=all
