@@ -1,6 +1,7 @@
 #include "setup/joint_cells_gdal.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "base/text.hpp"
@@ -14,6 +15,8 @@ namespace {
 /// Many small cubes: in one, the number of joints of each set would have a say in all cells.
 constexpr int n_cubes = 16;
 constexpr double n_cells_wanted = 500;  ///< of a cube
+/// Where whole cells hold less of the cubes, most cells are larger than a cube.
+constexpr double least_share_whole = 0.1;
 /// Mean spacings: a cube with the first joint of a set in it would hold more joints than others.
 constexpr double first_joint_beside = 10;
 
@@ -32,7 +35,7 @@ void make_cube(double side, BlocksWork& work) {
 }
 
 // The smallest cube that should hold enough cells, and some joints of each set.
-MassMeasure find_cube(BlocksWork& work) {
+double smallest_side(BlocksWork& work) {
   std::vector<JointSet> sets;
   double side = 0;
   for (const PlannedSet& planned : work.sets) {
@@ -41,8 +44,8 @@ MassMeasure find_cube(BlocksWork& work) {
   }
   for (;; side *= 1.1) {
     make_cube(side, work);
-    MassMeasure measure = measure_mass(work.ground, work.mass.bed, work.area);
-    if (expected_cells(sets, measure) >= n_cells_wanted) return measure;
+    if (expected_cells(sets, measure_mass(work.ground, work.mass.bed, work.area)) >= n_cells_wanted)
+      return side;
   }
 }
 
@@ -78,6 +81,35 @@ Body body_of(const BlockSet& set, int block) {
   return std::move(bodies.front());
 }
 
+/// Cells while they are cut.
+struct WholeCells {
+  JointCells found;
+  double volume = 0, least = 0, most = 0;  ///< of all, of the smallest, of the largest [m3]
+};
+
+WholeCells cut_cubes(InputLog& log, double side, std::uint64_t seed, BlocksWork& work) {
+  make_cube(side, work);
+  const MassMeasure cube = measure_mass(work.ground, work.mass.bed, work.area);
+  WholeCells whole{{}, 0, cube.volume, 0};
+  double sum = 0;
+  for (std::uint64_t k = 0; k < n_cubes; ++k) {
+    work.site.source.seed = static_cast<std::int64_t>(seed * n_cubes + k);
+    work.joints.clear();
+    work.blocks = {};
+    cut_by_joints(log, false, cube, first_joint_beside, work);
+    for (int b = 0; b < n_blocks(work.blocks); ++b) {
+      if (!is_whole(work.blocks, b)) continue;
+      whole.found.cells.push_back(body_of(work.blocks, b));
+      whole.found.share_up_to.push_back(sum += weight_of(work.blocks, b, side));
+      whole.volume += work.blocks.volume[b];
+      whole.least = std::min(whole.least, work.blocks.volume[b]);
+      whole.most = std::max(whole.most, work.blocks.volume[b]);
+    }
+  }
+  for (double& share : whole.found.share_up_to) share /= sum;
+  return whole;
+}
+
 }  // namespace
 
 JointCells cut_joint_cells(InputLog& log, const Site& site, std::uint64_t seed,
@@ -90,33 +122,25 @@ JointCells cut_joint_cells(InputLog& log, const Site& site, std::uint64_t seed,
                      "shape is joint_cell, and there are " +
                          counted(work.sets.size(), "joint set") + ": three or more make cells",
                      "give [joints.NAME] the sets of the rock, or take another shape");
-  const MassMeasure cube = find_cube(work);
-  const double side = work.ground.cell_size / 2;
-  JointCells found;
-  double sum = 0, least = cube.volume, most = 0;
-  for (std::uint64_t k = 0; k < n_cubes; ++k) {
-    work.site.source.seed = static_cast<std::int64_t>(seed * n_cubes + k);
-    work.joints.clear();
-    work.blocks = {};
-    cut_by_joints(log, false, cube, first_joint_beside, work);
-    for (int b = 0; b < n_blocks(work.blocks); ++b) {
-      if (!is_whole(work.blocks, b)) continue;
-      found.cells.push_back(body_of(work.blocks, b));
-      found.share_up_to.push_back(sum += weight_of(work.blocks, b, side));
-      least = std::min(least, work.blocks.volume[b]);
-      most = std::max(most, work.blocks.volume[b]);
-    }
+  double side = smallest_side(work);
+  WholeCells whole = cut_cubes(log, side, seed, work);
+  const auto share = [&] { return whole.volume / (n_cubes * std::pow(side, 3)); };
+  for (int grown = 0; share() < least_share_whole && grown < 2; ++grown) {
+    side *= std::sqrt(2);
+    whole = cut_cubes(log, side, seed, work);
   }
-  if (found.cells.empty())
+  if (share() < least_share_whole)
     throw InputError(where,
-                     "the joints cut no whole cell out of cubes of rock of " + text(side, 3) + " m",
-                     "raise persistence or disc_diameter_m in [joints.*]; sets that are all "
-                     "parallel to one line make none");
-  for (double& share : found.share_up_to) share /= sum;
-  log.info(where.item + ": " + counted(found.cells.size(), "joint cell") + " of " + text(least, 2) +
-           " to " + text(most, 2) + " m3 in " + std::to_string(n_cubes) + " cubes of rock of " +
-           text(side, 3) + " m");
-  return found;
+                     "cells that are whole in cubes of rock of " + text(side, 3) + " m hold " +
+                         percent(share()) + " of them: most cells are larger",
+                     "raise persistence or disc_diameter_m in [joints.*], so that joints part the "
+                     "rock; sets that are all parallel to one line do not");
+  log.info(where.item + ": " +
+           counted(static_cast<std::int64_t>(whole.found.cells.size()), "joint cell") + " of " +
+           text(whole.least, 2) + " to " + text(whole.most, 2) + " m3 in " +
+           std::to_string(n_cubes) + " cubes of rock of " + text(side, 3) + " m, " +
+           percent(share()) + " of their volume");
+  return std::move(whole.found);
 }
 
 }  // namespace talus

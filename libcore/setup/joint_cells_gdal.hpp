@@ -22,7 +22,8 @@ struct JointCells {
 
 /// Cuts 16 cubes that should hold some 500 cells and takes those that none of their sides cuts. A
 /// cell of extents w is whole in a cube of side L for a share of its places, the product of 1 - w /
-/// L over the axes, and counts as much more. Throws InputError where the joints make no cells.
+/// L over the axes, and counts as much more. Cubes grow up to twice while whole cells hold less
+/// than a tenth of them. Throws InputError where they hold less even then: most cells are larger.
 [[nodiscard]] JointCells cut_joint_cells(InputLog& log, const Site& site, std::uint64_t seed,
                                          const Where& where);
 

@@ -92,8 +92,10 @@ TEST_F(JointCellsOf, NeedSetsThatMakeCells) {
   EXPECT_NE(refusal("").find("there are 0 joint sets"), std::string::npos);
   EXPECT_NE(refusal(three.substr(0, three.find("[joints.z]"))).find("there are 2 joint sets"),
             std::string::npos);
-  EXPECT_NE(refusal(sets("persistence = 0.01\ndisc_diameter_m = 0.1\n")).find("no whole cell"),
-            std::string::npos);
+  for (const char* hardly_parted : {"persistence = 0.01\n", "persistence = 0.9\n"})
+    EXPECT_NE(refusal(sets(hardly_parted)).find("most cells are larger"), std::string::npos)
+        << hardly_parted;
+  EXPECT_EQ(refusal(sets("persistence = 0.99\ndisc_diameter_m = 30\n")), "accepted");
 }
 
 }  // namespace
