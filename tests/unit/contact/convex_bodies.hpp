@@ -12,27 +12,27 @@
 
 namespace talus::test {
 
-using Random = std::mt19937_64;
+using Draws = std::mt19937_64;
 
-inline double uniform(Random& random, double low, double high) {
+inline double uniform(Draws& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
 // Drawn one by one: the order in which a call's arguments are drawn would be the compiler's.
-inline Vec3 direction(Random& random) {
+inline Vec3 direction(Draws& random) {
   std::normal_distribution<double> normal;
   const double z = normal(random), y = normal(random), x = normal(random);
   return Vec3(x, y, z).normalized();
 }
 
-inline Quat attitude(Random& random) {
+inline Quat attitude(Draws& random) {
   std::normal_distribution<double> normal;
   const double z = normal(random), y = normal(random), x = normal(random), w = normal(random);
   return Quat(w, x, y, z).normalized();
 }
 
 /// A box of the given half sides with some of it cut off by random planes.
-inline Polyhedron convex_body(Random& random, const Vec3& half, int n_cuts) {
+inline Polyhedron convex_body(Draws& random, const Vec3& half, int n_cuts) {
   Polyhedron body = box(-half, half);
   for (int k = 0; k < n_cuts; ++k) {
     const Vec3 n = direction(random);

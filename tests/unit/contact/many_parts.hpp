@@ -14,7 +14,7 @@ namespace talus::test {
 
 // A convex body cut into parts by random planes, one after the other through a random part; of some
 // bodies a part is left out, so that they are not convex.
-inline std::vector<Polyhedron> parts_of_a_body(Random& random) {
+inline std::vector<Polyhedron> parts_of_a_body(Draws& random) {
   Vec3 half;
   for (const int axis : {2, 1, 0}) half[axis] = uniform(random, 0.4, 1);
   std::vector<Polyhedron> parts = {convex_body(random, half, static_cast<int>(random() % 3))};
@@ -43,7 +43,7 @@ struct Pressed {
   double path = 0;  ///< back the way they were pressed, out of all parts [m]
 };
 
-inline Pressed press_together(Random& random, double share) {
+inline Pressed press_together(Draws& random, double share) {
   Pressed pair;
   for (int i = 0; i < 2; ++i) {
     const std::vector<Polyhedron> parts = parts_of_a_body(random);
@@ -124,7 +124,7 @@ inline Followed follow_contacts(Bodies bodies) {
 // contacts push together is the least path that frees the bodies, not one that frees two parts. In
 // corners the next best path may be a quarter longer: of how many of `n_pairs`.
 inline int follow_pairs(int n_pairs) {
-  Random random(71);
+  Draws random(71);
   int n = 0, n_longer = 0;
   for (int k = 0; k < n_pairs; ++k) {
     const double share = std::array{0.1, 0.03, 0.01, 1e-3}[static_cast<std::size_t>(k % 4)];

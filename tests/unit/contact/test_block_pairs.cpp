@@ -14,7 +14,7 @@ using namespace talus;
 using namespace talus::test;
 
 // A heap of random bodies, close together.
-Bodies heap(Random& random, int n, double extent) {
+Bodies heap(Draws& random, int n, double extent) {
   Bodies bodies;
   for (int k = 0; k < n; ++k)
     add(bodies,
@@ -55,7 +55,7 @@ struct Drift {
     }
   }
 };
-Drift drift(Random& random, const Bodies& bodies, double speed) {
+Drift drift(Draws& random, const Bodies& bodies, double speed) {
   Drift d;
   for (std::size_t b = 0; b < bodies.poses.size(); ++b) {
     d.velocity.push_back(Vec3(20, -3, 5) + speed * direction(random));
@@ -67,7 +67,7 @@ Drift drift(Random& random, const Bodies& bodies, double speed) {
 // Whatever is held from step to step, every pair that overlaps has a manifold, at the depth that
 // brute force gives; and pairs without overlap beyond the margin have none.
 TEST(BlockPairs, FindsEveryOverlapWhateverIsCached) {
-  Random random(31);
+  Draws random(31);
   Bodies bodies = heap(random, 40, 5);
   const Drift motion = drift(random, bodies, 1.0);
   PairState state;
@@ -151,7 +151,7 @@ TEST(BlockPairs, RockingOnTwoEdgesKeepsBoth) {
 // The caches may delay a change of features by a thousandth of a thickness of motion; apart from
 // that the contacts are the same.
 TEST(BlockPairs, CachesDoNotChangeTheContacts) {
-  Random random(32);
+  Draws random(32);
   Bodies bodies = heap(random, 30, 4);
   const Drift motion = drift(random, bodies, 0.5);
   PairState cached_state, fresh_state;
@@ -185,7 +185,7 @@ TEST(BlockPairs, CachesDoNotChangeTheContacts) {
 
 // A mass that moves as a whole, however fast, keeps its list and its axes.
 TEST(BlockPairs, CommonMotionUsesNoBudget) {
-  Random random(33);
+  Draws random(33);
   Bodies bodies = heap(random, 30, 4);
   PairState state;
   PairWork work;
@@ -209,7 +209,7 @@ TEST(BlockPairs, CommonMotionUsesNoBudget) {
 // Bodies that need closing points alone have those of all points that come near, now or by the
 // motion ahead, and no others.
 TEST(BlockPairs, PointsThatStayOpenAreLeftOut) {
-  Random random(37);
+  Draws random(37);
   Bodies bodies = heap(random, 40, 5);
   const Drift motion = drift(random, bodies, 1.0);
   const double h = 5e-3;
@@ -254,7 +254,7 @@ TEST(BlockPairs, PointsThatStayOpenAreLeftOut) {
 // To and fro twice: the second time nothing grows any more, whatever is listed or searched anew.
 TEST(BlockPairs, StepsAllocateNothingOnceTheArraysHaveGrown) {
   if (!counts_allocations) GTEST_SKIP() << "the thread sanitizer counts nothing";
-  Random random(36);
+  Draws random(36);
   Bodies bodies = heap(random, 30, 4);
   const Drift motion = drift(random, bodies, 1.0);
   PairState state;
@@ -452,7 +452,7 @@ TEST(BlockPairs, APartThatMeetsABlockAcrossAWallOnlyStopsNothing) {
 }
 
 TEST(BlockPairs, DegenerateShapesGiveFiniteContacts) {
-  Random random(34);
+  Draws random(34);
   Bodies bodies;
   const Polyhedron cube = box(Vec3(-0.05, -0.05, -0.05), Vec3(0.05, 0.05, 0.05));
   add(bodies, box(Vec3(-5, -5, -5), Vec3(5, 5, 5)), {Vec3(0, 0, 5), Quat::Identity()});
@@ -488,7 +488,7 @@ TEST(BlockPairs, DegenerateShapesGiveFiniteContacts) {
 
 // What is saved and restored goes on bit for bit.
 TEST(BlockPairs, ResumesBitForBit) {
-  Random random(35);
+  Draws random(35);
   Bodies bodies = heap(random, 20, 3.5);
   const Drift motion = drift(random, bodies, 0.5);
   PairState state;

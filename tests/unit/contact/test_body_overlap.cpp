@@ -8,7 +8,7 @@ using namespace talus::test;
 
 // Against faces and all products of edges, pair of parts by pair.
 TEST(BodyOverlap, IsTheLeastDisplacementOutOfAllParts) {
-  Random random(7);
+  Draws random(7);
   BodyOverlapScratch scratch;
   int n_other = 0, n_askew = 0;
   for (int trial = 0; trial < 1600; ++trial) {
@@ -43,7 +43,7 @@ TEST(BodyOverlap, InANotchLeadsOutOfBothFlanks) {
 }
 
 TEST(BodyOverlap, OfBodiesApartIsNone) {
-  Random random(8);
+  Draws random(8);
   BodyOverlapScratch scratch;
   for (int trial = 0; trial < 50; ++trial) {
     Pressed pair = press_together(random, 0);
@@ -55,7 +55,7 @@ TEST(BodyOverlap, OfBodiesApartIsNone) {
 
 // Convex bodies, and bodies of several parts, each second.
 TEST(BodyOverlap, WhatIsIgnoredIsAtMostThatDeep) {
-  Random random(9);
+  Draws random(9);
   BodyOverlapScratch scratch;
   int n_left_out = 0, n_found = 0;
   for (int trial = 0; trial < 400; ++trial) {

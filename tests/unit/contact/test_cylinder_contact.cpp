@@ -45,7 +45,7 @@ double gap_by_directions(const PlacedBody& body, const VerticalCylinder& cylinde
 // Of random bodies, with the axis beside or in them: the gap is that of all directions, the normal
 // is horizontal, and no point of the body is nearer than the gap says.
 TEST(CylinderContact, HasTheGapThatBruteForceFinds) {
-  Random random(17);
+  Draws random(17);
   int n_inside = 0;
   for (int k = 0; k < 300; ++k) {
     const PlacedBody body(convex_body(random, Vec3(0.6, 0.4, 0.5), 5),

@@ -83,7 +83,7 @@ TEST(GroundDepth, InsideABodyOfTwoPartsIsNotBesideThem) {
 
 // Never less than any point found by sampling, and not more than what lifting the body out takes.
 TEST(GroundDepth, HoldsAgainstSampling) {
-  Random random(5);
+  Draws random(5);
   const auto rough = [](double x, double y) {
     return std::sin(12.9898 * x) * std::cos(78.233 * y);
   };

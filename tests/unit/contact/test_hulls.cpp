@@ -38,7 +38,7 @@ TEST(Hulls, BoxHasSixFacesAndTwelveActiveEdgesWithRightAngles) {
 }
 
 TEST(Hulls, PlacedVerticesAndPlanesFollowThePose) {
-  Random random(1);
+  Draws random(1);
   Bodies bodies;
   add(bodies, convex_body(random, Vec3(1, 2, 0.5), 5), {Vec3(3, -4, 5), attitude(random)});
   place(bodies);
@@ -52,7 +52,7 @@ TEST(Hulls, PlacedVerticesAndPlanesFollowThePose) {
 
 // A stretched body's normals must be normal to its stretched faces, not the turned old normals.
 TEST(Hulls, NormalsFollowTheStretch) {
-  Random random(2);
+  Draws random(2);
   Bodies bodies;
   add(bodies, convex_body(random, Vec3(1, 1, 1), 6), {Vec3(1, 2, 3), attitude(random)});
   Mat3 stretch = Mat3::Identity();
@@ -76,7 +76,7 @@ TEST(Hulls, NormalsFollowTheStretch) {
 }
 
 TEST(Hulls, TurningBoundsTheMotionOfEveryVertex) {
-  Random random(3);
+  Draws random(3);
   Bodies bodies;
   add(bodies, convex_body(random, Vec3(1, 2, 3), 4), {});
   place(bodies);

@@ -121,7 +121,7 @@ TEST(Manifold, CrossedWedgesTouchAtOnePoint) {
 // Pairs pressed together a little: every point lies on both surfaces, the deepest has the depth of
 // the pair, keys differ, nothing is NaN.
 TEST(Manifold, PointsLieOnBothSurfaces) {
-  Random random(21);
+  Draws random(21);
   int n_points = 0, n_faces_met = 0;
   for (int k = 0; k < 3000; ++k) {
     Bodies bodies;
@@ -167,7 +167,7 @@ TEST(Manifold, PointsLieOnBothSurfaces) {
 // Two bodies face to face in a general position: the area is that of the two faces' exact
 // intersection; the shares add up to it and keep its centre.
 TEST(Manifold, AreaAndItsCentreAreThoseOfTheFacesIntersection) {
-  Random random(22);
+  Draws random(22);
   int n = 0;
   for (int k = 0; k < 2000; ++k) {
     Bodies bodies;
@@ -212,7 +212,7 @@ TEST(Manifold, AreaAndItsCentreAreThoseOfTheFacesIntersection) {
 
 // The reference may be either face: keys and places must not tell which.
 TEST(Manifold, KeysSurviveAFlipOfTheReferenceFace) {
-  Random random(23);
+  Draws random(23);
   for (int k = 0; k < 200; ++k) {
     const Bodies bodies = cube_on_cube(uniform(random, -1.5, 1.5), uniform(random, -1.5, 1.5),
                                        uniform(random, 0, 3), 1e-5);
@@ -230,7 +230,7 @@ TEST(Manifold, KeysSurviveAFlipOfTheReferenceFace) {
 // than the bodies do (a crossing by the angle of the sides), and names change only where a corner
 // passes a side.
 TEST(Manifold, KeysAreStableUnderSmallMotion) {
-  Random random(24);
+  Draws random(24);
   int n_kept = 0, n_changed = 0;
   for (int run = 0; run < 20; ++run) {
     const Vec2 along = 1e-3 * Vec2(uniform(random, -1, 1), uniform(random, -1, 1));
@@ -262,7 +262,7 @@ TEST(Manifold, KeysAreStableUnderSmallMotion) {
 // Exactly aligned stacks: rounding of 1e-15 and shifts below a millionth of the size must not
 // rename points.
 TEST(Manifold, AlignedFacesKeepTheirKeysUnderRounding) {
-  Random random(25);
+  Draws random(25);
   const auto names = places(contact(cube_on_cube(0, 0, 0, 1e-5), 0));
   EXPECT_EQ(names.size(), 4u);
   for (int k = 0; k < 200; ++k) {
@@ -295,7 +295,7 @@ TEST(Manifold, LargeBlockOnSmallCubeTouchesTheWholeCube) {
 // A rock that is in behind a wide face bears with every vertex that is, whichever of its faces it
 // lies on and whichever of the two bodies comes first.
 TEST(Manifold, EveryVertexBehindAWideFaceBears) {
-  Random random(27);
+  Draws random(27);
   int n_beside = 0;  // not corners of the incident face
   for (int run = 0; run < 200; ++run) {
     const bool rock_first = run % 2;
@@ -402,7 +402,7 @@ TEST(Manifold, EdgesBesideASliverFaceMeet) {
 // Whatever the shapes and poses: where parts overlap along all axes by more than a fiftieth of the
 // thickness, there is a contact that is in.
 TEST(Manifold, PartsThatOverlapHaveAContact) {
-  Random random(5);
+  Draws random(5);
   int n_overlapping = 0;
   for (int i = 0; i < 20000; ++i) {
     const auto half = [&] {
@@ -426,7 +426,7 @@ TEST(Manifold, PartsThatOverlapHaveAContact) {
 
 // The gap and the place of held features stay exact while the bodies move.
 RC_GTEST_PROP(Manifold, HeldFeaturesFollowTheBodiesExactly, ()) {
-  Random random(*rc::gen::arbitrary<std::uint64_t>());
+  Draws random(*rc::gen::arbitrary<std::uint64_t>());
   Bodies bodies =
       cube_on_cube(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, 0.1, 1), 1e-4);
   const PairAxis axis{AxisKind::face_a, 5, -1};

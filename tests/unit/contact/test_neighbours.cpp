@@ -26,7 +26,7 @@ Pairs brute_pairs(const std::vector<Box>& boxes, const std::vector<int>& owner) 
   return pairs;
 }
 
-std::vector<Box> random_boxes(Random& random, int n, double size_ratio, double extent) {
+std::vector<Box> random_boxes(Draws& random, int n, double size_ratio, double extent) {
   std::vector<Box> boxes;
   for (int i = 0; i < n; ++i) {
     const Vec3 centre(uniform(random, -extent, extent), uniform(random, -extent, extent),
@@ -40,7 +40,7 @@ std::vector<Box> random_boxes(Random& random, int n, double size_ratio, double e
 }
 
 RC_GTEST_PROP(FindOverlaps, AgreesWithAllPairs, ()) {
-  Random random(*rc::gen::arbitrary<std::uint64_t>());
+  Draws random(*rc::gen::arbitrary<std::uint64_t>());
   const int n = *rc::gen::inRange(0, 120);
   const double ratio = std::pow(10.0, *rc::gen::inRange(0, 8));
   const std::vector<Box> boxes = random_boxes(random, n, ratio, *rc::gen::inRange(1, 60));

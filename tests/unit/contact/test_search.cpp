@@ -174,7 +174,7 @@ TEST(FindContacts, EdgesAreInContactOnlyAlongTheShortestWayOut) {
 }
 
 // Random ground about a plane of random dip: 33 nodes a side, (0, 0) in the middle.
-Trn rough_ground(Random& random, double cell, double roughness) {
+Trn rough_ground(Draws& random, double cell, double roughness) {
   std::normal_distribution<double> normal(0, roughness);
   const double east = uniform(random, -1, 1), north = uniform(random, -1, 1);
   Trn trn;
@@ -191,7 +191,7 @@ Trn rough_ground(Random& random, double cell, double roughness) {
 // deep there, whichever features meet: corners, nodes, edges with ridges. How often it is not.
 double share_unseen(std::initializer_list<double> wanted) {
   constexpr int n_trials = 3000;
-  Random random(5);
+  Draws random(5);
   std::vector<Vec3> vertices;
   std::vector<Contact> contacts;
   int n_unseen = 0;
@@ -238,7 +238,7 @@ bool same_contacts(const std::vector<Contact>& a, const std::vector<Contact>& b)
 // margins that come and go: what earlier searches left changes no contact and no bit, and the slow
 // ones do live on it.
 TEST(FindContacts, AreTheSameToTheBitWithAListOfFeatures) {
-  Random random(11);
+  Draws random(11);
   std::vector<Vec3> vertices;
   std::vector<Contact> whole, listed;
   int n_contacts = 0, n_edge_contacts = 0, n_large = 0;

@@ -14,7 +14,7 @@ namespace {
 using namespace talus;
 using namespace talus::test;
 
-Vec3 random_half(Random& random) {
+Vec3 random_half(Draws& random) {
   switch (std::uniform_int_distribution<int>(0, 3)(random)) {
     case 0:
       return Vec3(1, 1, 1);
@@ -27,7 +27,7 @@ Vec3 random_half(Random& random) {
   }
 }
 
-Bodies random_pair(Random& random, double spread) {
+Bodies random_pair(Draws& random, double spread) {
   Bodies bodies;
   for (int k = 0; k < 2; ++k)
     add(bodies,
@@ -42,7 +42,7 @@ double thickness(const Bodies& bodies) {
 }
 
 TEST(FindAxis, GivesThePenetrationDepthOfTheMinkowskiDifference) {
-  Random random(11);
+  Draws random(11);
   AxisScratch scratch;
   int n_overlap = 0, n_edges = 0;
   for (int k = 0; k < 4000; ++k) {
@@ -94,7 +94,7 @@ TEST(FindAxis, EdgesThatHardlyCrossAreAnAxis) {
 
 // Within `hold` the chosen axis must remain as good as any, up to the bonus that keeps it.
 RC_GTEST_PROP(FindAxis, HoldsItsAxisForTheMotionItSays, ()) {
-  Random random(*rc::gen::arbitrary<std::uint64_t>());
+  Draws random(*rc::gen::arbitrary<std::uint64_t>());
   Bodies bodies = random_pair(random, 1.0);
   AxisScratch scratch;
   const AxisChoice first = find_axis(bodies.hulls, bodies.placed, 0, 1, 0, {}, scratch);
@@ -136,7 +136,7 @@ TEST(FindAxis, FlatContactTakesTheFaceOfAAndKeepsIt) {
 }
 
 TEST(FindAxis, IdenticalBodiesInTheSamePlaceOverlapByTheirThickness) {
-  Random random(5);
+  Draws random(5);
   const Polyhedron body = convex_body(random, Vec3(1, 1, 1), 5);
   Bodies bodies;
   add(bodies, body, {});

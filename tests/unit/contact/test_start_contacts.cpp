@@ -33,7 +33,7 @@ TEST(JointContacts, LatticeOfBoxesSharesItsInnerFaces) {
 
 // A body cut by a plane: the halves share exactly the cut, whose area is that of the new face.
 TEST(JointContacts, HalvesOfACutBodyShareTheCut) {
-  Random random(41);
+  Draws random(41);
   for (int k = 0; k < 50; ++k) {
     const Polyhedron whole = convex_body(random, Vec3(1, 1, 1), 5);
     const Plane plane{direction(random), uniform(random, -0.2, 0.2)};
@@ -80,7 +80,7 @@ TEST(BlockOverlaps, GiveDepthVolumeAndPlaceDeepestFirst) {
 
 // The common volume of random bodies against counting points of a fine lattice.
 TEST(BlockOverlaps, VolumeAgreesWithCountedPoints) {
-  Random random(42);
+  Draws random(42);
   for (int k = 0; k < 20; ++k) {
     Bodies bodies;
     for (int i = 0; i < 2; ++i)
