@@ -25,7 +25,7 @@ Trn rough(talus::Random& random, double relief) {
 }
 
 // A box turned at random, centred at `at`.
-Polyhedron box(talus::Random& random, const Vec3& at, const Vec3& size) {
+Polyhedron random_box(talus::Random& random, const Vec3& at, const Vec3& size) {
   const Eigen::Quaterniond turn =
       Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal())
           .normalized();
@@ -72,7 +72,7 @@ TEST(StartDepth, IsTheLargestOverlapAlongTheVertical) {
   for (int trial = 0; trial < 40; ++trial) {
     const Trn trn = rough(random, 1.2);
     const Vec3 at(random.uniform(6, 13), random.uniform(6, 11), random.uniform(0, 3));
-    const Polyhedron body = box(random, at, {3, 2, 1.5});
+    const Polyhedron body = random_box(random, at, {3, 2, 1.5});
     const double depth = talus::depths_below_ground(trn, set_of(body))[0];
     double sampled = -1e300;
     for (double x = at.x() - 2.2; x < at.x() + 2.2; x += 0.02)
@@ -90,7 +90,7 @@ TEST(StartDepth, OfALiftedBlockIsZero) {
   talus::Random random(6, "depth");
   for (int trial = 0; trial < 40; ++trial) {
     const Trn trn = rough(random, 1.2);
-    BlockSet set = set_of(box(random, {9, 8, 0.2}, {3, 2, 1.5}));
+    BlockSet set = set_of(random_box(random, {9, 8, 0.2}, {3, 2, 1.5}));
     const double depth = talus::depths_below_ground(trn, set)[0];
     ASSERT_GT(depth, 0);
     talus::move_block(set, 0, {0, 0, depth});
