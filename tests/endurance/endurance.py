@@ -469,7 +469,7 @@ def part_memory(bench):
 # What the pages state beyond what loading takes: of the small scene in all, GDAL's cache [MB]; of a run
 # of many frames, bytes a block and frame; of the registry, bytes a run listed.
 SMALL_SCENE_MB = 16
-PAGES_MB = 350  # of a tool that draws map pages
+PAGES_MB = 350  # of a tool that draws map pages or a report
 GDAL_CACHE_MB = 128
 LARGE_NODES = (1400, 2000)
 MANY_FRAMES, FRAME_INTERVAL_S = 10001, 0.002
@@ -498,7 +498,7 @@ def stated_memory(bench):
 def stated_limits(bench):
     """Jobs, each with the memory [MB] that its page states beyond what loading takes."""
     for job in bench.jobs:
-        draws = any(word in ("--pages", "--change") for word in job.words)
+        draws = job.name == "talus-report" or any(word in ("--pages", "--change") for word in job.words)
         yield job, SMALL_SCENE_MB + (PAGES_MB if draws else 0)
     made, toml = bench.work / "site/made", str(bench.work / "site/site.toml")
     large = ["--cell-size-m", "0.16", "--window", "500000,5200000,500224,5200320"]
@@ -527,7 +527,8 @@ def stated_limits(bench):
     for file in ("bed.tif", "trn.tif"):
         shutil.copy(made / file, many)
     for job in jobs:
-        yield job, SMALL_SCENE_MB + mb_of(BYTES_A_BLOCK_AND_FRAME[job.name], n_blocks * MANY_FRAMES)
+        drawing = PAGES_MB if job.name == "talus-report" else 0
+        yield job, SMALL_SCENE_MB + drawing + mb_of(BYTES_A_BLOCK_AND_FRAME[job.name], n_blocks * MANY_FRAMES)
 
 
 def mb_of(n_bytes, n):

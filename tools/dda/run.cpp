@@ -191,7 +191,11 @@ void compute(Tool& tool, Runner& runner, const std::string& part, double interva
     if (!advance(runner)) continue;
     if (has_failed(runner)) break;
     if (may_end_standing && stands(runner)) break;
-    progress(done_share(runner));
+    try {
+      progress(done_share(runner));
+    } catch (const Interrupted&) {
+      continue;  // the checkpoint comes first
+    }
     checkpoints.write_if_due(runner);
   }
   finish(runner);
