@@ -39,7 +39,7 @@ PY
 # many of these rocks leave the terrain: no run fails, and the report begins with their share
 grep -q '% of the blocks left the known terrain' wall/out/report.html || fail 'lost rocks are not on the page'
 n_lost=$(ogrinfo -q -ro wall/out/runout.gpkg -sql "SELECT count(*) n FROM deposit WHERE fate = 'left_domain'" | sed -n 's/.*n (Integer) = //p')
-python3 -c "import json; assert json.load(open('wall/out/runout.json'))['balance']['n_left_domain'] == $n_lost > 20" ||
+python3 -c "import json; assert json.load(open('wall/out/runout.json'))['balance']['n_left_domain'] == $n_lost > 0" ||
   fail 'not each lost rock has a place'
 cmp -s wall/out/rock/blocks_1.h5 wall/out/rock/blocks_2.h5 && fail 'two runs have the same rocks'
 
