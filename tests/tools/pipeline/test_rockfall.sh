@@ -25,7 +25,8 @@ width_m = 6
 by_weights = true
 END
 sed -i -e 's/^# frequency_per_a = 0.5/frequency_per_a = 0.5/' -e 's/^duration_s = 120/duration_s = 30/' \
-  -e 's/^rocks = 1/release_spacing_m = 12\n&/' wall/site.toml
+  -e 's/^rocks = 1/release_spacing_m = 12\n&/' \
+  -e 's/^soil = .*/friction_deg = 38\ncor = 0.9\ncor_half_speed_m_s = 15\nrolling_resistance = 0.08/' wall/site.toml
 made wall -j2
 [ "$(ls wall/out/runs/run_*.h5 | wc -l)" -eq 10 ] || fail 'not ten runs'
 prints 'run_10: 23 rocks'
@@ -39,7 +40,7 @@ PY
 # many of these rocks leave the terrain: no run fails, and the report begins with their share
 grep -q '% of the blocks left the known terrain' wall/out/report.html || fail 'lost rocks are not on the page'
 n_lost=$(ogrinfo -q -ro wall/out/runout.gpkg -sql "SELECT count(*) n FROM deposit WHERE fate = 'left_domain'" | sed -n 's/.*n (Integer) = //p')
-python3 -c "import json; assert json.load(open('wall/out/runout.json'))['balance']['n_left_domain'] == $n_lost > 0" ||
+python3 -c "import json; assert json.load(open('wall/out/runout.json'))['balance']['n_left_domain'] == $n_lost > 20" ||
   fail 'not each lost rock has a place'
 cmp -s wall/out/rock/blocks_1.h5 wall/out/rock/blocks_2.h5 && fail 'two runs have the same rocks'
 
