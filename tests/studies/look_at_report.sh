@@ -20,6 +20,7 @@ browse --virtual-time-budget=6000 --no-pdf-header-footer --print-to-pdf="$shots/
   cat "$out/report.html"
   cat <<'END'
 <script>
+talusView();
 const view = window.talus, start = view.state().now;
 view.play();
 setTimeout(() => {
