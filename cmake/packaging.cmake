@@ -4,10 +4,10 @@ get_property(tools GLOBAL PROPERTY TALUS_TOOLS)
 
 install(DIRECTORY pipelines/ DESTINATION ${CMAKE_INSTALL_DATADIR}/talus/pipelines
         FILES_MATCHING PATTERN "*.mk" PATTERN "*.sh" PATTERN "*.smk" PATTERN "demo.sh" EXCLUDE
-        PATTERN "install_packages.sh" EXCLUDE)
+        PATTERN "install_packages.sh" EXCLUDE PATTERN "release.sh" EXCLUDE)
 foreach(site designed maungawhau)
   install(DIRECTORY sample_sites/${site} DESTINATION ${CMAKE_INSTALL_DATADIR}/talus/sample_sites
-          PATTERN out EXCLUDE)
+          PATTERN out EXCLUDE PATTERN Makefile EXCLUDE)
 endforeach()
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,6 +1,6 @@
 #!/bin/sh
-# install_packages.sh build|test: installs the Debian packages that are missing for building the
-# tools, or for building and testing them. As root, or through sudo; says so where neither works.
+# install_packages.sh build|test|release: installs the Debian packages that are missing for building
+# the tools, for building and testing them, or for building what users download. As root, or through sudo; says so where neither works.
 set -eu
 
 build="g++ cmake ninja-build make ccache libgdal-dev libcgal-dev libboost-dev libeigen3-dev
@@ -9,13 +9,15 @@ build="g++ cmake ninja-build make ccache libgdal-dev libcgal-dev libboost-dev li
   fonts-dejavu-core"
 test="libgtest-dev librapidcheck-dev clang-format-14 sqlite3 hdf5-tools procps python3-gdal
   python3-h5py python3-matplotlib python3-netcdf4 python3-pandas python3-vtk9 python3-xarray"
+release="debootstrap dpkg-dev file patchelf umoci"
 # without these their tests are skipped, with a line that says so
 optional="slurm-wlm munge parallel"
 
 case ${1:-} in
   build) wanted=$build optional= ;;
   test) wanted="$build $test" ;;
-  *) echo "usage: install_packages.sh build|test" >&2; exit 2 ;;
+  release) wanted="$build $release" optional= ;;
+  *) echo "usage: install_packages.sh build|test|release" >&2; exit 2 ;;
 esac
 
 # missing_of(PACKAGES)
