@@ -11,7 +11,7 @@ foreach(site designed maungawhau)
 endforeach()
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+install(FILES LICENSES/GPL-3.0-or-later.txt DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(PROGRAMS share/talus.sh RENAME talus DESTINATION ${CMAKE_INSTALL_BINDIR})
 foreach(tool talus ${tools})
   install(FILES share/bash-completion/talus RENAME ${tool}
