@@ -122,7 +122,6 @@ Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
       std::isnan(solver.normal_stiffness_n_m) ? 0 : solver.normal_stiffness_n_m;
   settings.shear_ratio = solver.shear_stiffness_ratio;
   settings.accuracy = solver.accuracy;
-  settings.max_passes = static_cast<int>(solver.max_passes);
   settings.flight = plan.flight;
   settings.block_contacts = plan.block_contacts;
   settings.sleep = plan.sleep;

@@ -293,14 +293,11 @@ std::string why_in_one_piece(const BlocksWork& work) {
 }
 
 // Azimuths that are not taken as they stand.
-void say_turns(InputLog& log, const Site& site) {
-  for (const JointSettings& section : site.joints) {
-    const NorthTurn turn = north_turn(site, section);
-    if (turn.declination_deg == 0 && turn.convergence_deg == 0) continue;
-    log.info("[joints." + section.name + "]: azimuths turned by " + text(turn.degrees(), 6) +
-             " degrees to the map's north (declination " + text(turn.declination_deg, 6) +
-             ", convergence " + text(turn.convergence_deg, 6) + ")");
-  }
+void say_turn(InputLog& log, const JointNorth& north) {
+  if (north.declination_deg == 0 && north.convergence_deg == 0) return;
+  log.info("[joints]: azimuths turned by " + text(north.turn_deg(), 6) +
+           " degrees to the map's north (declination " + text(north.declination_deg, 6) +
+           ", convergence " + text(north.convergence_deg, 6) + ")");
 }
 
 // Each corner parts the mass along two walls, which is exact and not cheap.
@@ -331,24 +328,20 @@ Area read_source_area(InputLog& log, const BlocksWork& work) {
 }
 
 void plan_sets(InputLog& log, BlocksWork& work) {
-  std::vector<std::vector<Vec3>> measured;
+  std::vector<OrientationList> lists;
   for (const JointSettings& section : work.site.joints) {
-    measured.emplace_back();
+    lists.emplace_back();
     if (section.measured_file.empty()) continue;
     const std::string path = resolved(work.site, section.measured_file);
     log.read_also("joints." + section.name, path);
-    OrientationList list = read_orientations(read_file(path), path);
+    OrientationList& list = lists.back();
+    list = read_orientations(read_file(path), path);
     log.info(path + ": " + counted(static_cast<std::int64_t>(list.poles.size()), "orientation") +
-             " from " + list.taken_from);
-    if (list.is_computed && north_turn(work.site, section).declination_deg != 0)
-      log.doubts({doubt_on({path},
-                           "declination turns orientations that were computed from points, which "
-                           "know no compass",
-                           "set declination_deg = 0 in [joints." + section.name + "]")});
-    measured.back() = std::move(list.poles);
+             " from " + list.taken_from +
+             (list.is_computed ? "; computed from points, so no compass turns them" : ""));
   }
-  say_turns(log, work.site);
-  work.sets = plan_joint_sets(work.site, measured);
+  say_turn(log, work.site.joint_north);
+  work.sets = plan_joint_sets(work.site, lists);
 }
 
 void find_planes(InputLog& log, BlocksWork& work) {

@@ -8,6 +8,7 @@ struct GoneKey {
 };
 
 constexpr GoneKey gone_keys[] = {
+    {"solver", "max_passes", "time_step_s = SECONDS, smaller, where steps do not converge"},
     {"solver", "min_time_step_s", "time_step_s = SECONDS"},
     {"solver", "max_time_step_s", "time_step_s = SECONDS"},
     {"terrain", "layer", R"(contours = "FILE|layername=LAYER")"},
@@ -39,6 +40,8 @@ constexpr GoneKey gone_keys[] = {
     {"forest", "stems_where", R"(stems_file = "FILE|subset=FILTER")"},
     {"place", "polygon_layer", R"(polygon_file = "FILE|layername=LAYER")"},
     {"place", "polygon_where", R"(polygon_file = "FILE|subset=FILTER")"},
+    {"joints", "declination_deg", "it in [joints], for all sections"},
+    {"joints", "convergence_deg", "it in [joints], for all sections"},
     {"joints", "measured_notation", "the names of the columns in the first line of the list"},
     {"object", "layer", R"(file = "FILE|layername=LAYER")"},
     {"object", "where", R"(file = "FILE|subset=FILTER")"},

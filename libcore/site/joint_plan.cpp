@@ -5,7 +5,6 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
-#include "site/joint_list.hpp"
 
 namespace talus {
 namespace {
@@ -113,23 +112,19 @@ void check_names(const Site& site, const std::vector<PlannedSet>& sets) {
 
 }  // namespace
 
-NorthTurn north_turn(const Site& site, const JointSettings& section) {
-  const auto value = [](double own, double common) { return std::isnan(own) ? common : own; };
-  return {value(section.declination_deg, site.joint_north.declination_deg),
-          value(section.convergence_deg, site.joint_north.convergence_deg)};
-}
-
 std::vector<PlannedSet> plan_joint_sets(const Site& site,
-                                        const std::vector<std::vector<Vec3>>& orientations) {
+                                        const std::vector<OrientationList>& lists) {
+  const double turn_deg = site.joint_north.turn_deg();
   std::vector<PlannedSet> sets;
   for (size_t i = 0; i < site.joints.size(); ++i) {
     const JointSettings& section = site.joints[i];
     const std::string path = "joints." + section.name;
-    std::vector<Vec3> poles = i < orientations.size() ? orientations[i] : std::vector<Vec3>{};
+    std::vector<Vec3> poles = i < lists.size() ? lists[i].poles : std::vector<Vec3>{};
+    if (i < lists.size() && !lists[i].is_computed)
+      for (Vec3& axis : poles) axis = turned(axis, turn_deg);
     for (const Vec3& pair : section.measured)
-      poles.push_back(checked_pole(pair.x(), pair.y(), where_of(site, path + ".measured")));
-    const double turn_deg = north_turn(site, section).degrees();
-    for (Vec3& axis : poles) axis = turned(axis, turn_deg);
+      poles.push_back(
+          turned(checked_pole(pair.x(), pair.y(), where_of(site, path + ".measured")), turn_deg));
     const bool has_dip = !std::isnan(section.dip_deg) || !std::isnan(section.dip_direction_deg);
     if (!poles.empty()) {
       if (has_dip)

@@ -8,6 +8,7 @@
 #include "blocks/assemble.hpp"
 #include "blocks/joint_sets.hpp"
 #include "blocks/source.hpp"
+#include "site/joint_list.hpp"
 #include "site/site.hpp"
 
 namespace talus {
@@ -19,22 +20,12 @@ struct PlannedSet {
   std::vector<Vec3> measured_poles;  ///< that stand for it; empty when dip and direction were given
 };
 
-/// From the north of a compass to that of the map.
-struct NorthTurn {
-  double declination_deg = 0;  ///< magnetic north east of true north: added to azimuths
-  double convergence_deg = 0;  ///< grid north east of true north: taken off
-  [[nodiscard]] double degrees() const { return declination_deg - convergence_deg; }
-};
-
-/// What the azimuths of a section are turned by; its own keys go before those of [joints].
-[[nodiscard]] NorthTurn north_turn(const Site& site, const JointSettings& section);
-
 /// Joint sets of the site; a section with measured orientations gives n_sets of them, named NAME_1
-/// and so on when there is more than one. `orientations[i]` are the poles read from measured_file
-/// of section i, as they stand there. All azimuths are turned to the map's north. Throws InputError
-/// for what is missing or contradicts itself.
-[[nodiscard]] std::vector<PlannedSet> plan_joint_sets(
-    const Site& site, const std::vector<std::vector<Vec3>>& orientations);
+/// and so on when there is more than one. `lists[i]` is measured_file of section i, as it
+/// stands there. Azimuths are turned to the map's north, but those of a list that was computed.
+/// Throws InputError for what is missing or contradicts itself.
+[[nodiscard]] std::vector<PlannedSet> plan_joint_sets(const Site& site,
+                                                      const std::vector<OrientationList>& lists);
 
 /// Failure surface of [source], local to `origin`; the raster is left empty, and so is the plane of
 /// a daylighting surface, which find_failure_planes() finds. Throws InputError when

@@ -66,10 +66,11 @@ struct SourceSettings {
   double max_convex_loss = 0.05;  ///< share of a block's volume; above it the block stays exact
 };
 
-/// [joints]: from a compass to the map, for all sections that do not say it themselves.
+/// [joints]: from the north of a compass to that of the map.
 struct JointNorth {
-  double declination_deg = 0;  ///< magnetic north east of true north
-  double convergence_deg = 0;  ///< grid north east of true north
+  double declination_deg = 0;  ///< magnetic north east of true north: added to azimuths
+  double convergence_deg = 0;  ///< grid north east of true north: taken off
+  [[nodiscard]] double turn_deg() const { return declination_deg - convergence_deg; }
 };
 
 /// [joints.NAME]
@@ -87,7 +88,6 @@ struct JointSettings {
   double offset_m = 0;         ///< of the first plane from the source's middle, along the normal
   std::vector<Vec3> measured;  ///< dip direction, dip pairs that stand for the set(s)
   std::string measured_file;
-  double declination_deg = not_given, convergence_deg = not_given;  ///< not given: of [joints]
   std::int64_t n_sets = 1;
   double friction_deg = not_given, cohesion_pa = 0, tension_pa = 0;
 };
@@ -141,7 +141,6 @@ struct SolverSettings {
   std::string strain = "auto";
   bool end_when_standing = true;  ///< a run in which nothing moves ends after some seconds
   double accuracy = 0.005;        ///< of the way of what moves: see Settings
-  std::int64_t max_passes = 50;
   std::int64_t seed = 1, n_runs = 1;
   double start_jitter_m_s = 0;
   double friction_scatter_deg = 0, cor_scatter = 0, rolling_scatter = 0;

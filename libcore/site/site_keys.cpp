@@ -77,8 +77,8 @@ template <> const std::vector<SiteKey<SourceSettings>>& keys_of() {
 template <> const std::vector<SiteKey<JointNorth>>& keys_of() {
   using S = JointNorth;
   static const std::vector<SiteKey<S>> table = {
-      {"declination_deg", &S::declination_deg, "magnetic declination, east positive: added to all azimuths of [joints.*], which a compass gave", {-180, 180}},
-      {"convergence_deg", &S::convergence_deg, "grid convergence, from true north to grid north, east positive: taken off all azimuths of [joints.*]", {-90, 90}}};
+      {"declination_deg", &S::declination_deg, "magnetic declination, east positive: added to the azimuths of [joints.*], but not to those of a list that was computed from points", {-180, 180}},
+      {"convergence_deg", &S::convergence_deg, "grid convergence, from true north to grid north, east positive: taken off the same azimuths", {-90, 90}}};
   return table;
 }
 template <> const std::vector<SiteKey<JointSettings>>& keys_of() {
@@ -97,8 +97,6 @@ template <> const std::vector<SiteKey<JointSettings>>& keys_of() {
       {"offset_m", &S::offset_m, "distance of one joint from the middle of the source, along the normal"},
       {"measured", &S::measured, "measured dip direction, dip pairs instead of dip_deg and dip_direction_deg [deg]", any, "", "", 1},
       {"measured_file", &S::measured_file, "list of measured orientations: columns by name, or pairs of dip direction, dip [deg]"},
-      {"declination_deg", &S::declination_deg, "of this section; not given: that of [joints]", {-180, 180}},
-      {"convergence_deg", &S::convergence_deg, "of this section; not given: that of [joints]", {-90, 90}},
       {"n_sets", &S::n_sets, "number of sets that measured pairs are grouped into", {1, 12}},
       {"friction_deg", &S::friction_deg, "friction angle of the joints; that of the material when not given", angle_below_90, "", friction_hint},
       {"cohesion_pa", &S::cohesion_pa, "cohesion of the joints", not_negative},
@@ -158,7 +156,6 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"cor", &S::cor, "coefficient of restitution everywhere", share},
       {"strain", &S::strain, "strain degrees of freedom", any, "auto|on|off"},
       {"end_when_standing", &S::end_when_standing, "a run in which no block moved more than 0.1 m or is faster than 2 mm/s after 3 s ends there, and says so"},
-      {"max_passes", &S::max_passes, "passes of the contact iteration of a lone block in one step, law talus", {1, 10000}},
       {"seed", &S::seed, "seed of the run", not_negative},
       {"n_runs", &S::n_runs, "runs with seeds counted up. Of [rockfall.*] 10 when not given", {1, 1000000}},
       {"start_jitter_m_s", &S::start_jitter_m_s, "random velocity at the start", {0, 1000}},

@@ -10,6 +10,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static_cast<void>(talus::effective_values(site));
     static_cast<void>(talus::print_config(site));
     static_cast<void>(
-        talus::plan_joint_sets(site, std::vector<std::vector<talus::Vec3>>(site.joints.size())));
+        talus::plan_joint_sets(site, std::vector<talus::OrientationList>(site.joints.size())));
   });
 }

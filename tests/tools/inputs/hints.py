@@ -965,13 +965,6 @@ def joints_of_small_discs(_plane):
     return cut_with(persistence=0.5, disc_diameter_m=0.1).replace('spacing_m = 8', 'spacing_m = 4')
 
 
-@key_row(BLOCKS, 'which know no compass', 'joints.measured', 'declination_deg = 0')
-def declination_of_computed_orientations(_plane):
-    write('list.csv', 'nx,ny,nz\n' + ''.join(f'0.{k % 7},0.5,0.8\n' for k in range(1, 40)))
-    measured = '[joints.measured]\nmeasured_file = "list.csv"\ndeclination_deg = 3\nspacing_m = 8\n[joints.rear]'
-    return CUT.replace('[joints.rear]', measured)
-
-
 @key_row(DDA, 'stands in block 0 at the start', 'forest.f', 'stems_file = "stems.gpkg|subset=fid > 1"')
 def stem_in_the_source(_plane):
     shapes('stems.gpkg', [(f'POINT ({x} {y})', {'dbh_cm': 30}) for x, y in ((650100, 5200150), (650150, 5200050))],

@@ -18,7 +18,6 @@ TEST(SettingsOf, DefaultsOfASiteFileAreThoseOfTheEngine) {
   EXPECT_EQ(of_site.shear_ratio, engine.shear_ratio);
   EXPECT_EQ(of_site.tolerance_factor, engine.tolerance_factor);
   EXPECT_EQ(of_site.accuracy, engine.accuracy);
-  EXPECT_EQ(of_site.max_passes, engine.max_passes);
   EXPECT_EQ(of_site.flight, engine.flight);
   EXPECT_EQ(of_site.block_contacts, engine.block_contacts);
   EXPECT_EQ(of_site.sleep, engine.sleep);

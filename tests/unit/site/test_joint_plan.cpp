@@ -85,7 +85,7 @@ TEST(PlanJointSets, GroupsAPublishedListOfMeasurements) {
   const auto poles = read_orientations(content.str(), path).poles;
   const Site site =
       parse_site("[joints.m]\nspacing_m = 1\nmeasured_file = 'x'\nn_sets = 3\n", "s.toml");
-  const auto sets = plan_joint_sets(site, {poles});
+  const auto sets = plan_joint_sets(site, {{poles, "", false}});
   ASSERT_EQ(sets.size(), 3u);
   size_t n = 0;
   for (const auto& planned : sets) {
@@ -100,17 +100,16 @@ TEST(PlanJointSets, GroupsAPublishedListOfMeasurements) {
   EXPECT_EQ(n, poles.size());
 }
 
-// Declination is added, convergence taken off; a section's own value goes before the common one.
+// Declination is added, convergence taken off. A list computed from points knows no compass.
 TEST(PlanJointSets, TurnsCompassAzimuthsToTheMapsNorth) {
   const Site site = parse_site(
       "[joints]\ndeclination_deg = 12\nconvergence_deg = -1.5\n"
       "[joints.compass]\ndip_deg = 40\ndip_direction_deg = 350\nspacing_m = 5\n"
       "[joints.list]\nmeasured = [[100, 80]]\nspacing_m = 5\n"
-      "[joints.cloud]\nmeasured_file = 'f'\nspacing_m = 5\ndeclination_deg = 0\n"
-      "convergence_deg = 0\n",
+      "[joints.cloud]\nmeasured_file = 'f'\nspacing_m = 5\n",
       "s.toml");
   const Vec3 of_file = checked_pole(200, 30, {});
-  const auto sets = plan_joint_sets(site, {{}, {}, {of_file}});
+  const auto sets = plan_joint_sets(site, {{}, {}, {{of_file}, "", true}});
   ASSERT_EQ(sets.size(), 3u);
   EXPECT_NEAR(sets[0].set.dip_direction / degree, 3.5, 1e-12);
   EXPECT_NEAR(sets[1].set.dip_direction / degree, 113.5, 1e-9);

@@ -282,7 +282,7 @@ TEST(Uncertainty, WhatCannotBeDrawnIsRefusedWithPlaceAndWayOut) {
                   "is drawn twice"));
   EXPECT_TRUE(
       has(refusal(friction + normal, "friction_scatter_deg = 2\n"), "scatters by [solver]"));
-  EXPECT_TRUE(has(refusal("keys = \"solver.max_passes\"\n" + normal), "\"discrete\""));
+  EXPECT_TRUE(has(refusal("keys = \"fragmentation.max_generation\"\n" + normal), "\"discrete\""));
   EXPECT_TRUE(has(refusal(friction + normal, "[uncertainty]\nsampling = \"hypercube\"\n"),
                   "needs n_samples"));
   EXPECT_EQ(refusal(friction + normal), "accepted");
