@@ -42,6 +42,7 @@ std::vector<std::string> files_named(const Site& site) {
   for (const EffectiveValue& value : effective_values(site))
     if (std::string file = file_named(site, value); !file.empty()) files.push_back(std::move(file));
   if (!site.layers_file.empty()) files.push_back(file_of(resolved(site, site.layers_file)));
+  if (!site.quantities_file.empty()) files.push_back(resolved(site, site.quantities_file));
   return files;
 }
 

@@ -120,7 +120,6 @@ Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
   settings.dt = time_step(solver);
   settings.normal_stiffness =
       std::isnan(solver.normal_stiffness_n_m) ? 0 : solver.normal_stiffness_n_m;
-  settings.shear_ratio = solver.shear_stiffness_ratio;
   settings.accuracy = solver.accuracy;
   settings.flight = plan.flight;
   settings.block_contacts = plan.block_contacts;

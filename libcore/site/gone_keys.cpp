@@ -8,6 +8,8 @@ struct GoneKey {
 };
 
 constexpr GoneKey gone_keys[] = {
+    {"solver", "shear_stiffness_ratio",
+     "friction_deg of grounds and materials, which bounds shear"},
     {"solver", "max_passes", "time_step_s = SECONDS, smaller, where steps do not converge"},
     {"solver", "min_time_step_s", "time_step_s = SECONDS"},
     {"solver", "max_time_step_s", "time_step_s = SECONDS"},

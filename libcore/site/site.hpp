@@ -136,8 +136,7 @@ struct SolverSettings {
   double time_step_s = not_given;  ///< not given: time_step() says
   double gravity_m_s2 = 9.80665;
   double normal_stiffness_n_m = not_given;
-  double shear_stiffness_ratio = 0.4;  ///< k_s / k_n
-  double cor = not_given;              ///< overrides those of materials and ground
+  double cor = not_given;  ///< overrides those of materials and ground
   std::string strain = "auto";
   bool end_when_standing = true;  ///< a run in which nothing moves ends after some seconds
   double accuracy = 0.005;        ///< of the way of what moves: see Settings
@@ -320,6 +319,7 @@ struct UncertaintySettings {
   std::int64_t rock_masses = 0;  ///< sets of blocks that are cut; 0: one, of what the file says
   double terrain_rmse_m = 0, terrain_correlation_m = not_given;
   double max_failed_share = 0.02;  ///< of the runs, that may be left out
+  std::string file;                ///< of further quantities; empty once they were taken
 };
 
 /// [uncertainty.NAME]: a quantity that differs from run to run.
@@ -331,11 +331,11 @@ struct QuantitySettings {
   std::string distribution;
   double mean = not_given, std = not_given;                   ///< normal, lognormal
   double min = not_given, mode = not_given, max = not_given;  ///< uniform, triangular
-  std::vector<double> values, weights;                        ///< discrete
-  std::vector<double> truncate;                               ///< lowest and highest
-  std::int64_t n_measured = 0;                                ///< fisher: of the mean of so many
-  double fisher_k = not_given;                                ///< fisher: of the mean itself
-  std::string source;                                         ///< of these numbers
+  std::vector<double> values, weights;  ///< discrete; rows: row by row, a value a key
+  std::vector<double> truncate;         ///< lowest and highest
+  std::int64_t n_measured = 0;          ///< fisher: of the mean of so many
+  double fisher_k = not_given;          ///< fisher: of the mean itself
+  std::string source;                   ///< of these numbers
 };
 
 /// [place.NAME]: where it is to be known how many blocks arrive.
@@ -365,10 +365,11 @@ struct ValueSource {
 };
 
 struct Site {
-  std::string file;         ///< path as given
-  std::string folder;       ///< of the file; relative paths in it start there
-  std::string layers_file;  ///< that sections were taken from, as SiteInfo::layers says it
-  std::string inputs;       ///< file of talus-import to read the site's layers from; empty: none
+  std::string file;             ///< path as given
+  std::string folder;           ///< of the file; relative paths in it start there
+  std::string layers_file;      ///< that sections were taken from, as SiteInfo::layers says it
+  std::string quantities_file;  ///< that quantities were taken from, as UncertaintySettings::file
+  std::string inputs;  ///< file of talus-import to read the site's layers from; empty: none
   std::map<std::string, std::string> layer_digests;  ///< "fence.valley" -> of its features there
   SiteInfo info;
   TerrainSettings terrain;

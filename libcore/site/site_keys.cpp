@@ -152,7 +152,6 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"accuracy", &S::accuracy, "law talus: estimated error of a moving block's displacement, as a share of it; a step whose estimate is larger is cut", {0, 1, true, false}},
       {"gravity_m_s2", &S::gravity_m_s2, "gravity, downwards", {0, 1000}},
       {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "penalty stiffness of a contact", positive},
-      {"shear_stiffness_ratio", &S::shear_stiffness_ratio, "shear over normal stiffness", {0, 10, true, false}},
       {"cor", &S::cor, "coefficient of restitution everywhere", share},
       {"strain", &S::strain, "strain degrees of freedom", any, "auto|on|off"},
       {"end_when_standing", &S::end_when_standing, "a run in which no block moved more than 0.1 m or is faster than 2 mm/s after 3 s ends there, and says so"},
@@ -366,7 +365,8 @@ template <> const std::vector<SiteKey<UncertaintySettings>>& keys_of() {
       {"rock_masses", &S::rock_masses, "sets of blocks that are cut, each with its own joints; runs take them in turn. 0: one, by what this file says. Of [rockfall.*] when not given: each run its own", {0, 1000000}},
       {"terrain_rmse_m", &S::terrain_rmse_m, "error of the terrain's elevations, root of the mean square: each rock mass gets a ground of its own. 0: none", {0, 1000}},
       {"terrain_correlation_m", &S::terrain_correlation_m, "distance over which errors of the terrain are alike; 10 cells when not given", positive},
-      {"max_failed_share", &S::max_failed_share, "up to this share of the runs may fail: they are left out, and widen the intervals", share}};
+      {"max_failed_share", &S::max_failed_share, "up to this share of the runs may fail: they are left out, and widen the intervals", share},
+      {"file", &S::file, "site file, as talus-calibrate proposes one, whose [uncertainty.NAME] take the place of those here"}};
   return table;
 }
 template <> const std::vector<SiteKey<QuantitySettings>>& keys_of() {
@@ -374,14 +374,14 @@ template <> const std::vector<SiteKey<QuantitySettings>>& keys_of() {
   static const std::vector<SiteKey<S>> table = {
       {"keys", &S::keys, "keys of this file that the quantity is for; several move together. fisher: joints.NAME.orientation", any, "", "e.g. keys = [\"ground.slope.friction_deg\"]", 1},
       {"apply", &S::apply, "what is drawn takes the place of the value, is added to it, or is a factor on it", any, "set|add|factor"},
-      {"distribution", &S::distribution, "what it is drawn from", any, "normal|lognormal|uniform|triangular|discrete|fisher"},
+      {"distribution", &S::distribution, "what it is drawn from", any, "normal|lognormal|uniform|triangular|discrete|rows|fisher"},
       {"mean", &S::mean, "normal, lognormal: mean; not given: the key's own value (add: 0, factor: 1)"},
       {"std", &S::std, "normal, lognormal: standard deviation, of the value itself", positive},
       {"min", &S::min, "uniform, triangular: smallest value"},
       {"mode", &S::mode, "triangular: most likely value"},
       {"max", &S::max, "uniform, triangular: largest value"},
-      {"values", &S::values, "discrete: values", any, "", "", 1},
-      {"weights", &S::weights, "discrete: their weights; all alike when not given", not_negative, "", "", 1},
+      {"values", &S::values, "discrete: values; rows: sets of values one after the other, each with a value for every key", any, "", "", 1},
+      {"weights", &S::weights, "discrete, rows: their weights; all alike when not given", not_negative, "", "", 1},
       {"truncate", &S::truncate, "normal, lognormal: lowest and highest value; what is left is scaled up. Not given: what the keys may hold, at most 1 % outside of it", any, "", "", 2, 2},
       {"n_measured", &S::n_measured, "fisher: the orientation is the mean of so many measured ones, which scatter by fisher_k of the set", {0, 1000000}},
       {"fisher_k", &S::fisher_k, "fisher: concentration of the mean orientation itself, instead of n_measured", positive},

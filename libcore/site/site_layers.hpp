@@ -40,4 +40,8 @@ struct LayerSection {
 /// key that the site file gives too.
 void take_sections(Site& site, const std::vector<LayerSection>& sections);
 
+/// Takes the [uncertainty.NAME] of a text in place of those of the site. Throws InputError as
+/// parse_site(), for a text without any, and for one with anything else.
+void take_quantities(Site& site, const std::string& text, const std::string& path);
+
 }  // namespace talus

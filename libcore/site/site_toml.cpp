@@ -602,4 +602,27 @@ void take_sections(Site& site, const std::vector<LayerSection>& sections) {
   check_names(site);
 }
 
+void take_quantities(Site& site, const std::string& text, const std::string& path) {
+  const Site other = parse_site(text, path);
+  for (const auto& [key, source] : other.sources) {
+    const std::size_t last = key.rfind('.');
+    if (key.starts_with("uncertainty.") && last != std::string("uncertainty").size()) continue;
+    throw InputError({path, source.line}, "holds " + key + ", expected [uncertainty.NAME] alone",
+                     "take it into the site file, or out");
+  }
+  if (other.quantities.empty())
+    throw InputError({path}, "holds no section [uncertainty.NAME]",
+                     "take [uncertainty] file out of the site file");
+  std::erase_if(site.sources, [&site](const auto& source) {
+    return std::any_of(site.quantities.begin(), site.quantities.end(),
+                       [&source](const QuantitySettings& quantity) {
+                         return source.first.starts_with("uncertainty." + quantity.name + ".");
+                       });
+  });
+  site.quantities = other.quantities;
+  for (const auto& [key, source] : other.sources)
+    site.sources[key] = {ValueSource::from_layer, 0,
+                         path + ", line " + std::to_string(source.line)};
+}
+
 }  // namespace talus

@@ -27,6 +27,7 @@ std::string section_of(const std::string& path) { return path.substr(0, path.rfi
 std::string last_word(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
 bool is_fisher(const QuantitySettings& q) { return q.distribution == "fisher"; }
+bool is_rows(const QuantitySettings& q) { return q.distribution == "rows"; }
 
 bool is_orientation(const std::string& path) {
   return group_of(path) == "joints" && last_word(path) == "orientation";
@@ -104,7 +105,7 @@ NumberKey checked_key(const Site& site, const QuantitySettings& q, const std::st
   if (key->kind == NumberKey::other)
     refuse(site, q, "keys", path + " holds no number", nearest_key(site, path));
   const bool is_whole = key->kind == NumberKey::whole_number;
-  if (is_whole && (q.distribution != "discrete" || q.apply != "set"))
+  if (is_whole && ((q.distribution != "discrete" && !is_rows(q)) || q.apply != "set"))
     refuse(site, q, "keys", path + " holds a whole number, expected distribution = \"discrete\"",
            "distribution = \"discrete\", values = [...] and apply = \"set\"");
   if (std::isnan(key->value) && q.apply != "set")
@@ -165,7 +166,7 @@ void need(const Site& site, const QuantitySettings& q,
 void refuse_others(const Site& site, const QuantitySettings& q) {
   const bool is_normal = q.distribution == "normal" || q.distribution == "lognormal",
              has_ends = q.distribution == "uniform" || q.distribution == "triangular",
-             is_discrete = q.distribution == "discrete";
+             is_discrete = q.distribution == "discrete" || is_rows(q);
   const std::pair<const char*, bool> allowed[] = {
       {"mean", is_normal},        {"std", is_normal},
       {"truncate", is_normal},    {"min", has_ends},
@@ -198,7 +199,8 @@ DistributionKind kind_of(const std::string& name) {
   if (name == "normal") return DistributionKind::normal;
   if (name == "lognormal") return DistributionKind::lognormal;
   if (name == "triangular") return DistributionKind::triangular;
-  return name == "discrete" ? DistributionKind::discrete : DistributionKind::uniform;
+  return name == "discrete" || name == "rows" ? DistributionKind::discrete
+                                              : DistributionKind::uniform;
 }
 
 void read_ends(const Site& site, const QuantitySettings& q, Distribution& d) {
@@ -237,6 +239,35 @@ void read_values(const Site& site, const QuantitySettings& q, Distribution& d) {
   std::sort(pairs.begin(), pairs.end());
   d.values.clear();
   for (const auto& [value, weight] : pairs) d.values.push_back(value), d.weights.push_back(weight);
+}
+
+// Of the numbers of rows, each of which has a value for every key.
+void read_rows(const Site& site, const QuantitySettings& q, Distribution& d) {
+  need(site, q, {{!q.values.empty(), "values"}});
+  const std::size_t n_keys = q.keys.size(), n_rows = q.values.size() / n_keys;
+  if (q.values.size() % n_keys != 0)
+    refuse(site, q, "values",
+           "there are " + counted(std::ssize(q.values), "value") + ", expected rows of " +
+               counted(std::ssize(q.keys), "value") + ", one for every key",
+           "write them row by row, in the order of keys");
+  if (q.apply != "set")
+    refuse(site, q, "apply", "apply is " + q.apply + ", expected set: rows are values of the keys",
+           "leave apply out");
+  QuantitySettings numbers = q;
+  numbers.values.clear();
+  for (std::size_t row = 0; row < n_rows; ++row) numbers.values.push_back(static_cast<double>(row));
+  read_values(site, numbers, d);
+  for (std::size_t i = 0; i < q.values.size(); ++i) {
+    const std::string& path = q.keys[i % n_keys];
+    const NumberKey key = checked_key(site, q, path);
+    const bool is_whole = key.kind == NumberKey::whole_number;
+    if (contains(key.range, q.values[i]) && (!is_whole || q.values[i] == std::floor(q.values[i])))
+      continue;
+    refuse(site, q, "values",
+           "row " + std::to_string(i / n_keys + 1) + " has " + text(q.values[i]) + " for " + path +
+               ", expected " + (is_whole ? "a whole number, " : "") + text_of(key.range),
+           "take the row out");
+  }
 }
 
 // Ends of a bounded distribution, or one of its values, outside of what the keys may hold.
@@ -283,6 +314,10 @@ void truncate(const Site& site, const QuantitySettings& q, const Span& span, Dis
 Distribution distribution_of(const Site& site, const QuantitySettings& q) {
   Distribution d;
   d.kind = kind_of(q.distribution);
+  if (is_rows(q)) {
+    read_rows(site, q, d);
+    return d;
+  }
   const Span span = span_of(site, q);
   if (d.kind == DistributionKind::discrete) {
     read_values(site, q, d);
@@ -350,6 +385,12 @@ double inside(const KeyRange& range, double value, double towards) {
 void draw_number(const Drawing& drawing, std::vector<DrawnKey>& drawn) {
   const Distribution d = distribution_of(drawing.site, drawing.q);
   const double x = quantile(d, drawing.unit(0));
+  if (is_rows(drawing.q)) {
+    const std::size_t n = drawing.q.keys.size();
+    for (std::size_t k = 0; k < n; ++k)
+      drawing.add(drawing.q.keys[k], drawing.q.values[static_cast<std::size_t>(x) * n + k], drawn);
+    return;
+  }
   for (const std::string& path : drawing.q.keys) {
     const NumberKey key = *number_key(drawing.site, path);
     const double value = drawing.q.apply == "set"   ? x
@@ -393,7 +434,7 @@ void check_quantity(const Site& site, const QuantitySettings& q) {
            "name what is drawn: keys = [\"ground.slope.friction_deg\"]");
   if (q.distribution.empty())
     refuse(site, q, "distribution", "distribution is missing",
-           "distribution = \"uniform\", or normal, lognormal, triangular, discrete, fisher");
+           "distribution = \"uniform\", or normal, lognormal, triangular, discrete, rows, fisher");
   refuse_others(site, q);
   for (const std::string& path : q.keys) {
     if (is_orientation(path)) {
@@ -604,7 +645,9 @@ std::string text_of(const Site& site, const QuantitySettings& q) {
   say("min", q.min);
   say("mode", q.mode);
   say("max", q.max);
-  if (!q.values.empty()) {
+  if (is_rows(q)) {
+    words += ": " + counted(std::ssize(q.values) / std::ssize(q.keys), "set") + " of values";
+  } else if (!q.values.empty()) {
     words += ": ";
     for (std::size_t i = 0; i < q.values.size(); ++i)
       words += (i == 0 ? "" : ", ") + text(q.values[i]) +

@@ -1,8 +1,11 @@
 #include "tools/frame/site_options.hpp"
 
+#include <utility>
+
 #include "base/read_file.hpp"
 #include "setup/site_files.hpp"
 #include "setup/site_layers_gdal.hpp"
+#include "site/site_layers.hpp"
 #include "site/soils.hpp"
 #include "tools/frame/command_line.hpp"
 
@@ -53,6 +56,7 @@ const Site& SiteOptions::load() {
   if (site_) return *site_;
   Site site = additions_.empty() ? read_site(file_) : parse_site(with_additions(), file_);
   read_site_layers(tool_, site);
+  read_quantities(tool_, site);
   keep_files(site);
   for (const std::string& word : overrides_) {
     const std::size_t equals = end_of_key(site, word);
@@ -63,8 +67,11 @@ const Site& SiteOptions::load() {
         [&] { override_value(site, word.substr(0, equals), word.substr(equals + 1)); });
   }
   keep_files(site);
-  if (!site.info.layers.empty())
-    throw UsageError({"", 0, "--set"}, "cannot name site.layers", "name it in the site file");
+  if (!site.info.layers.empty() || !site.uncertainty.file.empty())
+    throw UsageError({"", 0, "--set"},
+                     std::string("cannot name ") +
+                         (site.info.layers.empty() ? "uncertainty.file" : "site.layers"),
+                     "name it in the site file");
   check_uncertainty(site);
   check_grounds(site);
   if (draws_) apply_draws(site, *draws_);
@@ -72,6 +79,15 @@ const Site& SiteOptions::load() {
   if (!inputs_.empty()) tool_.read_by_content(inputs_);
   site_ = std::make_unique<Site>(std::move(site));
   return *site_;
+}
+
+// As the layers: its values count, and a run says them as its own.
+void SiteOptions::read_quantities(Tool& tool, Site& site) {
+  if (site.uncertainty.file.empty()) return;
+  const std::string path = resolved(site, site.uncertainty.file);
+  tool.read_by_content(path);
+  take_quantities(site, read_file(path, "[uncertainty] file of the site file names it"), path);
+  site.quantities_file = std::exchange(site.uncertainty.file, "");
 }
 
 // Also what --set puts others in the place of.

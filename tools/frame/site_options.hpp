@@ -37,6 +37,7 @@ class SiteOptions {
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
  private:
+  static void read_quantities(Tool& tool, Site& site);
   void keep_files(const Site& site) const;
   [[nodiscard]] std::string with_additions() const;
 

@@ -6,6 +6,7 @@
 
 #include "base/units.hpp"
 #include "blocks/joint_sets.hpp"
+#include "site/site_layers.hpp"
 #include "site/uncertainty.hpp"
 
 namespace {
@@ -101,6 +102,74 @@ TEST(Uncertainty, SamplesHaveTheMomentsThatWereGiven) {
   }
   EXPECT_NEAR(sum / n, 0, 0.01);
   EXPECT_NEAR(std::sqrt(squares / n), 2, 0.02);
+}
+
+// What belongs together stays together, as often as its weight says.
+TEST(Uncertainty, RowsAreDrawnWhole) {
+  const std::string rows =
+      "[ground.slope]\nfriction_deg = 28\n[rockfall.a]\nshape = 'rock'\nvolume_m3 = 1\n"
+      "[uncertainty.set]\nkeys = ['ground.slope.friction_deg', 'ground.slope.cor', "
+      "'fragmentation.max_generation']\ndistribution = 'rows'\n"
+      "values = [20, 0.5, 2,\n 30, 0.25, 3,\n 40, 0.125, 4]\nweights = [1, 2, 1]\n";
+  std::map<double, int> n;
+  for (std::int64_t sample = 1; sample <= 64; ++sample) {
+    Site site = site_of(rows, sample);
+    apply_draws(site, DrawScope::all);
+    const GroundSettings& slope = site.grounds[0];
+    EXPECT_EQ(slope.cor, slope.friction_deg == 20 ? 0.5 : slope.friction_deg == 30 ? 0.25 : 0.125);
+    EXPECT_EQ(site.fragmentation.max_generation, slope.friction_deg / 10);
+    ++n[slope.friction_deg];
+  }
+  EXPECT_EQ(n[20], 16);  // Sobol's points are even
+  EXPECT_EQ(n[30], 32);
+  EXPECT_EQ(n[40], 16);
+  EXPECT_NE(text_of(site_of(rows), site_of(rows).quantities[0]).find("rows: 3 sets of values"),
+            std::string::npos);
+}
+
+TEST(Uncertainty, RowsThatCannotBeAreRefused) {
+  const std::string keys =
+      "keys = ['ground.slope.friction_deg', 'ground.slope.cor']\ndistribution = 'rows'\n";
+  EXPECT_TRUE(
+      has(refusal(keys + "values = [20, 0.5, 30]\n"), "there are 3 values, expected rows of 2"));
+  EXPECT_TRUE(has(refusal(keys + "values = [20, 0.5, 30, 1.5]\n"),
+                  "row 2 has 1.5 for ground.slope.cor, expected 0 to 1"));
+  EXPECT_TRUE(has(refusal(keys + "values = [20, 0.5]\nweights = [1, 1]\n"), "there are 2 weights"));
+  EXPECT_TRUE(has(refusal(keys + "values = [20, 0.5]\napply = 'add'\n"), "expected set"));
+  EXPECT_TRUE(has(refusal("keys = 'fragmentation.max_generation'\ndistribution = 'rows'\n"
+                          "values = [2.5]\n"),
+                  "expected a whole number"));
+  EXPECT_EQ(refusal(keys + "values = [20, 0.5, 30, 1]\n"), "accepted");
+}
+
+// A file takes the place of all quantities of the site, and of nothing else.
+TEST(Uncertainty, AFileTakesThePlaceOfTheQuantities) {
+  Site site = parse_site(whole, "s/site.toml");
+  const std::string set =
+      "[uncertainty.cor]\nkeys = 'ground.slope.cor'\ndistribution = 'discrete'\nvalues = [0.2]\n";
+  take_quantities(site, set, "s/set.toml");
+  ASSERT_EQ(site.quantities.size(), 1u);
+  EXPECT_EQ(site.quantities[0].values, std::vector<double>{0.2});
+  EXPECT_EQ(site.uncertainty.rock_masses, 8);
+  EXPECT_EQ(site.sources.count("uncertainty.cor.min"), 0u);
+  EXPECT_EQ(site.sources.at("uncertainty.cor.values").words, "s/set.toml, line 4");
+  site.uncertainty.sample = 1;
+  check_uncertainty(site);
+  apply_draws(site, DrawScope::all);
+  EXPECT_EQ(site.grounds[0].cor, 0.2);
+  EXPECT_EQ(site.grounds[0].friction_deg, 28);
+  const auto refused = [&site](const std::string& text) {
+    try {
+      take_quantities(site, text, "s/set.toml");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_TRUE(has(refused("[ground.slope]\ncor = 0.1\n" + set),
+                  "s/set.toml:2: holds ground.slope.cor, expected [uncertainty.NAME] alone"));
+  EXPECT_TRUE(has(refused("[uncertainty]\nseed = 2\n" + set), "holds uncertainty.seed"));
+  EXPECT_TRUE(has(refused("# nothing\n"), "holds no section [uncertainty.NAME]"));
 }
 
 TEST(Uncertainty, ASampleIsTheSameInAnyOrderAndWithMoreRuns) {
