@@ -5,15 +5,15 @@
 # out: $(STAGES)/*.txt, *.files, *.flags, SITE_*
 
 # --- the tools: of this checkout when it is built whole, else on the search path ---
-tool_names := site import tin trn blocks check batch dda reduce runout maps fence places hazard \
-  trace profile fence-search report
+tool_names := site import tin trn blocks check batch dda reduce runout maps fence places \
+  calibrate hazard trace profile fence-search report
 whole_build = $(if $(word $(words $(tool_names)),$(wildcard $(tool_names:%=$1talus-%))),$1)
 BIN ?= $(firstword $(call whole_build,$(PIPELINES)../build/release/tools/) \
   $(call whole_build,$(PIPELINES)../build/demo/tools/))
 stages_wanted := $(filter-out terrain blocks check runs runs-shard prepare,$(wanted))
 needed_tools := site import tin trn \
   $(if $(filter-out terrain,$(wanted)),blocks check batch dda reduce) \
-  $(if $(stages_wanted),runout maps fence places hazard trace fence-search report profile)
+  $(if $(stages_wanted),runout maps fence places calibrate hazard trace fence-search report profile)
 missing_tools := $(shell for tool in $(needed_tools); do \
   command -v $(BIN)talus-$$tool >/dev/null || echo talus-$$tool; done)
 ifneq ($(missing_tools),)
@@ -38,7 +38,7 @@ $(error $(firstword $(foreign)) was not made by the pipeline, which would replac
 endif
 
 # --- who else works there ---
-run_goals := runs runout maps fence places hazard trace profile fence-search report all
+run_goals := runs runout maps fence places calibrate hazard trace profile fence-search report all
 # While jobs of this folder wait or run nothing else may make the same runs; their own makes may.
 sent_jobs := $(if $(is_dry_run)$(SHARD)$(SENT),,$(wildcard $(OUT)/shards/jobs))
 ifneq ($(and $(sent_jobs),$(filter submit prepare $(run_goals),$(wanted))),)
@@ -93,7 +93,7 @@ given_files := $(if $(CONTOURS),--given import=$(contours_file)) \
   $(if $(DEM),--given trn=$(DEM) --given import=$(DEM)) \
   $(if $(LINE),--given 'profile=$(line_file)') \
   --given report=site.toml $(foreach stage,import tin trn blocks check runout maps fence places \
-  hazard trace search profile report,$(call given,$(stage),$($(call flags_of,$(stage)))))
+  calibrate hazard trace search profile report,$(call given,$(stage),$($(call flags_of,$(stage)))))
 # With -n and -q the stage files go to a folder of their own and are compared.
 ifeq ($(is_dry_run),)
 stages_now := $(STAGES)

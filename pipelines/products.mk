@@ -13,6 +13,7 @@ map_products := $(foreach suffix,tif png pdf qml,$(map_names:%=maps/%.$(suffix))
 fence_products := fence.gpkg fence.json fence.csv
 change_products := change.tif change.qml change.png change.pdf
 places_products := places.json
+calibrate_products := calibrate.gpkg calibrate.json
 hazard_products := hazard.json
 trace_products := trace.gpkg trace.json links.csv
 # maps by limits of the recipe, rasters by objects
@@ -28,7 +29,7 @@ search_products := fence_search.json fence_search.gpkg
 screen_products := search/screen.json search/screen.gpkg
 report_products := report.html site.qgz
 products := $(foreach stage,import tin trn source block check runout map fence change places \
-  hazard trace profile search screen report,$($(stage)_products))
+  calibrate hazard trace profile search screen report,$($(stage)_products))
 
 # As patterns of the shell: a style that comes with its raster, runs with their checkpoints, the
 # registry, what a stage reads, side files that GDAL and QGIS write beside a raster, and hidden
@@ -37,7 +38,7 @@ run_folders := runs runs/* without without/* verify/*-* verify/*-*/*
 run_patterns := run_*[0-9].h5 run_*[0-9].h5.part run_*[0-9].h5.part.new ensemble.json .lock \
   .auto/ensemble.json
 stages_made := import tin trn blocks rock check run runs dda runout maps fence place places \
-  hazard trace profile search verify report
+  calibrate hazard trace profile search verify report
 registries := sqlite sqlite-wal sqlite-shm sqlite.late-*
 made_patterns := thickness.qml $(foreach end,h5 tif tif.aux.xml,rock/*_*[0-9].$(end)) \
   $(foreach folder,$(run_folders),$(run_patterns:%=$(folder)/%)) \

@@ -8,7 +8,7 @@ report: $(OUT)/report.html $(OUT)/site.qgz ## all of it -> report.html, site.qgz
 $(eval $(call together,$(addprefix $(OUT)/,$(report_products))))
 $(OUT)/report.html: $(import_files) $(tin_files) $(trn_files) $(block_files) $(ensembles) \
   $(runout_files) $(map_files) $(case_map_files) $(fence_files) $(case_fence_files) \
-  $(places_files) \
+  $(places_files) $(if $(SITE_OBSERVED),$(calibrate_files)) \
   $(if $(SITE_HAZARD_CLASSES),$(hazard_files)) $(if $(SITE_OBJECTS),$(trace_files)) \
   $(if $(SITE_FENCE_SEARCHES),$(search_for_report)) $(STAGES)/report.flags $(STAGES)/report.files
 	$(call say,report: all of it -> report and QGIS project)

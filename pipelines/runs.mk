@@ -50,7 +50,7 @@ runs: $(ensembles) ## blocks -> runs (RUNS=50: with 50 seeds)
 # The last goal that has to do with runs comes after the others and lists what failed.
 asked := $(filter $(run_goals),$(wanted))
 last_goal := $(or $(filter all,$(asked)),$(lastword $(asked)))
-with_runs_alone := maps runout places hazard trace profile fence-search
+with_runs_alone := maps runout places calibrate hazard trace profile fence-search
 goal_kinds := $(if $(filter-out $(with_runs_alone),$(asked)),$(kinds),runs)
 $(if $(last_goal),$(last_goal): | $(filter-out $(last_goal),$(asked)))
 has_failed = $(shell $(call batch_of,$1,--status --no-db) >/dev/null 2>&1 || echo yes)

@@ -21,9 +21,16 @@ std::vector<std::string> keys_of(const SiteLayer& layer) {
   return keys;
 }
 
+std::vector<std::string> attributes_of(const SiteLayer& layer) {
+  std::vector<std::string> names;
+  for (const KeyDescription& attribute : layer.attributes) names.push_back(attribute.key);
+  return names;
+}
+
 // A field may be anybody's own; one that is nearly a key is a mistake.
-void check_field(const std::string& field, const std::vector<std::string>& keys,
-                 const std::string& place) {
+void check_field(const std::string& field, std::vector<std::string> keys,
+                 const std::vector<std::string>& attributes, const std::string& place) {
+  keys.insert(keys.end(), attributes.begin(), attributes.end());
   if (const std::string nearest = nearest_name(field, keys); !nearest.empty())
     throw InputError({place}, "has a field " + field + " that is no key",
                      "did you mean " + nearest + "? Rename the field, or empty it");
@@ -65,7 +72,7 @@ struct Reader {
   const Site& site;
   const SiteLayer& layer;
   const FeatureTable& table;
-  std::vector<std::string> keys = keys_of(layer);
+  std::vector<std::string> keys = keys_of(layer), attributes = attributes_of(layer);
   std::vector<LayerSection> sections = {};
 
   std::string place_of(const FeatureTable::Row& row) const {
@@ -105,8 +112,9 @@ struct Reader {
     for (std::size_t i = 0; i < table.fields.size(); ++i) {
       const std::string& field = table.fields[i];
       if (row.values[i].empty() || field == name_field) continue;
+      if (std::count(attributes.begin(), attributes.end(), field) > 0) continue;
       if (std::count(keys.begin(), keys.end(), field) == 0)
-        check_field(field, keys, place);
+        check_field(field, keys, attributes, place);
       else
         take(section, field, row.values[i], place);
     }

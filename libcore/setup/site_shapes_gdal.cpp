@@ -121,6 +121,31 @@ SitePlace place_of(const PlaceSettings& place) {
           place.polygon_file,    place.polygon, "polygon"};
 }
 
+SitePlace boulders_of(const ObservedSettings& observed) {
+  return {"observed." + observed.name,
+          "observed_boulders",
+          VectorKind::points,
+          observed.boulders_file,
+          {},
+          {},
+          {"volume_m3", "date"}};
+}
+
+SitePlace scars_of(const ObservedSettings& observed) {
+  return {"observed." + observed.name,
+          "observed_scars",
+          VectorKind::points,
+          observed.scars_file,
+          {},
+          {},
+          {"height_m", "date"}};
+}
+
+SitePlace outline_of(const ObservedSettings& observed) {
+  return {"observed." + observed.name, "observed_outlines", VectorKind::areas,
+          observed.outline_file};
+}
+
 SitePlace release_of(const RockfallSettings& rocks) {
   const bool is_of_lines = !std::isnan(rocks.release_spacing_m);
   return {"rockfall." + rocks.name, is_of_lines ? "release_lines" : "release_points",
@@ -162,6 +187,9 @@ std::vector<RequestedLayer> layers_of(const Site& site) {
   }
   for (const ObjectSettings& object : site.objects) places.push_back(place_of(site, object));
   for (const PlaceSettings& place : site.places) places.push_back(place_of(place));
+  for (const ObservedSettings& observed : site.observed)
+    for (const auto& part : {boulders_of(observed), scars_of(observed), outline_of(observed)})
+      places.push_back(part);
   std::vector<RequestedLayer> layers;
   for (const SitePlace& place : places) {
     if (!place.points.empty()) layers.push_back(written(site, place));

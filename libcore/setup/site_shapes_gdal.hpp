@@ -36,6 +36,9 @@ struct SitePlace {
 [[nodiscard]] SitePlace place_of(const ForestSettings& forest);
 [[nodiscard]] SitePlace stems_of(const ForestSettings& forest);
 [[nodiscard]] SitePlace place_of(const PlaceSettings& place);
+[[nodiscard]] SitePlace boulders_of(const ObservedSettings& observed);
+[[nodiscard]] SitePlace scars_of(const ObservedSettings& observed);
+[[nodiscard]] SitePlace outline_of(const ObservedSettings& observed);
 [[nodiscard]] SitePlace release_of(const RockfallSettings& rocks);  ///< points or lines
 [[nodiscard]] SitePlace areas_of(const RockfallSettings& rocks);
 /// Throws InputError for an object without a place or with several, lines without a width, points

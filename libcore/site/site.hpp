@@ -338,6 +338,15 @@ struct QuantitySettings {
   std::string source;                   ///< of these numbers
 };
 
+/// [observed.NAME]: what an event or a test left, in vector files.
+struct ObservedSettings {
+  std::string name;
+  int line = 0;
+  std::string boulders_file;  ///< points, with volume_m3 and date where known
+  std::string scars_file;     ///< points with height_m, and date where known
+  std::string outline_file;   ///< areas
+};
+
 /// [place.NAME]: where it is to be known how many blocks arrive.
 struct PlaceSettings {
   std::string name;
@@ -389,6 +398,7 @@ struct Site {
   UncertaintySettings uncertainty;
   std::vector<QuantitySettings> quantities;
   std::vector<PlaceSettings> places;
+  std::vector<ObservedSettings> observed;
   std::vector<ObjectSettings> objects;
   std::vector<FenceSearchSettings> fence_searches;
   HazardSettings hazard;

@@ -29,7 +29,7 @@ template <> const std::vector<SiteKey<SiteInfo>>& keys_of() {
       {"name", &S::name, "name of the site"},
       {"crs", &S::crs, "coordinate system of the coordinates in this file, e.g. EPSG:31287"},
       {"description", &S::description, "free text"},
-      {"layers", &S::layers, "GeoPackage whose layers stand for sections: source, fences, grounds, objects, forest, release points, places"}};
+      {"layers", &S::layers, "GeoPackage whose layers stand for sections: source, fences, grounds, objects, forest, release points, places, observations"}};
   return table;
 }
 template <> const std::vector<SiteKey<TerrainSettings>>& keys_of() {
@@ -386,6 +386,14 @@ template <> const std::vector<SiteKey<QuantitySettings>>& keys_of() {
       {"n_measured", &S::n_measured, "fisher: the orientation is the mean of so many measured ones, which scatter by fisher_k of the set", {0, 1000000}},
       {"fisher_k", &S::fisher_k, "fisher: concentration of the mean orientation itself, instead of n_measured", positive},
       {"source", &S::source, "where these numbers come from; printed"}};
+  return table;
+}
+template <> const std::vector<SiteKey<ObservedSettings>>& keys_of() {
+  using S = ObservedSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"boulders_file", &S::boulders_file, "vector file of deposited boulders: points, with volume_m3 and date where known"},
+      {"scars_file", &S::scars_file, "vector file of scars of trees and other silent witnesses: points with height_m above the ground, and date where known"},
+      {"outline_file", &S::outline_file, "vector file with the outline of the deposit: polygons, or closed lines"}};
   return table;
 }
 template <> const std::vector<SiteKey<PlaceSettings>>& keys_of() {

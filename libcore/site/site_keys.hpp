@@ -64,6 +64,7 @@ template <> const std::vector<SiteKey<RockfallSettings>>& keys_of();
 template <> const std::vector<SiteKey<UncertaintySettings>>& keys_of();
 template <> const std::vector<SiteKey<QuantitySettings>>& keys_of();
 template <> const std::vector<SiteKey<PlaceSettings>>& keys_of();
+template <> const std::vector<SiteKey<ObservedSettings>>& keys_of();
 template <> const std::vector<SiteKey<ObjectSettings>>& keys_of();
 template <> const std::vector<SiteKey<FenceSearchSettings>>& keys_of();
 template <> const std::vector<SiteKey<HazardSettings>>& keys_of();
@@ -128,6 +129,7 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("uncertainty", site.uncertainty);
   visit("uncertainty", site.quantities);
   visit("place", site.places);
+  visit("observed", site.observed);
   visit("object", site.objects);
   visit("fence_search", site.fence_searches);
   visit("hazard", site.hazard);

@@ -4,6 +4,11 @@ namespace talus {
 
 const std::vector<SiteLayer>& site_layers() {
   using enum SiteLayer::Shape;
+  const auto attribute = [](const char* name, const char* type, const char* range,
+                            const char* help) {
+    return KeyDescription{"observed.NAME", name, type, "", range, help};
+  };
+  const KeyDescription date = attribute("date", "text", "", "when it came to be there");
   static const std::vector<SiteLayer> layers = {
       {"release_points",
        "rockfall",
@@ -28,6 +33,21 @@ const std::vector<SiteLayer>& site_layers() {
         "friction_deg"}},
       {"object_lines", "object", lines, "", "Objects: lines", {"kind", "width_m"}},
       {"objects", "object", areas, "", "Objects", {"kind"}},
+      {"observed_boulders",
+       "observed",
+       points,
+       "boulders_",
+       "Observed: boulders",
+       {},
+       {attribute("volume_m3", "number", "above 0", "volume"), date}},
+      {"observed_scars",
+       "observed",
+       points,
+       "scars_",
+       "Observed: scars",
+       {},
+       {attribute("height_m", "number", "at least 0", "height above the ground"), date}},
+      {"observed_outlines", "observed", areas, "outline_", "Observed: outlines", {}, {date}},
       {"places", "place", areas, "polygon_", "Places", {"half_width"}},
       {"source", "source", areas, "polygon_", "Source", {"failure_surface", "depth_m"}},
       {"forest",

@@ -19,6 +19,8 @@ struct SiteLayer {
   std::string prefix;               ///< of the key that names the file: "polygon_"
   std::string title;                ///< for people
   std::vector<std::string> fields;  ///< keys that the layer is made with; more may be added
+  /// What each feature says of itself, which is no key: features of a section need not share it.
+  std::vector<KeyDescription> attributes = {};
 };
 [[nodiscard]] const std::vector<SiteLayer>& site_layers();
 

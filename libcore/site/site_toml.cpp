@@ -593,8 +593,7 @@ void override_value(Site& site, const std::string& key, const std::string& value
 void take_sections(Site& site, const std::vector<LayerSection>& sections) {
   for (const LayerSection& section : sections) {
     for_each_group(site, SectionTaker{site, section});
-    site.layer_digests[section.group + (section.name.empty() ? "" : "." + section.name)] =
-        section.digest;
+    site.layer_digests[path_of(section.group, section.name)] += section.digest;
     if (std::find(site.sections.begin(), site.sections.end(), section.group) == site.sections.end())
       site.sections.push_back(section.group);
   }

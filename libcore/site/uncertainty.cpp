@@ -46,8 +46,9 @@ Where where_in(const Site& site, const QuantitySettings& q, const char* key) {
 // What runs of one site must share to be evaluated together, or what follows from the run.
 std::string why_not_drawn(const std::string& path) {
   const std::string group = group_of(path), key = last_word(path);
-  if (group == "site" || group == "output" || group == "place" || group == "uncertainty" ||
-      group == "fence" || group == "fence_search" || group == "object" || group == "hazard")
+  if (group == "site" || group == "output" || group == "place" || group == "observed" ||
+      group == "uncertainty" || group == "fence" || group == "fence_search" || group == "object" ||
+      group == "hazard")
     return "[" + group + "] is the same in all runs";
   if (group == "terrain")
     return "the terrain is the same in all runs; its error is terrain_rmse_m of [uncertainty]";

@@ -273,6 +273,7 @@ SHOWN_OF_GOAL = {
     "terrain": ["trn.tif"], "blocks": ["blocks.gpkg"], "runout": ["thickness.tif", "runout.gpkg"],
     "maps": ["maps/*.tif"], "fence": ["change.tif", "fence.gpkg"], "hazard": ["hazard/*.tif", "hazard/hazard.gpkg"],
     "trace": ["sources/*.tif", "trace.gpkg"],
+    "calibrate": ["calibrate.gpkg"],
     "profile": ["profile/profile.gpkg"],
     "fence-search": ["fence_search.gpkg"],
     "all": ["trn.tif", "maps/*.tif", "blocks.gpkg", "runout.gpkg", "fence.gpkg"],

@@ -11,6 +11,7 @@
 #include "geometry/plan2d.hpp"
 #include "import/dem_gdal.hpp"
 #include "record/object_hits.hpp"
+#include "setup/observed_inputs_gdal.hpp"
 #include "setup/run_settings.hpp"
 #include "setup/set_up_gdal.hpp"
 #include "setup/site_places_gdal.hpp"
@@ -384,6 +385,7 @@ void look_at(Tool& tool, const Site& site, const CheckFiles& files, Look& look) 
   static_cast<void>(warn_of_settings(tool, site));
   look.inputs = read_dda_inputs(tool, site, {files.bed, files.blocks, files.settle});
   warn_of_soils(tool, site, look.inputs.parts.blocks);
+  static_cast<void>(observed_events(tool, site, look.work.ground));  // refused before the runs
   look.is_cut = look.work.is_cut();
   const Trn& bed = look.inputs.parts.trn;
   const Trn& ground = look.work.ground;

@@ -28,7 +28,7 @@ struct Options {
 
 void declare(Tool& tool, Options& o) {
   tool.output("-o,--out", o.out, "candidates, front and proposals (GeoPackage)").required();
-  tool.json_output(o.json, "the result (JSON)");
+  tool.json_output(o.json);
   tool.output_folder("--charts", o.charts, "folder for a chart a search: cost and what is left");
   tool.output_folder("--proposals", o.proposals,
                      "folder for the proposals, as sections for talus-dda --add");

@@ -28,7 +28,7 @@ void declare(Tool& tool, Options& o) {
   DesignInput& design = o.result.design;
   design.block_volume = design.deflection = design.distance_to_object = std::nan("");
   tool.output("-o,--out", o.out, "fields, posts and arrivals (GeoPackage)").required();
-  tool.json_output(o.json, "verdicts, statistics, design check, comparison (JSON)");
+  tool.json_output(o.json);
   tool.output("--csv", o.csv, "one row a block and fence: its verdict (CSV)");
   tool.inputs("--without", o.without,
               "runs, parts or their folder without the fence, to compare with");

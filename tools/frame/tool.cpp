@@ -406,10 +406,10 @@ ToolOption Tool::output_folder(const std::string& name, std::string& path,
   return ToolOption(option);
 }
 
-void Tool::json_output(std::string& path, const std::string& help) {
+void Tool::json_output(std::string& path) {
   std::erase(impl_->options.common, app().get_option("--json"));
   app().remove_option(app().get_option("--json"));
-  output("--json", path, help).without_default();
+  output("--json", path, "the result (JSON)").without_default();
   CLI::Option* const option = app().get_option("--json")->expected(0, 1);
   impl_->options.json_path = &path;
   impl_->options.json_option = option;

@@ -76,7 +76,7 @@ class Tool : public InputLog {
   /// A folder written into, made when missing; refused when not empty without --overwrite.
   ToolOption output_folder(const std::string& name, std::string& path, const std::string& help);
   /// Lets --json name a file that the result is written to; without a name it prints, as always.
-  void json_output(std::string& path, const std::string& help);
+  void json_output(std::string& path);
   /// A value; its default is shown by --help, and its effective value is recorded with its source.
   /// tool_option.cpp lists the types.
   template <class T>

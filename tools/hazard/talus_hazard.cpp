@@ -41,7 +41,7 @@ void declare(Tool& tool, Options& o) {
               "cell of the maps, a whole multiple of the recorded one [m]; nan: as recorded")
       .check(number_between(0, 1e6, true));
   add_pages_option(tool, o.pages);
-  tool.json_output(o.json, "the result (JSON)");
+  tool.json_output(o.json);
   o.tool = &tool;
   tool.footer(
       "Example:\n  talus-hazard site.toml run_1.h5 run_2.h5 --trn bed.tif -o hazard --pages png\n"

@@ -183,7 +183,7 @@ int main(int argc, char** argv) {
   SiteOptions site(tool);
   site.take_inputs();
   RunInputs runs(tool);
-  tool.json_output(json, "shares of blocks and runs with their intervals, runs to add (JSON)");
+  tool.json_output(json);
   tool.footer("Example:\n  talus-places site.toml run_*.h5 --trn bed.tif --json places.json");
   return tool.run(argc, argv, [&] { run_tool(tool, site.load(), runs); });
 }

@@ -37,7 +37,7 @@ void declare(Tool& tool, Options& o) {
       "folder for tables and charts: crossings.csv, a row a block; bins.csv, a row a "
       "part of the line; stations.csv, ground and passing blocks along it; ground, "
       "count, energy, speed and height (SVG)");
-  tool.json_output(o.json, "the result (JSON)");
+  tool.json_output(o.json);
   tool.option("--step-m", o.step_m, "between stations [m]; nan: the cells of the terrain")
       .check(number_between(1e-3, 1e6, true));
   tool.option("--bin-m", o.bin_m, "parts that blocks are counted by [m]; nan: 10 to 25 of them")

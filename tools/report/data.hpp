@@ -24,8 +24,8 @@ struct ReportData {
   ReportData(const Site& of_site, Texts of_page) : site(of_site), texts(std::move(of_page)) {}
 
   const Site& site;
-  Texts texts;                                                          ///< the words of the page
-  Json tin, trn, blocks, runout, fence, places, hazard, trace, search;  ///< reports of tools
+  Texts texts;  ///< the words of the page
+  Json tin, trn, blocks, runout, fence, places, calibrate, hazard, trace, search;  ///< of tools
   std::vector<Doubt> doubts;  ///< of the stages, from the import to the look before the runs
   Trn terrain, bed;           ///< before the slide; what the blocks slide on
   std::string mobility_svg, stereonet_svg, sizes_svg, curves_csv;

@@ -181,6 +181,8 @@ void leave_out_hazard(ResultFolder& folder, const Site& site, const std::string&
       folder.leave_out(names, of_other_sections(sections_named));
   };
   check("hazard.json", {"hazard/hazard.gpkg"}, true, "", {"hazard"}, "[hazard*]");
+  check("calibrate.json", {"calibrate.gpkg"}, !site.observed.empty(), "observations", {"observed"},
+        "[observed.*]");
   check("trace.json", {"trace.gpkg"}, !site.objects.empty(), "objects", {"object", "hazard"},
         "[object.*] or [hazard*]");
   check("fence_search.json", {"fence_search.gpkg"}, !site.fence_searches.empty(), "fence searches",

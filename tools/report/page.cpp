@@ -321,6 +321,29 @@ Json searches_of(const ReportData& data) {
   return searches;
 }
 
+// What was observed, with a chart of the run-outs of each event.
+Json observed_of(const ReportData& data) {
+  Json calibrate = data.calibrate;
+  for (Json& event : calibrate.is_object() ? calibrate["events"] : calibrate) {
+    if (event.contains("boulders"))
+      event["boulders"]["chart"] = observed_chart(data.texts, event["boulders"]);
+    if (!event.contains("outline")) continue;
+    Json& outline = event["outline"];
+    const Json low = value_at(outline, {"inside_share_lo"}),
+               high = value_at(outline, {"inside_share_hi"});
+    const auto shown_share = [&data](const Json& share) {
+      return data.texts.number(percent(share.get<double>()));
+    };
+    outline["interval"] = low.is_number() && high.is_number()
+                              ? " (" +
+                                    data.texts.of("words.range", {{"low", shown_share(low)},
+                                                                  {"high", shown_share(high)}}) +
+                                    ")"
+                              : "";
+  }
+  return calibrate;
+}
+
 bool any_by_cells(const Json& trace) {
   const Json objects = list_or_none(value_at(trace, {"objects"}));
   return std::any_of(objects.begin(), objects.end(),
@@ -591,6 +614,7 @@ Json data_of(const ReportData& data, const PageFiles& files) {
       {"tin", data.tin},
       {"hazard", data.hazard},
       {"hazard_classes", classes},
+      {"calibrate", observed_of(data)},
       {"trace", data.trace},
       {"places", data.places},
       {"searches", searches_of(data)},

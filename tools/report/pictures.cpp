@@ -54,6 +54,38 @@ Json curves_of(const ReportData& data) {
   return charts;
 }
 
+}  // namespace
+
+std::string observed_chart(const Texts& texts, const Json& boulders) {
+  const auto numbers = [](const Json& list) {
+    std::vector<double> out;
+    for (const Json& number : list)
+      if (number.is_number()) out.push_back(number.get<double>());
+    return out;
+  };
+  std::vector<double> seen;
+  for (const Json& point : boulders.at("points"))
+    seen.push_back(point.at("runout_m").get<double>());
+  std::sort(seen.begin(), seen.end());
+  ChartSeries computed{texts.of("observed.chart_computed"),
+                       "#1f5fa8",
+                       numbers(boulders.at("computed_runout_m")),
+                       {}},
+      observed{texts.of("observed.chart_observed"), "#c2491d", seen, {}, 0, 3.5};
+  const auto share = [](std::size_t i, double shift, std::size_t n) {
+    return 100 * (static_cast<double>(i) + shift) / static_cast<double>(n);
+  };
+  for (std::size_t i = 0; i < computed.x.size(); ++i)
+    computed.y.push_back(share(i, 0, computed.x.size() - 1));
+  for (std::size_t i = 0; i < seen.size(); ++i) observed.y.push_back(share(i, 0.5, seen.size()));
+  return chart_svg({texts.of("observed.chart"),
+                    texts.of("observed.chart_x"),
+                    texts.of("observed.chart_y"),
+                    {std::move(computed), std::move(observed)}});
+}
+
+namespace {
+
 // Bars from a line at 0, as far as -1 and 1 in each direction that there is.
 Drawing bars_drawing(const std::vector<Bar>& bars, const std::string& title) {
   constexpr double row = 22, top = 26, label = 250, width = 640, right = 50;

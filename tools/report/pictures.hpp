@@ -11,6 +11,9 @@ namespace talus {
 /// Where the proposals of a search stand, on the map of reach; "": nowhere.
 [[nodiscard]] std::string proposal_map(const ReportData& data, const Json& proposals);
 
+/// The run-outs of observed boulders, as points, and of the computed blocks, as a line.
+[[nodiscard]] std::string observed_chart(const Texts& texts, const Json& boulders);
+
 struct Bar {
   std::string name;
   double value = 0;

@@ -51,6 +51,9 @@ std::string layer_words(const std::string& name) {
       {"objects", "Object at risk"},
       {"source_cells", "Source cells by probability of a hit"},
       {"links", "Links of source cells and object"},
+      {"observed_boulders", "Observed boulders"},
+      {"observed_scars", "Observed scars, with their heights"},
+      {"observed_outlines", "Outline of an observed deposit"},
       {"uncertain", "Class not certain"},
       {"classes", "Class"},
       {"classes_smoothed", "Class, smoothed"},
@@ -319,6 +322,7 @@ QgisProject project_of(const ReportData& data, const std::string& file,
   add_package(project, file, folder, "fence.gpkg", "Fences", {"fence_fields", "fence_posts"});
   if (folder.has("change.tif"))
     project.layers.push_back(raster_layer(file, folder, "change", "Fences", "Change by the fence"));
+  add_package(project, file, folder, "calibrate.gpkg", "Observed", {});
   add_objects(project, file, folder, data);
   // Footprints of many runs would cover the maps.
   std::set<std::string> hidden = {"path_points", "impacts", "paths",

@@ -463,6 +463,7 @@ ReportData read_data(Tool& tool, const Site& site, const std::string& texts, Res
   data.blocks = folder.json("blocks.json");
   data.fence = folder.json("fence.json");
   if (folder.has("places.json")) data.places = folder.json("places.json");
+  data.calibrate = folder.json("calibrate.json");
   data.hazard = folder.json("hazard.json");
   data.trace = folder.json("trace.json");
   data.search = folder.json("fence_search.json");

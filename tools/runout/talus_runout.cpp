@@ -39,7 +39,7 @@ struct Options {
 
 void declare(Tool& tool, Options& o) {
   tool.output("-o,--out", o.out, "deposit, paths, streamlines, envelope (GeoPackage)").required();
-  tool.json_output(o.json, "run-out of the event, runs and relations (JSON)");
+  tool.json_output(o.json);
   tool.output_folder(
       "--tables", o.tables,
       "folder for runout.csv, a row a block; runs.csv, a row a run; sensitivity.csv, "

@@ -145,7 +145,9 @@ VectorStyle style_of(const SiteLayer& layer) {
       {"fences", {0, 90, 181, 255}},          {"object_lines", {84, 39, 136, 255}},
       {"objects", {84, 39, 136, 110}},        {"places", {64, 64, 64, 40}},
       {"source", {178, 24, 43, 70}},          {"forest", {27, 120, 55, 60}},
-      {"grounds", {140, 81, 10, 50}},         {"release_areas", {178, 24, 43, 70}}};
+      {"grounds", {140, 81, 10, 50}},         {"release_areas", {178, 24, 43, 70}},
+      {"observed_boulders", {0, 0, 0, 255}},  {"observed_scars", {27, 120, 55, 255}},
+      {"observed_outlines", {0, 0, 0, 30}}};
   const SymbolKind kind = layer.shape == SiteLayer::points  ? SymbolKind::point
                           : layer.shape == SiteLayer::lines ? SymbolKind::line
                                                             : SymbolKind::polygon;
@@ -161,6 +163,7 @@ std::vector<KeyDescription> fields_of(const SiteLayer& layer) {
   for (const std::string& name : layer.fields)
     for (const KeyDescription& key : site_keys())
       if (key.section == section && key.key == name) fields.push_back(key);
+  fields.insert(fields.end(), layer.attributes.begin(), layer.attributes.end());
   return fields;
 }
 

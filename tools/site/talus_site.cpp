@@ -218,6 +218,7 @@ std::string make_variables(const Site& site) {
   line("SITE_FRAMES", site.output.frames ? "yes" : "");
   line("SITE_WHOLE_SHARE", text(site.output.whole_share));
   line("SITE_PLACES", site.places.empty() ? "" : "yes");
+  line("SITE_OBSERVED", site.observed.empty() ? "" : "yes");
   line("SITE_FENCES_STAND", any_active ? "yes" : "");
   line("SITE_HAZARD_CLASSES", words_of("hazard.class", site.hazard_classes));
   line("SITE_OBJECTS", site.objects.empty() ? "" : "yes");

@@ -36,7 +36,7 @@ struct Options {
 void declare(Tool& tool, Options& o) {
   tool.output("-o,--out", o.out, "objects, source cells and links (GeoPackage)").required();
   tool.output("--csv", o.csv, "one row a source cell and object (CSV)");
-  tool.json_output(o.json, "the result (JSON)");
+  tool.json_output(o.json);
   tool.output_folder("--rasters", o.rasters, "folder for a raster of source cells an object");
   add_pages_option(tool, o.pages);
   tool.option("--source-cell-m", o.source_cell_m,

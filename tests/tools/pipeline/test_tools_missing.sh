@@ -4,7 +4,7 @@ site slope
 mkdir half
 ln -s "${bin%%:*}/talus-site" "${bin%%:*}/talus-tin" half
 expect 2 make -C slope BIN="$PWD/half/"
-says "talus-import talus-trn talus-blocks talus-check talus-batch talus-dda talus-reduce talus-runout talus-maps talus-fence talus-places talus-hazard talus-trace talus-fence-search talus-report talus-profile cannot be found in $PWD/half/"
+says "talus-import talus-trn talus-blocks talus-check talus-batch talus-dda talus-reduce talus-runout talus-maps talus-fence talus-places talus-calibrate talus-hazard talus-trace talus-fence-search talus-report talus-profile cannot be found in $PWD/half/"
 expect 2 make -C slope BIN="$PWD/half/" terrain
 says "talus-import talus-trn cannot be found in $PWD/half/"
 says "build first: sh $source_dir/pipelines/demo.sh; or name the folder of the tools with a slash at its end"

@@ -1,0 +1,12 @@
+# Runs -> what was observed beside them, with a score.
+# in: [observed.*], CALIBRATE_FLAGS   out: $(OUT)/calibrate.gpkg, .json
+$(eval $(call remember,calibrate,$(CALIBRATE_FLAGS)))
+calibrate_files := $(addprefix $(OUT)/,$(calibrate_products))
+calibrate: $(calibrate_files) ## runs -> observations beside them, with a score
+$(eval $(call together,$(calibrate_files)))
+$(OUT)/calibrate.gpkg: $(OUT)/runs/ensemble.json $(STAGES)/calibrate.txt \
+  $(STAGES)/calibrate.flags $(STAGES)/calibrate.files
+	$(call say,calibrate: runs -> observations beside them)
+	$(Q)$(BIN)talus-calibrate site.toml $(OUT)/runs --trn $(ground_of_runs) $(inputs_given) \
+	  -o $(OUT)/calibrate.gpkg --json $(OUT)/calibrate.json $(CALIBRATE_FLAGS) --overwrite $(DB)
+	$(call made,talus-calibrate)

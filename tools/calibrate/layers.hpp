@@ -1,0 +1,22 @@
+// tools/calibrate/layers.hpp
+// Observations beside what was computed, as layers and as JSON. Keys:
+// docs/tools/talus-calibrate.md
+#pragma once
+
+#include <vector>
+
+#include "io/geopackage_gdal.hpp"
+#include "post/observed/observed.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+/// observed_boulders, observed_scars and observed_outlines, as far as there are any. `origin`: map
+/// coordinates of the local zero [m].
+[[nodiscard]] std::vector<VectorLayer> observed_layers(const std::vector<ObservedEvent>& events,
+                                                       const std::vector<EventScore>& scores,
+                                                       const Vec3& origin);
+
+[[nodiscard]] Json event_json(const EventScore& score, const Vec3& origin);
+
+}  // namespace talus

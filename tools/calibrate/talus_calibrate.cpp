@@ -1,0 +1,107 @@
+// tools/calibrate/talus_calibrate.cpp
+// Runs beside what was observed. Page: docs/tools/talus-calibrate.md
+#include <limits>
+
+#include "post/reduce.hpp"
+#include "setup/observed_inputs_gdal.hpp"
+#include "setup/section_state_gdal.hpp"
+#include "tools/calibrate/layers.hpp"
+#include "tools/frame/fault_json.hpp"
+#include "tools/frame/run_inputs.hpp"
+#include "tools/frame/site_options.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+
+struct Options {
+  std::string out, json;
+};
+
+const RunParts wanted{.crossings = false,
+                      .checkpoint = false,
+                      .objects = false,
+                      .only_last_frame = true,
+                      .only_faults = true,
+                      .words = false,
+                      .trees = false};
+
+Computed read_all(RunInputs& runs, const std::vector<ObservedEvent>& events) {
+  Computed computed;
+  runs.read(wanted, [&](RunFile& run, int index) {
+    const RunMember& member = runs.members[static_cast<std::size_t>(index)];
+    if (run.grid.n_rows == 0)
+      throw InputError({where_of(member)}, "holds no passages",
+                       "set [output] passages = true and run talus-dda again");
+    add_blocks(computed, run, index, RunInputs::rest_speed_m_s);
+    if (member.part.empty()) add_passages(computed, events, run, index, run.passages);
+  });
+  for (const PartInput& part : runs.parts()) {
+    std::vector<std::vector<Passage>> rows(part.member.size());
+    for_each_strip(part.file, 1, {}, std::numeric_limits<std::uint64_t>::max(),
+                   [&](const auto& by_run) {
+                     for (std::size_t r = 0; r < by_run.size(); ++r)
+                       rows[r].insert(rows[r].end(), by_run[r].begin(), by_run[r].end());
+                   });
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (part.member[r] < 0) continue;
+      RunFile run = run_of(part.file.part, static_cast<int>(r));
+      run.run_weight = runs.members[part.member[r]].run_weight;
+      add_passages(computed, events, run, part.member[r], rows[r]);
+    }
+  }
+  finish(computed);
+  return computed;
+}
+
+void run_tool(Tool& tool, const Options& o, const Site& site, RunInputs& runs) {
+  const Trn& trn = runs.trn();
+  const std::vector<ObservedEvent> events = observed_events(tool, site, trn);
+  if (events.empty())
+    throw InputError({site.file}, "has no section [observed.*]",
+                     "add one with boulders_file, scars_file or outline_file");
+  const Computed computed = read_all(runs, events);
+  const ShareBasis basis = share_basis(clusters_of(runs.members), runs.failed_share());
+  std::vector<EventScore> scores;
+  std::string summary;
+  Json list = Json::array();
+  for (std::size_t e = 0; e < events.size(); ++e) {
+    scores.push_back(score_of(events[e], static_cast<int>(e), computed, basis));
+    list.push_back(event_json(scores.back(), trn.origin));
+    summary += (e == 0 ? "" : "\n") + text(scores.back());
+  }
+  std::vector<std::pair<std::string, std::string>> tags = tags_of(runs.members, runs.left_out);
+  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", runs.run_set()}});
+  const std::string remark = runs.remark();
+  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  std::vector<VectorLayer> layers = observed_layers(events, scores, trn.origin);
+  mark_layers(layers, remark);
+  write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
+  Json tag_list;
+  for (const auto& [key, value] : tags) tag_list[key] = value;
+  Json result = {{"run_id", tool.run_id()},
+                 {"tags", tag_list},
+                 {"sections", section_state(site, {"observed"})},
+                 {"n_blocks", computed.blocks.size()},
+                 {"left_share", number_or_null(computed.left_share)},
+                 {"events", list}};
+  add_faults(result, faults_of(runs.members, runs.left_out));
+  tool.result(result, summary);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  Tool tool("talus-calibrate", "Runs beside what was observed: boulders, scars, outlines.");
+  SiteOptions site(tool);
+  site.take_inputs();
+  RunInputs runs(tool);
+  tool.output("-o,--out", o.out, "observations, each with its place among the runs (GeoPackage)")
+      .required();
+  tool.json_output(o.json);
+  tool.footer(
+      "Example:\n  talus-calibrate site.toml out/runs --trn out/bed.tif -o calibrate.gpkg --json "
+      "calibrate.json");
+  return tool.run(argc, argv, [&] { run_tool(tool, o, site.load(), runs); });
+}
