@@ -13,7 +13,7 @@ map_products := $(foreach suffix,tif png pdf qml,$(map_names:%=maps/%.$(suffix))
 fence_products := fence.gpkg fence.json fence.csv
 change_products := change.tif change.qml change.png change.pdf
 places_products := places.json
-calibrate_products := calibrate.gpkg calibrate.json
+calibrate_products := calibrate.gpkg calibrate.json calibrate.toml
 hazard_products := hazard.json
 trace_products := trace.gpkg trace.json links.csv
 # maps by limits of the recipe, rasters by objects

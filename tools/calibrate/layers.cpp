@@ -150,4 +150,40 @@ Json event_json(const EventScore& score, const Vec3& origin) {
   return out;
 }
 
+Json calibration_json(const Calibration& calibration, const std::vector<RunMember>& runs) {
+  Json keys = Json::array(), judged = Json::array(), points = Json::array(), layers = Json::array();
+  for (std::size_t k = 0; k < calibration.keys.size(); ++k) {
+    const DrawnRange all = drawn_range(calibration, k, false),
+                     set = drawn_range(calibration, k, true);
+    keys.push_back({{"key", calibration.keys[k]},
+                    {"low", number_or_null(all.low)},
+                    {"high", number_or_null(all.high)},
+                    {"set_low", number_or_null(set.low)},
+                    {"set_high", number_or_null(set.high)}});
+  }
+  for (const JudgedRun& run : calibration.runs)
+    judged.push_back({{"seed", runs[static_cast<std::size_t>(run.run)].info.seed},
+                      {"implausibility", number_or_null(run.implausibility)},
+                      {"worst", run.worst},
+                      {"drawn", run.drawn}});
+  for (const LeftOutPoint& point : calibration.points)
+    points.push_back({{"layer", text(point.kind, point.event)},
+                      {"point", point.point + 1},
+                      {"n_plausible", point.n_plausible},
+                      {"percentile", number_or_null(point.percentile)}});
+  for (const LeftOutLayer& layer : calibration.layers)
+    layers.push_back({{"layer", text(layer.kind, layer.event)},
+                      {"n_plausible", layer.n_plausible},
+                      {"n_contradicted", layer.n_contradicted}});
+  const LeftOutCount count = left_out_count(calibration);
+  return {{"n_runs", calibration.runs.size()},
+          {"n_plausible", n_plausible(calibration)},
+          {"most_implausible", most_implausible},
+          {"keys", keys},
+          {"left_out", {{"n", count.n}, {"n_within", count.n_within}}},
+          {"left_out_layers", layers},
+          {"left_out_points", points},
+          {"runs", judged}};
+}
+
 }  // namespace talus

@@ -5,7 +5,9 @@
 
 #include <vector>
 
+#include "ensemble/run_set.hpp"
 #include "io/geopackage_gdal.hpp"
+#include "post/observed/calibrate.hpp"
 #include "post/observed/observed.hpp"
 #include "tools/frame/tool.hpp"
 
@@ -18,5 +20,9 @@ namespace talus {
                                                        const Vec3& origin);
 
 [[nodiscard]] Json event_json(const EventScore& score, const Vec3& origin);
+
+/// `runs`: those that were judged.
+[[nodiscard]] Json calibration_json(const Calibration& calibration,
+                                    const std::vector<RunMember>& runs);
 
 }  // namespace talus

@@ -1,5 +1,6 @@
 // tools/calibrate/talus_calibrate.cpp
-// Runs beside what was observed. Page: docs/tools/talus-calibrate.md
+// Runs beside what was observed, and the values that this does not contradict. Page:
+// docs/tools/talus-calibrate.md
 #include <limits>
 
 #include "post/reduce.hpp"
@@ -15,7 +16,7 @@ namespace {
 using namespace talus;  // NOLINT: a program of its own
 
 struct Options {
-  std::string out, json;
+  std::string out, json, propose;
 };
 
 const RunParts wanted{.crossings = false,
@@ -23,16 +24,27 @@ const RunParts wanted{.crossings = false,
                       .objects = false,
                       .only_last_frame = true,
                       .only_faults = true,
-                      .words = false,
                       .trees = false};
 
-Computed read_all(RunInputs& runs, const std::vector<ObservedEvent>& events) {
+// What a run drew; nothing of one whose settings this version does not read.
+std::vector<DrawnKey> drawn_by(const RunInfo& info) {
+  try {
+    const Site site = parse_site(info.config, info.run_id);
+    if (site.uncertainty.sample > 0) return values_in_effect(site);
+  } catch (const InputError&) {
+  }
+  return {};
+}
+
+Computed read_all(RunInputs& runs, const std::vector<ObservedEvent>& events,
+                  std::vector<std::vector<DrawnKey>>& drawn) {
   Computed computed;
   runs.read(wanted, [&](RunFile& run, int index) {
     const RunMember& member = runs.members[static_cast<std::size_t>(index)];
     if (run.grid.n_rows == 0)
       throw InputError({where_of(member)}, "holds no passages",
                        "set [output] passages = true and run talus-dda again");
+    drawn.push_back(drawn_by(run.info));
     add_blocks(computed, run, index, RunInputs::rest_speed_m_s);
     if (member.part.empty()) add_passages(computed, events, run, index, run.passages);
   });
@@ -60,7 +72,8 @@ void run_tool(Tool& tool, const Options& o, const Site& site, RunInputs& runs) {
   if (events.empty())
     throw InputError({site.file}, "has no section [observed.*]",
                      "add one with boulders_file, scars_file or outline_file");
-  const Computed computed = read_all(runs, events);
+  std::vector<std::vector<DrawnKey>> drawn;
+  const Computed computed = read_all(runs, events, drawn);
   const ShareBasis basis = share_basis(clusters_of(runs.members), runs.failed_share());
   std::vector<EventScore> scores;
   std::string summary;
@@ -85,6 +98,12 @@ void run_tool(Tool& tool, const Options& o, const Site& site, RunInputs& runs) {
                  {"n_blocks", computed.blocks.size()},
                  {"left_share", number_or_null(computed.left_share)},
                  {"events", list}};
+  const Calibration found = calibrate(events, computed, drawn);
+  if (!found.keys.empty()) {
+    result["calibration"] = calibration_json(found, runs.members);
+    summary += "\n" + text(found);
+  }
+  if (!o.propose.empty()) tool.write_text(o.propose, section_text(found));
   add_faults(result, faults_of(runs.members, runs.left_out));
   tool.result(result, summary);
 }
@@ -99,6 +118,10 @@ int main(int argc, char** argv) {
   RunInputs runs(tool);
   tool.output("-o,--out", o.out, "observations, each with its place among the runs (GeoPackage)")
       .required();
+  tool.output(
+      "--propose", o.propose,
+      "sets of values that the observations do not contradict, as a section [uncertainty.*] "
+      "(TOML)");
   tool.json_output(o.json);
   tool.footer(
       "Example:\n  talus-calibrate site.toml out/runs --trn out/bed.tif -o calibrate.gpkg --json "

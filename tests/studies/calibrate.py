@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Calibration on two field tests: which values of the soil the boulders do not contradict.
+
+  python3 tests/studies/calibrate.py [BIN] [-o FOLDER] [--data FOLDER] [--runs N]
+
+The sites are those of field.py, with terrain held level beyond the tracks. Two numbers of all soils are
+drawn together, as they are fitted by field.py --fit: cor_half_energy_kj and bearing_kpa. Each run draws
+both by a Sobol design, the same of both sites, so a run of one has the values of that run of the other.
+`make calibrate` lets talus-batch compute the runs and judges them.
+
+The boulders are two layers, every other one in the first. Left out are: each boulder; each half; and each
+site, whose set is judged by the boulders of the other.
+"""
+import argparse
+import csv
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import field
+
+RANGES = {"cor_half_energy_kj": (0.5, 8), "bearing_kpa": (1000, 16000)}
+GROUNDS = {"tschamut": ["meadow"], "authume_P1": ["vegetated", "hard", "rocky", "beyond"]}
+ROCKS = {"tschamut": 6, "authume_P1": 3}
+
+
+def uncertainty(grounds):
+    text = ""
+    for key, (low, high) in RANGES.items():
+        keys = json.dumps([f"ground.{ground}.{key}" for ground in grounds])
+        text += f'[uncertainty.{key}]\nkeys = {keys}\ndistribution = "uniform"\nmin = {low}\nmax = {high}\n'
+    return text
+
+
+def write_boulders(folder, ends):
+    text = ""
+    for half in (0, 1):
+        name = ("first", "second")[half]
+        with open(folder / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
+            rows = csv.writer(file)
+            rows.writerow(["x", "y"])
+            rows.writerows(end for i, end in enumerate(ends) if i % 2 == half)
+        text += f'[observed.{name}]\nboulders_file = "{name}.csv"\n'
+    return text
+
+
+def calibrated(slope, tools, n_runs):
+    """What talus-calibrate says of the runs of a site."""
+    name, pipelines = slope.name, Path(__file__).resolve().parents[2] / "pipelines"
+    folder = tools.folder / name
+    folder.mkdir(exist_ok=True)
+    text = slope.text.replace("[output]\npassages = false\n", "[output]\n")
+    text += uncertainty(GROUNDS[name]) + write_boulders(folder, slope.starts + slope.seen)
+    (folder / "site.toml").write_text(text)
+    (folder / "Makefile").write_text(f"include {pipelines}/site.mk\n")
+    words = ["make", "-s", "-C", folder, f"BIN={tools.tools}/", f"RUNS={n_runs}", f"-j{os.cpu_count()}",
+             f"DEM=../{name}_level_dem.tif", "TRN_FLAGS=--crs none", "DDA_FLAGS=--settle", "calibrate"]
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(done.stderr)
+    return json.loads((folder / "out/calibrate.json").read_text())
+
+
+def main():
+    here = Path(__file__).resolve().parents[2]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("bin", nargs="?", default=here / "build/release/tools", type=Path)
+    parser.add_argument("-o", "--out", default=here / "build/calibrate", type=Path)
+    parser.add_argument("--data", default=here / "../shared/data/experiments", type=Path)
+    parser.add_argument("--runs", default=64, type=int)
+    args = parser.parse_args()
+    args.out.mkdir(parents=True, exist_ok=True)
+    tools, data = field.Tools(args.bin.resolve(), args.out.resolve(), []), args.data.resolve()
+    found = {slope.name: calibrated(slope, tools, args.runs)["calibration"]
+             for slope in (field.tschamut(tools, data / "tschamut2014", ROCKS["tschamut"]),
+                           field.authume(tools, data / "authume_P1", ROCKS["authume_P1"]))}
+    field.head("site", "runs not contradicted", *(f"{key} of the set" for key in RANGES), "left-out boulders within 90 %",
+               "half left out: contradicted runs of the set")
+    for name, said in found.items():
+        of_key = {key["key"].rpartition(".")[2]: key for key in said["keys"]}
+        ranges = [f"{of_key[key]['set_low']:.3g} to {of_key[key]['set_high']:.3g}" if said["n_plausible"] else "none"
+                  for key in RANGES]
+        field.line(name, f"{said['n_plausible']} of {said['n_runs']}", *ranges,
+                   f"{said['left_out']['n_within']} of {said['left_out']['n']}",
+                   ", ".join(f"{half['layer']}: {half['n_contradicted']} of {half['n_plausible']}"
+                             for half in said["left_out_layers"]))
+    sets = {name: {run["seed"] for run in said["runs"] if run["implausibility"] <= said["most_implausible"]}
+            for name, said in found.items()}
+    (one, first), (other, second) = sets.items()
+    print(f"\nOf the {len(first)} runs that {one} leaves, {other} contradicts {len(first - second)}; "
+          f"of the {len(second)} that {other} leaves, {one} contradicts {len(second - first)}.")
+
+
+if __name__ == "__main__":
+    main()
