@@ -7,7 +7,8 @@ set -eu
 cd "$(dirname "$0")/.."
 bin=$PWD/build/demo/tools/
 if [ "${1:-}" = --packaged ]; then
-  command -v talus >/dev/null || { echo "demo.sh: there is no talus on the search path" >&2; exit 2; }
+  command -v talus >/dev/null ||
+    { echo "demo.sh: there is no talus on the search path" >&2; exit 2; }
   bin=$(dirname "$(command -v talus)")/
   shift
 fi

@@ -2,12 +2,13 @@
 # What users download: Debian packages, a tarball for Debian 12 and later that needs no root, a
 # container image (OCI), the packages inside them (SPDX) and digests.
 #   sh pipelines/release.sh [FOLDER]      FOLDER: build/download
-# Builds the tools first. Needs root for the image's file system; tests/try_release.sh tries the files.
+# Builds the tools first. Needs root for the image's file system. tests/try_release.sh tries them.
 set -eu
 cd "$(dirname "$0")/.."
 mkdir -p "${1:-build/download}"
 out=$(realpath "${1:-build/download}")
-[ "$(id -u)" -eq 0 ] || { echo "release.sh: needs root, for the file system of the image" >&2; exit 1; }
+refuse() { echo "release.sh: $1" >&2; exit 1; }
+[ "$(id -u)" -eq 0 ] || refuse "needs root, for the file system of the image"
 sh pipelines/install_packages.sh release
 work=$(mktemp -d)
 trap 'umount "$work/root/proc" 2>/dev/null || true; rm -rf "$work"' EXIT
@@ -19,9 +20,12 @@ rm -f "$out"/talus[-_]* "$out"/python3-talus_* "$out/SHA256SUMS"
 cp build/demo/talus_*.deb build/demo/python3-talus_*.deb "$out/"
 
 # parts_of FILE: its bill of materials from lines "package version" of Debian
-parts_of() { python3 pipelines/bill_of_materials.py "$1" "$version" "$(git log -1 --format=%cs)" >"$out/$1.spdx.json"; }
+parts_of() {
+  python3 pipelines/bill_of_materials.py "$1" "$version" "$(git log -1 --format=%cs)" \
+    >"$out/$1.spdx.json"
+}
 
-# --- tarball: the package's files with the libraries that they load, all but the C library --------------
+# --- tarball: the package's files with the libraries that they load, except the C library ---
 name=talus-$version-linux-$(uname -m)
 dpkg-deb -x "$out"/talus_*.deb "$work/deb"
 tree=$work/$name
@@ -53,33 +57,29 @@ chmod 755 "$tree/bin/start"
 for tool in "$tree"/lib/talus/*; do ln -s start "$tree/bin/${tool##*/}"; done
 tar --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$(git log -1 --format=%ct)" \
   -C "$work" -cJf "$out/$name.tar.xz" "$name"
-while read -r library; do dpkg -S "$(realpath "$library")" 2>/dev/null || dpkg -S "$library"; done <"$work/libraries" |
-  sed 's/:.*//' | sort -u | xargs dpkg-query -W -f '${Package} ${Version}\n' | parts_of "$name"
+while read -r library; do
+  dpkg -S "$(realpath "$library")" 2>/dev/null || dpkg -S "$library"
+done <"$work/libraries" | sed 's/:.*//' | sort -u |
+  xargs dpkg-query -W -f '${Package} ${Version}\n' | parts_of "$name"
 
-# --- image: the package on a bare Debian 12 --------------------------------------------------------------
+# --- image: the package on a bare Debian 12 ---
 name=talus-$version-image
-mirror=$(sed -n 's/^URIs: *//p; s/^deb \(\[.*\] \)*\([^ ]*\) .*/\2/p' /etc/apt/sources.list.d/*.sources /etc/apt/sources.list 2>/dev/null | head -n 1)
-debootstrap --variant=minbase bookworm "$work/root" "$mirror" >"$work/log" || { tail "$work/log" >&2; exit 1; }
-mkdir "$work/apt"
-cp -a "$work/root/etc/apt/apt.conf.d/." "$work/apt/"  # as in a bare system
-cp /etc/apt/apt.conf.d/* "$work/root/etc/apt/apt.conf.d/" 2>/dev/null || true
-cp /etc/resolv.conf "$work/root/etc/resolv.conf" 2>/dev/null || true
+sh tests/bare_system.sh "$work/root"
 cp "$out"/talus_*.deb "$work/root/"
 mount -t proc proc "$work/root/proc"
-chroot "$work/root" sh -c 'export DEBIAN_FRONTEND=noninteractive
-  apt-get update -qq && apt-get install -y -qq --no-install-recommends /talus_*.deb make gdal-bin' >"$work/log" 2>&1 ||
+chroot "$work/root" sh -c 'export DEBIAN_FRONTEND=noninteractive && apt-get update -qq &&
+  apt-get install -y -qq --no-install-recommends /talus_*.deb make gdal-bin' >"$work/log" 2>&1 ||
   { tail "$work/log" >&2; exit 1; }
 umount "$work/root/proc"
 chroot "$work/root" dpkg-query -W -f '${Package} ${Version}\n' | parts_of "$name"
-rm -rf "$work/root"/talus_*.deb "$work/root"/var/lib/apt/lists/* "$work/root"/var/cache/apt/* "$work/root"/var/log/* \
-  "$work/root/etc/apt/apt.conf.d" "$work/root/etc/resolv.conf" "$work"/root/usr/share/man/* "$work"/root/tmp/*
-rm -f "$work"/root/etc/apt/sources.list
-mv "$work/apt" "$work/root/etc/apt/apt.conf.d"
+(cd "$work/root" && rm -rf talus_*.deb var/lib/apt/lists/* var/cache/apt/* var/log/* tmp/* \
+  usr/share/man/* etc/apt/sources.list etc/apt/apt.conf.d/* etc/resolv.conf)
 umoci init --layout "$work/image"
 umoci new --image "$work/image:$version"
 umoci insert --image "$work/image:$version" "$work/root" / >/dev/null
-umoci config --image "$work/image:$version" --config.entrypoint talus --config.cmd help --config.workingdir /work \
-  --config.env PATH=/usr/bin:/bin --architecture amd64 --os linux
+umoci config --image "$work/image:$version" --architecture amd64 --os linux \
+  --config.env PATH=/usr/bin:/bin \
+  --config.entrypoint talus --config.cmd help --config.workingdir /work
 umoci gc --layout "$work/image"
 tar -C "$work/image" -cf "$out/$name.tar" .
 

@@ -10,13 +10,6 @@ checkout=$PWD
 command -v debootstrap >/dev/null || { echo "clean_machine.sh: install debootstrap first" >&2; exit 1; }
 
 root=${1:-$(mktemp -d)}
-mirror=$(sed -n 's/^URIs: *//p; s/^deb \(\[.*\] \)*\([^ ]*\) .*/\2/p' /etc/apt/sources.list.d/*.sources /etc/apt/sources.list 2>/dev/null | head -n 1)
-bare() {  # a bare system in $1
-  [ -x "$1/bin/sh" ] || debootstrap --variant=minbase bookworm "$1" "$mirror" >/dev/null
-  cp /etc/apt/apt.conf.d/* "$1/etc/apt/apt.conf.d/" 2>/dev/null || true
-  cp /etc/resolv.conf "$1/etc/resolv.conf" 2>/dev/null || true
-  mount -t proc proc "$1/proc"
-}
 trap 'umount "$root/proc" 2>/dev/null || true' EXIT
 used() {  # sets `seconds`: processor time of all that has ended so far
   times >"$root/times"
@@ -31,7 +24,8 @@ timed() {
   used
   echo "$2: $(($(date +%s) - before)) s, $((seconds - used_before)) s of processor time"
 }
-bare "$root"
+[ -x "$root/bin/sh" ] || sh tests/bare_system.sh "$root"
+mount -t proc proc "$root/proc"
 rm -rf "$root/talus"
 git -c safe.directory='*' clone -q "$checkout" "$root/talus"
 timed "$root" "cd /talus && sh pipelines/demo.sh"
