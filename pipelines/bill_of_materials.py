@@ -16,16 +16,16 @@ def document(name, version, date, packages):
     others = [package(title, number, externalRefs=[{
         "referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
         "referenceLocator": f"pkg:deb/debian/{title}@{number}"}]) for title, number in packages if title != "talus"]
-    relations = [("SPDXRef-DOCUMENT", "DESCRIBES", own["SPDXID"])]
-    relations += [(own["SPDXID"], "DEPENDS_ON", other["SPDXID"]) for other in others]
+    relations = [{"spdxElementId": one, "relationshipType": kind, "relatedSpdxElement": other}
+                 for one, kind, other in [("SPDXRef-DOCUMENT", "DESCRIBES", own["SPDXID"]),
+                                          *((own["SPDXID"], "DEPENDS_ON", each["SPDXID"])
+                                            for each in others)]]
     return {"spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": name,
             "documentNamespace": f"https://spdx.org/spdxdocs/{name}-{date}",
             "creationInfo": {"created": f"{date}T00:00:00Z", "creators": ["Tool: talus-release"]},
-            "packages": [own, *others],
-            "relationships": [{"spdxElementId": one, "relationshipType": kind, "relatedSpdxElement": other}
-                              for one, kind, other in relations]}
+            "packages": [own, *others], "relationships": relations}
 
 
 if __name__ == "__main__":
-    json.dump(document(*sys.argv[1:4], [line.split() for line in sys.stdin if line.strip()]), sys.stdout, indent=1)
-    print()
+    packages_read = [line.split() for line in sys.stdin if line.strip()]
+    print(json.dumps(document(*sys.argv[1:4], packages_read), indent=1))

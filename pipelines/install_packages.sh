@@ -1,6 +1,7 @@
 #!/bin/sh
 # install_packages.sh build|test|release: installs the Debian packages that are missing for
-# building the tools, for building and testing them, or for building what users download. As root, or through sudo; says so where neither works.
+# building the tools, for building and testing them, or for building what users download.
+# As root, or through sudo; says so where neither works.
 set -eu
 
 build="g++ cmake ninja-build make ccache libgdal-dev libcgal-dev libboost-dev libeigen3-dev
