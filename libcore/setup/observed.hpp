@@ -15,7 +15,7 @@ struct ObservedPoint {
   Vec2 place = Vec2::Zero();  ///< local x, y [m]
   /// Of a boulder its volume [m3], of a scar its height above the ground [m]; NaN: not known.
   double size = std::numeric_limits<double>::quiet_NaN();
-  std::string date;  ///< as the layer has it; empty: not known
+  std::string date;  ///< as the layer has it, of dates YYYY-MM-DD; empty: not known
 };
 
 /// What one event, or one test, left.

@@ -136,7 +136,7 @@ std::vector<VectorLayer> observed_layers(const std::vector<ObservedEvent>& event
   return layers;
 }
 
-Json event_json(const EventScore& score, const Vec3& origin) {
+Json event_json(const ObservedEvent& event, const EventScore& score, const Vec3& origin) {
   Json out = {{"event", score.name}};
   if (score.boulders) out["boulders"] = boulders_json(*score.boulders, origin);
   if (score.scars)
@@ -145,8 +145,15 @@ Json event_json(const EventScore& score, const Vec3& origin) {
                     {"mean_percentile", number_or_null(score.scars->mean_percentile)},
                     {"by_chance", by_chance(score.scars->mean_share_error)},
                     {"points", points_json(scar_fields(), score.scars->rows, origin)}};
-  if (score.outline)
+  if (score.outline) {
     out["outline"] = row_json(outline_fields(), OutlineRow{score.name, *score.outline});
+    Json& rings = out["outline"]["rings_m"] = Json::array();
+    for (const std::vector<Vec2>& ring : event.outline.rings) {
+      rings.push_back(Json::array());
+      for (const Vec2& corner : ring)
+        rings.back().push_back({corner.x() + origin.x(), corner.y() + origin.y()});
+    }
+  }
   return out;
 }
 

@@ -19,7 +19,8 @@ namespace talus {
                                                        const std::vector<EventScore>& scores,
                                                        const Vec3& origin);
 
-[[nodiscard]] Json event_json(const EventScore& score, const Vec3& origin);
+[[nodiscard]] Json event_json(const ObservedEvent& event, const EventScore& score,
+                              const Vec3& origin);
 
 /// `runs`: those that were judged.
 [[nodiscard]] Json calibration_json(const Calibration& calibration,

@@ -80,7 +80,7 @@ void run_tool(Tool& tool, const Options& o, const Site& site, RunInputs& runs) {
   Json list = Json::array();
   for (std::size_t e = 0; e < events.size(); ++e) {
     scores.push_back(score_of(events[e], static_cast<int>(e), computed, basis));
-    list.push_back(event_json(scores.back(), trn.origin));
+    list.push_back(event_json(events[e], scores.back(), trn.origin));
     summary += (e == 0 ? "" : "\n") + text(scores.back());
   }
   std::vector<std::pair<std::string, std::string>> tags = tags_of(runs.members, runs.left_out);

@@ -325,6 +325,7 @@ Json searches_of(const ReportData& data) {
 Json observed_of(const ReportData& data) {
   Json calibrate = data.calibrate;
   for (Json& event : calibrate.is_object() ? calibrate["events"] : calibrate) {
+    event["map"] = observed_map(data, event);
     if (event.contains("boulders"))
       event["boulders"]["chart"] = observed_chart(data.texts, event["boulders"]);
     if (!event.contains("outline")) continue;

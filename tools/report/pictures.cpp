@@ -162,6 +162,19 @@ Json pictures_of(const ReportData& data) {
   return out;
 }
 
+namespace {
+
+std::string on_map_of_reach(const ReportData& data, const std::string& marks,
+                            const std::string& alt) {
+  const auto reach = std::find_if(data.maps.begin(), data.maps.end(),
+                                  [](const MapPicture& map) { return map.name == "reach"; });
+  return sheet_svg(
+      data.sheet,
+      (reach == data.maps.end() ? "" : cells_group(data.sheet, reach->map.cells)) + marks, alt);
+}
+
+}  // namespace
+
 std::string proposal_map(const ReportData& data, const Json& proposals) {
   std::vector<std::pair<std::string, std::vector<Vec2>>> fences;
   for (const Json& proposal : proposals) {
@@ -182,12 +195,36 @@ std::string proposal_map(const ReportData& data, const Json& proposals) {
           pen.note(name, {on_map(spot, posts)}, false);
         }
       });
-  const auto reach = std::find_if(data.maps.begin(), data.maps.end(),
-                                  [](const MapPicture& map) { return map.name == "reach"; });
-  return sheet_svg(
-      data.sheet,
-      (reach == data.maps.end() ? "" : cells_group(data.sheet, reach->map.cells)) + paths,
-      data.texts.of("search.map"));
+  return on_map_of_reach(data, paths, data.texts.of("search.map"));
+}
+
+std::string observed_map(const ReportData& data, const Json& event) {
+  const auto local = [&data](const Json& x, const Json& y) {
+    return Vec2(Vec2(x.get<double>(), y.get<double>()) - data.sheet.origin);
+  };
+  const auto places = [&](const char* kind) {
+    std::vector<Vec2> out;
+    if (const Json points = value_at(event, {kind, "points"}); points.is_array())
+      for (const Json& point : points) out.push_back(local(point.at("x_m"), point.at("y_m")));
+    return out;
+  };
+  PenLines outline;
+  if (const Json rings = value_at(event, {"outline", "rings_m"}); rings.is_array())
+    for (const Json& ring : rings) {
+      outline.emplace_back();
+      for (const Json& corner : ring) outline.back().push_back(local(corner[0], corner[1]));
+    }
+  const std::string marks =
+      sheet_group(data.sheet, "class=\"observed\"", [&](Pen& pen, const MapSpot& spot) {
+        for (const std::vector<Vec2>& ring : outline)
+          pen.line(on_map(spot, ring), {0.6, rgb(0x000000), {2, 1.2}, 0.3}, true);
+        for (const auto& [kind, colour] : {std::pair{"scars", 0x1b7837}, {"boulders", 0x000000}}) {
+          const std::vector<Vec2> at = on_map(spot, places(kind));
+          pen.dots(at, 1.3, rgb(0xffffff));
+          pen.dots(at, 1, rgb(colour));
+        }
+      });
+  return on_map_of_reach(data, marks, data.texts.of("observed.map"));
 }
 
 std::string bar_picture(const std::vector<Bar>& bars, const std::string& title) {

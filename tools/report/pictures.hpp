@@ -11,6 +11,8 @@ namespace talus {
 /// Where the proposals of a search stand, on the map of reach; "": nowhere.
 [[nodiscard]] std::string proposal_map(const ReportData& data, const Json& proposals);
 
+/// Where an event left its boulders, scars and deposit, on the map of reach.
+[[nodiscard]] std::string observed_map(const ReportData& data, const Json& event);
 /// The run-outs of observed boulders, as points, and of the computed blocks, as a line.
 [[nodiscard]] std::string observed_chart(const Texts& texts, const Json& boulders);
 
