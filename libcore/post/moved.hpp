@@ -15,7 +15,7 @@ namespace talus {
 inline constexpr double moved_m = 1;        ///< a block displaced by more has moved [m]
 inline constexpr double moved_far_m = 20;   ///< [m]
 inline constexpr double event_share = 0.1;  ///< of the mass that moves in an event
-inline constexpr double least_moved = 0.5;  ///< share of the mass below which a reader is warned
+inline constexpr double least_moved = 0.5;  ///< share of the mass that makes most of it
 
 /// Displacement: straight from a centroid's place at the start to that at the end, in space.
 struct Moved {

@@ -5,8 +5,8 @@
 
 FOLDER holds runs/run_*.h5 (or run_*.h5) and bed.tif, as the pipeline leaves them. Prints the table of
 docs/evidence/validation.md: volume, H and L of the event (chord from the top of the source to the toe), of its
-centre of mass beside tan(friction); then a line a relation: L over what it expects, and the chance that it
-is exceeded where the relation has a scatter, or "beyond" where L is above that of its lower 95 % line.
+centre of mass beside tan(friction); then a line a relation: L95 over what it expects, and its percentile in the
+relation's scatter where most of the mass left its source.
 Relations from memory and those of debris flows are left out.
 """
 import json
@@ -49,11 +49,8 @@ def event_row(name, result, friction_deg):
 
 def relation_cell(result, name):
     relation = next(r for r in result["mobility"] if r["relation"] == name)
-    chance, cell = of(relation, "exceedance_probability"), f"{of(relation, 'L_over_expected'):.2f}"
-    if chance == chance:
-        return f"{cell} ({100 * chance:.0f} %)"
-    beyond = [run["L_over_expected"] * run["L_expected_m"] > run["L_on_lower_line_m"] for run in relation["runs"]]
-    return cell + (" beyond" if statistics.mean(beyond) > 0.5 else "")
+    percentile = of(relation, "percentile")
+    return f"{of(relation, 'L_over_expected'):.2f}" + (f" ({percentile:.0f})" if percentile == percentile else "")
 
 
 def line(words):

@@ -46,7 +46,8 @@ Json mass_json(const EventReach& event) {
           {"blocks_beyond", m.n_beyond},
           {"share_beyond", m.beyond_share},
           {"toe_share", m.toe_share},
-          {"outliers", m.n_outliers}};
+          {"outliers", m.n_outliers},
+          {"share_left_source", m.left_share}};
 }
 
 Json spread_of(const std::vector<RunoutRun>& runs, const std::vector<int>& some) {
@@ -130,7 +131,15 @@ void add_spreads(Json& to, const std::vector<RunoutRun>& runs, const std::vector
   to["spread_over_events"] = spread_of(runs, events);
 }
 
-Json cases_json(const std::vector<RunoutRun>& runs) {
+Json percentiles_json(const MobilityPercentiles& p) {
+  return {{"share_left_source", number_or_null(p.left_share)},
+          {"rockfalls", number_or_null(p.rockfalls)},
+          {"rock_avalanches", number_or_null(p.rock_avalanches)},
+          {"at_least", p.at_least}};
+}
+
+Json cases_json(const std::vector<RunoutRun>& runs, const std::vector<MobilityRelation>& relations,
+                bool confined) {
   Json list = Json::array();
   for (const RunoutCase& one : cases_of(runs)) {
     const auto n_moved_runs = std::count_if(one.runs.begin(), one.runs.end(),
@@ -139,7 +148,9 @@ Json cases_json(const std::vector<RunoutRun>& runs) {
                     {"n_runs", one.runs.size()},
                     {"weight", share_of(runs, one.runs)},
                     {"n_runs_moved", n_moved_runs},
-                    {"moved", moved_json(one.moved)}});
+                    {"moved", moved_json(one.moved)},
+                    {"percentiles", percentiles_json(percentiles_of(
+                                        relations, mobility_events(runs, one.runs, confined)))}});
     add_spreads(list.back(), runs, one.runs);
   }
   return list;
@@ -156,7 +167,7 @@ Json mobility_json(const std::vector<MobilityRelation>& relations,
                       {"L_expected_m", number_or_null(row.length)},
                       {"L_on_lower_line_m", number_or_null(row.length_upper)},
                       {"L_over_expected", number_or_null(row.ratio)},
-                      {"exceedance_probability", number_or_null(row.exceedance)}});
+                      {"percentile", number_or_null(row.percentile)}});
     }
     list.push_back({{"relation", relation.id},
                     {"group", relation.group},

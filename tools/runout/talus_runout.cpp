@@ -120,17 +120,6 @@ void warn_of_runs_without_frames(Tool& tool, const RunoutRuns& all) {
               " have no frames: paths, their points and the curves leave them out");
 }
 
-// The relations are of masses, not of single blocks: V is what moved, H and L are those of 95 % of
-// it, straight.
-std::vector<MobilityEvent> events_of(const std::vector<RunoutRun>& runs, bool confined) {
-  std::vector<MobilityEvent> events;
-  for (const RunoutRun& r : runs)
-    if (r.event.moved.is_event())
-      events.push_back({r.member.info.run_id, r.event.mass.moved_volume, r.event.mass.height,
-                        r.event.mass.length, confined});
-  return events;
-}
-
 void write_thickness(Tool& tool, const Options& o, const RunoutRuns& all, RunInputs& inputs,
                      const MapTags& tags, const std::string& remark) {
   const ShareBasis basis = share_basis(clusters_of(inputs.members));
@@ -188,7 +177,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
       layers.push_back(std::move(layer));
   mark_layers(layers, remark);
   write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
-  const std::vector<MobilityEvent> events = events_of(all.runs, o.confined);
+  const std::vector<MobilityEvent> events = mobility_events(all.runs, all_of(all.runs), o.confined);
   const std::vector<SensitivityRow> sensitivity = sensitivity_of(all.runs);
   if (!o.tables.empty()) {
     const auto write = [&](const char* name, const std::string& content) {
@@ -213,15 +202,16 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
                  {"balance", balance_json(all.balance)},
                  {"swept_area_m2", swept_area(all)},
                  {"path_tolerance_m", o.tolerance_m},
-                 {"cases", cases_json(all.runs)},
+                 {"cases", cases_json(all.runs, relations, o.confined)},
                  {"cases_weighed", !inputs.pools_unasked()},
                  {"runs", runs},
                  {"sensitivity", rows_json(sensitivity_fields(), sensitivity)},
+                 {"percentiles", percentiles_json(percentiles_of(relations, events))},
                  {"mobility", mobility_json(relations, events)}};
   add_spreads(result, all.runs, all_of(all.runs));
   if (trees.any) result["trees"] = trees_json(summary_of(trees.runs), trn.origin);
   add_faults(result, faults_of(inputs.members, inputs.left_out));
-  tool.result(result, runout_summary(all));
+  tool.result(result, runout_summary(all) + mobility_text(all.runs, relations, o.confined));
 }
 
 }  // namespace

@@ -7,10 +7,15 @@
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "base/percentile.hpp"
+#include "base/text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 
 namespace talus {
 namespace {
+
+constexpr double lower_line_sd = 1.6449;  // 5 % of a normal scatter lie farther below
 
 double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
@@ -87,6 +92,7 @@ std::vector<MobilityRelation> mobility_relations(const CsvTable& table) {
     r.lower = table.number(row, "lower");
     r.n = table.number(row, "n");
     r.sd = table.number(row, "sd");
+    if (std::isnan(r.sd)) r.sd = r.lower / lower_line_sd;
     r.from_memory = table.at(row, "mark") == "m";
     r.source = table.at(row, "source");
     relations.push_back(std::move(r));
@@ -104,13 +110,13 @@ MobilityRow compare(const MobilityRelation& r, const MobilityEvent& event) {
       const double log_hl = r.a + r.b * log_v;
       row.length = std::pow(10, log_h - log_hl);
       row.length_upper = std::pow(10, log_h - log_hl + r.lower);
-      row.exceedance = normal_cdf((log_h - log_l - log_hl) / r.sd);
+      row.percentile = 100 * normal_cdf((log_l - log_h + log_hl) / r.sd);
       break;
     }
     case MobilityKind::length: {
       const double mean = r.a + r.b * (log_v - 6) + r.c * log_h + (event.confined ? r.d : 0);
       row.length = std::pow(10, mean);
-      row.exceedance = normal_cdf((mean - log_l) / r.sd);
+      row.percentile = 100 * normal_cdf((log_l - mean) / r.sd);
       break;
     }
     case MobilityKind::angle:
@@ -118,7 +124,66 @@ MobilityRow compare(const MobilityRelation& r, const MobilityEvent& event) {
       break;
   }
   row.ratio = event.length / row.length;
+  if (!(event.left_share >= least_moved)) row.percentile = no_value;
   return row;
+}
+
+std::vector<MobilityEvent> mobility_events(const std::vector<RunoutRun>& runs,
+                                           const std::vector<int>& some, bool confined) {
+  std::vector<MobilityEvent> events;
+  for (const int i : events_among(runs, some)) {
+    const MassReach& mass = runs[i].event.mass;
+    const Balance& balance = runs[i].balance;
+    const bool is_cut = balance.left + balance.moving > (1 - reach_share) * balance.released;
+    if (!runs[i].event.moved.of_rocks)
+      events.push_back({runs[i].member.info.run_id, mass.moved_volume, mass.height, mass.length,
+                        confined, mass.left_share, is_cut});
+  }
+  return events;
+}
+
+MobilityPercentiles percentiles_of(const std::vector<MobilityRelation>& relations,
+                                   const std::vector<MobilityEvent>& events) {
+  const auto among = [&](const char* id) {
+    std::vector<double> values;
+    for (const MobilityRelation& relation : relations)
+      for (const MobilityEvent& event : events)
+        if (const double p = compare(relation, event).percentile; relation.id == id && p >= 0)
+          values.push_back(p);
+    return median(std::move(values));
+  };
+  std::vector<double> left;
+  for (const MobilityEvent& event : events) left.push_back(event.left_share);
+  const bool at_least = std::any_of(events.begin(), events.end(),
+                                    [](const MobilityEvent& event) { return event.is_cut; });
+  return {median(std::move(left)), among(charted[0].id), among(charted[2].id), at_least};
+}
+
+std::string text(const MobilityPercentiles& p) {
+  if (std::isnan(p.left_share)) return "";
+  if (p.left_share < least_moved)
+    return "no percentile among published events: " + percent(p.left_share) +
+           " of the mass left its source";
+  const auto of = [](const char* group, double value) {
+    return std::string(group) + (std::isnan(value) ? " not known" : " " + text(value, 2));
+  };
+  return "percentile of L95 among published events of its volume: " + of("rockfalls", p.rockfalls) +
+         ", " + of("rock avalanches", p.rock_avalanches) +
+         (p.at_least ? "; at least: some of it left the terrain or still moved" : "");
+}
+
+std::string mobility_text(const std::vector<RunoutRun>& runs,
+                          const std::vector<MobilityRelation>& relations, bool confined) {
+  const auto line = [&](const std::string& of, const std::vector<int>& some) {
+    const std::string words =
+        text(percentiles_of(relations, mobility_events(runs, some, confined)));
+    return words.empty() ? "" : "\n" + of + words;
+  };
+  const std::vector<RunoutCase> cases = cases_of(runs);
+  if (cases.empty()) return line("", all_of(runs));
+  std::string lines;
+  for (const RunoutCase& one : cases) lines += line("case " + one.name + ": ", one.runs);
+  return lines;
 }
 
 Chart mobility_chart(const std::vector<MobilityRelation>& relations,

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "geometry/convex_outline.hpp"
 #include "geometry/plan2d.hpp"
 #include "record/motion.hpp"
 
@@ -111,6 +113,27 @@ std::vector<Vec3> streamline_of(const RunFile& run, const Vec3& top, int toe_blo
 
 }  // namespace
 
+namespace {
+
+// Centroids of all blocks at the start, in plan.
+std::vector<Vec2> source_outline(const RunFile& run) {
+  std::vector<Vec2> starts;
+  for (int block = 0; block < n_blocks(run); ++block)
+    starts.push_back(first_pose(run, block).position.head<2>());
+  return convex_outline(std::move(starts));
+}
+
+bool is_inside(const std::vector<Vec2>& outline, const Vec2& point) {
+  if (outline.size() < 3) return false;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 side = outline[(i + 1) % outline.size()] - outline[i], to = point - outline[i];
+    if (side.x() * to.y() - side.y() * to.x() < 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 double MassReach::angle() const { return angle_of(height, length); }
 
 MassReach mass_reach(const RunFile& run, const std::vector<WeightedValue>& displacement) {
@@ -123,16 +146,19 @@ MassReach mass_reach(const RunFile& run, const std::vector<WeightedValue>& displ
   for (int block = 0; block < n_blocks(run); ++block)
     if (has_moved(block)) raise_to_highest(run, block, top);
   std::vector<End> ends;
-  double all = 0;
+  double all = 0, left = 0;
   const std::vector<double> counted = counted_by(run);
+  const std::vector<Vec2> source = source_outline(run);
   for (int block = 0; block < n_blocks(run); ++block) {
     if (!has_moved(block)) continue;
     const Vec3 at = last_pose(run, block).position;
     ends.push_back({plan_distance(top, at), at.z(), counted[block]});
     all += counted[block];
     reach.moved_volume += run.blocks.volume[block];
+    if (!is_inside(source, at.head<2>())) left += counted[block];
   }
   if (ends.empty()) return {no_value, no_value, 0, no_value, no_value, 0, 0};
+  reach.left_share = left / std::accumulate(counted.begin(), counted.end(), 0.0);
   std::stable_sort(ends.begin(), ends.end(),
                    [](const End& a, const End& b) { return a.distance < b.distance; });
   double within = 0;

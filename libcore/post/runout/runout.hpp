@@ -83,7 +83,8 @@ inline constexpr double reach_share = 0.95;    ///< of the mass that moved
 inline constexpr double outlier_factor = 1.2;  ///< a block beyond so many times that reach is one
 
 /// Plan distance from the highest point of what moved within which `reach_share` of the mass that
-/// moved is at the end, by centroids. NaN where no block moved.
+/// moved is at the end, by centroids. NaN where no block moved. A block has left the source where
+/// it ends outside the convex outline of all blocks at the start, in plan, by centroids.
 struct MassReach {
   double height = 0;                   ///< H95, down to the block that is as far [m]
   double length = 0;                   ///< L95, straight, in plan [m]
@@ -92,6 +93,7 @@ struct MassReach {
   double toe_share = 0;                ///< of the farthest block [-]
   int n_outliers = 0;                  ///< blocks beyond outlier_factor times L95
   double moved_volume = 0;             ///< of the blocks that moved [m3]
+  double left_share = 0;               ///< of the released mass, that left its source [-]
   [[nodiscard]] double angle() const;  ///< atan(H95 / L95) [rad]
 };
 

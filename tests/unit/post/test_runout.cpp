@@ -111,6 +111,22 @@ TEST(MassReach, BeginsAtTheTopOfWhatMoved) {
   EXPECT_EQ(reach.n_beyond, 0);
 }
 
+// Four of nine cubes in a square end beyond its sides, two of these outside a corner: the others
+// have not left the source. A cube of twice the mass in the middle counts twice.
+TEST(MassReach, SaysHowMuchLeftTheSource) {
+  RunFile run;
+  std::vector<FrameBlock> start, end;
+  for (int block = 0; block < 9; ++block) {
+    const Vec3 at(10.0 * (block % 3), 10.0 * (block / 3), 100);
+    add_box(run, {2, 2, block == 4 ? 4.0 : 2.0}, at);
+    start.push_back(standing(at));
+    end.push_back(standing(at + Vec3(block % 3 == 2 || block == 4 ? 12 : 5, 0, -5)));
+  }
+  add_frame(run, 0, start);
+  add_frame(run, 1, end);
+  EXPECT_NEAR(mass_reach(run, displacements(run)).left_share, 5.0 / 10, 1e-12);
+}
+
 TEST(MassReach, OfAMassThatStaysIsNone) {
   RunFile run;
   add_box(run, {2, 2, 2}, {0, 0, 100});
