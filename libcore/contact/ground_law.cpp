@@ -39,7 +39,7 @@ double friction_on(const GroundClass& ground, double speed, double way) {
   if (scars(ground))
     return ground.friction +
            2 / pi * (ground.scar_friction - ground.friction) * std::atan(ground.scar_rate * way);
-  if (ground.weakening_speed > 0)
+  if (weakens(ground))
     return ground.weak_friction +
            (ground.friction - ground.weak_friction) / (1 + speed / ground.weakening_speed);
   return ground.friction;

@@ -39,13 +39,14 @@ inline constexpr std::array yielding_numbers = {
 /// Whether any of them is not as in firm ground.
 [[nodiscard]] bool yields(const GroundClass& ground);
 /// ... and whether the ground resists rolling or pivoting; has friction that follows the slid
-/// distance; that, or the speed; has drag; has a restitution that falls.
+/// distance; the speed; either of them; has drag; has a restitution that falls.
 [[nodiscard]] inline bool resists_rolling(const GroundClass& ground) {
   return ground.rolling > 0 || ground.bearing > 0 || ground.spinning > 0;
 }
 [[nodiscard]] inline bool scars(const GroundClass& ground) { return ground.scar_rate > 0; }
+[[nodiscard]] inline bool weakens(const GroundClass& ground) { return ground.weakening_speed > 0; }
 [[nodiscard]] inline bool varies_friction(const GroundClass& ground) {
-  return scars(ground) || ground.weakening_speed > 0;
+  return scars(ground) || weakens(ground);
 }
 [[nodiscard]] inline bool drags(const GroundClass& ground) {
   return ground.drag_per_time > 0 || ground.drag_per_way > 0;

@@ -25,6 +25,7 @@ GroundClass face_class(const Scene& scene, int block, int joint_set) {
   if (joint_set < 0 || static_cast<size_t>(joint_set) >= joints.of_set.size()) return made;
   const GroundClass& set = joints.of_set[joint_set];
   if (set.friction >= 0) made.friction = set.friction;
+  made.weak_friction = std::min(made.weak_friction, made.friction);
   made.cohesion = set.cohesion;
   made.tension = set.tension;
   return made;
@@ -44,8 +45,11 @@ auto bonds_of(Bonds& bonds, int block_a, int block_b) {
 }
 
 GroundClass smaller(const GroundClass& a, const GroundClass& b) {
-  return {std::min(a.friction, b.friction), std::min(a.cohesion, b.cohesion),
-          std::min(a.tension, b.tension), std::min(a.restitution, b.restitution)};
+  GroundClass made{std::min(a.friction, b.friction), std::min(a.cohesion, b.cohesion),
+                   std::min(a.tension, b.tension), std::min(a.restitution, b.restitution)};
+  made.weak_friction = std::min(a.weak_friction, b.weak_friction);
+  made.weakening_speed = std::min(a.weakening_speed, b.weakening_speed);
+  return made;
 }
 
 bool has_strength(const GroundClass& c) { return c.cohesion > 0 || c.tension > 0; }

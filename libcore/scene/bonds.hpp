@@ -21,7 +21,8 @@ struct BlockBond {
   Vec3 normal = Vec3::Zero();    ///< unit, from B to A, body axes of A
 };
 
-/// Class of the contacts of a manifold: of the two faces the smaller friction and restitution.
+/// Class of the contacts of a manifold: of the two faces the smaller friction and restitution;
+/// friction weakens with speed where that of both does.
 ///
 /// A face of a joint set has the friction and the strength of that set, any other face those of its
 /// block's rock.

@@ -10,7 +10,7 @@
 
 namespace talus {
 
-/// Friction and strength by joint set, friction and restitution by block.
+/// Friction and strength by joint set, friction, its weakening and restitution by block.
 struct JointClasses {  // clang-format off
   std::vector<GroundClass> of_block;  ///< of the rock; empty: Scene::joint for all       (n_blocks)
   std::vector<GroundClass> of_set;    ///< of a joint set's faces; friction < 0: that of the rock;

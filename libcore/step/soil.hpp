@@ -50,6 +50,11 @@ int add_turn(const Scene& scene, int b, const BlockNumbers& c, double h,
 void vary_friction(const GroundClass& ground, const Slide& slide, double speed, double time,
                    double& friction);
 
+/// The same between blocks at slip `speed`: there it follows the speed alone.
+inline void weaken_friction(const GroundClass& faces, double speed, double& friction) {
+  if (weakens(faces)) friction = friction_on(faces, speed, 0);
+}
+
 /// The block goes on sliding for a `time` at the mean speed `speed`, to the end of a substep of `h`
 /// from t. What sticks creeps: that is not slid.
 void slide_on(const Scene& scene, const GroundClass& ground, int b, double speed, double time,

@@ -192,7 +192,12 @@ CaseResult scarring_stop(const CaseSettings& settings, const GroundClass& ground
 /// Slab from rest on 35 degrees: relative error of its largest speed or of the way to its stop.
 CaseResult scarring_creep(const CaseSettings& settings, const GroundClass& ground);
 
-/// Slab at `speed` on the flat, friction 0.84 at rest and 0.11 at high speed: the same.
+/// Friction 0.84 at rest, 0.11 at high speed, halfway at 4 m/s; and the way on the flat from
+/// `speed` to rest, the integral of v / (g mu(v)) [m].
+[[nodiscard]] GroundClass weakening_ground();
+[[nodiscard]] double weakening_way(double speed);
+
+/// Slab at `speed` on such ground, flat: the same.
 CaseResult weakening_stop(const CaseSettings& settings, double speed);
 /// The same slab on 20 degrees: relative error of the speed above which it runs away, at which
 /// friction is tan(20 degrees), 7.497 m/s.

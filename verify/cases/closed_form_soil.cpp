@@ -49,14 +49,6 @@ double root_of(double low, double high, const std::function<double(double)>& f) 
   return (low + high) / 2;
 }
 
-GroundClass weakening_ground() {
-  GroundClass ground;
-  ground.friction = 0.84;
-  ground.weak_friction = 0.11;
-  ground.weakening_speed = 4;
-  return ground;
-}
-
 // Integral of scarring friction along the way slid.
 double scar_integral(const GroundClass& ground, double x) {
   const double k = ground.scar_rate;
@@ -65,6 +57,25 @@ double scar_integral(const GroundClass& ground, double x) {
 }
 
 }  // namespace
+
+GroundClass weakening_ground() {
+  GroundClass ground;
+  ground.friction = 0.84;
+  ground.weak_friction = 0.11;
+  ground.weakening_speed = 4;
+  return ground;
+}
+
+double weakening_way(double speed) {
+  double way = 0;  // by Simpson's rule
+  constexpr int n = 2000;
+  for (int i = 0; i <= n; ++i) {
+    const double v = speed * i / n;
+    const double mu = 0.11 + (0.84 - 0.11) / (1 + v / 4);
+    way += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * v / (g * mu) * speed / n / 3;
+  }
+  return way;
+}
 
 GroundClass scarring_ground(double least, double rate, double decay) {
   GroundClass ground;
@@ -242,13 +253,7 @@ CaseResult weakening_stop(const CaseSettings& settings, double speed) {
   // the run-out of the fastest is 190 m on earth
   Run run = slab_run(settings, flat, weakening_ground(), speed, speed > 10 ? 250 : 25);
   const double way = way_to_rest(flat, run, 30);
-  double expected = 0;  // integral of v / (g mu(v)), by Simpson's rule
-  constexpr int n = 2000;
-  for (int i = 0; i <= n; ++i) {
-    const double v = speed * i / n;
-    const double mu = 0.11 + (0.84 - 0.11) / (1 + v / 4);
-    expected += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * v / (g * mu) * speed / n / 3;
-  }
+  const double expected = weakening_way(speed);
   return run.finish(way, expected, std::abs(way / expected - 1));
 }
 

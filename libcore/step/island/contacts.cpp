@@ -259,6 +259,7 @@ struct ContactMaker {
     row.restitution = meeting.faces.restitution;
     set_motion(n, point.gap, arm, drift, pa.moved - pb.moved, pa.velocity - pb.velocity, row);
     row.arm_start = pa.start;
+    if (!bonded) weaken_friction(meeting.faces, row.slip_speed, row.friction);
 
     const double approach = approach_of(row, h);
     if (!inherit_from(m, point, memory, approach, c, row))

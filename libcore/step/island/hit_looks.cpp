@@ -260,9 +260,10 @@ void HitLooks::take_due(std::vector<PairLook>& due) const {
 
 namespace {
 
-// Speed across the normal of a contact's point on a body that moves so [m/s].
-double slip_of(const ImpactContact& contact, const PlacedMotion& body) {
-  const Vec3 u = velocity_of(body, contact.point - body.position);
+// Speed across the normal of a contact's point on bodies that move so; null: at rest [m/s].
+double slip_of(const ImpactContact& contact, const PlacedMotion& a, const PlacedMotion* b) {
+  Vec3 u = velocity_of(a, contact.point - a.position);
+  if (b != nullptr) u -= velocity_of(*b, contact.point - b->position);
   return (u - contact.normal.dot(u) * contact.normal).norm();
 }
 
@@ -303,8 +304,8 @@ void HitLooks::find_touching_ground(size_t p, double time) const {
     touching.fall = fall_on(ground, c.mass);
     touching.arm = arm_on(scene, ground, b);
     touching.dent = dent_on(scene, ground, b);
-    vary_friction(ground, slide_of(state, b, free.t + time), slip_of(touching, place(k, m)), 0,
-                  touching.friction);
+    vary_friction(ground, slide_of(state, b, free.t + time),
+                  slip_of(touching, place(k, m), nullptr), 0, touching.friction);
   }
 }
 
@@ -335,8 +336,11 @@ void HitLooks::find_touching_bodies(size_t p, double time) const {
       pair.b < 0 ? fixed_class(scene, fixed_of(scene, of.block_b)) : pair_class(scene, m);
   for (int i = m.point_begin; i < m.point_end; ++i) {
     const PairPoint& point = hits.points[i];
-    add_touching(p, m.normal, point.point_b + point.gap / 2 * m.normal, point.gap, point.key,
-                 faces);
+    ImpactContact& touching = add_touching(p, m.normal, point.point_b + point.gap / 2 * m.normal,
+                                           point.gap, point.key, faces);
+    const PlacedMotion* b =
+        pair.b < 0 ? nullptr : &member_at(static_cast<size_t>(pair.b), time).placed;
+    weaken_friction(faces, slip_of(touching, member_at(ka, time).placed, b), touching.friction);
   }
 }
 

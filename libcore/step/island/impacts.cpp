@@ -94,7 +94,8 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
     const int settlings = round == 0 && free.t == 0 ? most_rounds_in_substep : 0;
     for (int i = 0; i < settlings && stiffen_to_load(members, free.h, system); ++i)
       if (!solve_on(true)) return;
-    if (round == 0 && renew_friction(scene, state, members, free, hits, system) && !solve_on(true))
+    if (round == 0 && renew_friction(scene, state, search, members, free, hits, system) &&
+        !solve_on(true))
       return;
     const StageTimer timer(clock, IslandStage::find_hits);
     if (close_waiting(members, free, system, hits) == 0) return;

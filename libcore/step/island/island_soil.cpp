@@ -9,9 +9,9 @@ namespace {
 
 using std::size_t;
 
-bool any_varies(const Scene& scene) {
-  const std::vector<GroundClass>& classes = scene.ground.classes;
-  return std::any_of(classes.begin(), classes.end(), varies_friction);
+template <class Is>
+bool any_class(const std::vector<GroundClass>& classes, Is&& is) {
+  return std::any_of(classes.begin(), classes.end(), is);
 }
 
 double across(const Vec3& normal, const Vec3& velocity) {
@@ -75,24 +75,38 @@ bool is_pressed(const IslandSystem& system, size_t k) {
   return false;
 }
 
-bool renew_friction(const Scene& scene, const State& state, const IslandMembers& members,
-                    const FreeMotions& free, const SubstepHits& hits, IslandSystem& system) {
-  if (!any_varies(scene)) return false;
+bool renew_friction(const Scene& scene, const State& state, const PairSearch& search,
+                    const IslandMembers& members, const FreeMotions& free, const SubstepHits& hits,
+                    IslandSystem& system) {
   bool any = false;
-  for (size_t k = 0; k < members.size(); ++k) {
-    if (system.ground_pair[k] < 0) continue;
-    for (const size_t r : contacts_of(system, static_cast<size_t>(system.ground_pair[k]))) {
-      const GroundClass& ground = class_of(scene, system.contacts[r]);
-      if (system.contacts[r].waits || !varies_friction(ground) ||
-          row_of(system, r).state() != ContactState::slip)
-        continue;
-      double friction = 0;
-      vary_friction(ground, slide_of(state, members.blocks[k], free.t),
-                    mean_slip(free, hits, system, r), pressed_time(free, hits, k), friction);
-      row_of(system, r).set_friction(friction);
-      note_change(system, r);
-      any = true;
+  const auto slips = [&](size_t r) {
+    return !system.contacts[r].waits && row_of(system, r).state() == ContactState::slip;
+  };
+  const auto renew = [&](size_t r, double friction) {
+    row_of(system, r).set_friction(friction);
+    note_change(system, r);
+    any = true;
+  };
+  if (any_class(scene.ground.classes, varies_friction))
+    for (size_t k = 0; k < members.size(); ++k) {
+      if (system.ground_pair[k] < 0) continue;
+      for (const size_t r : contacts_of(system, static_cast<size_t>(system.ground_pair[k]))) {
+        const GroundClass& ground = class_of(scene, system.contacts[r]);
+        if (!slips(r) || !varies_friction(ground)) continue;
+        double friction = 0;
+        vary_friction(ground, slide_of(state, members.blocks[k], free.t),
+                      mean_slip(free, hits, system, r), pressed_time(free, hits, k), friction);
+        renew(r, friction);
+      }
     }
+  if (!weakens(scene.joint) && !any_class(scene.joints.of_block, weakens)) return any;
+  for (size_t p = 0; p < system.island.pairs.size(); ++p) {
+    if (system.pair_manifold[p] < 0 || system.island.pairs[p].b < 0) continue;
+    const GroundClass faces = pair_class(scene, search.pairs.manifolds[system.pair_manifold[p]]);
+    if (!weakens(faces)) continue;
+    for (const size_t r : contacts_of(system, p))
+      if (slips(r) && system.contacts[r].bond < 0)
+        renew(r, friction_on(faces, mean_slip(free, hits, system, r), 0));
   }
   return any;
 }

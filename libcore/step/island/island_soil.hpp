@@ -1,6 +1,6 @@
 // libcore/step/island/island_soil.hpp
-// Where ground that gives way (step/soil.hpp) comes in over a substep of an island. Nothing is done
-// where no class of ground asks for it.
+// Where ground that gives way (step/soil.hpp), and friction between blocks that follows the speed,
+// come in over a substep of an island. Nothing is done where no class asks for it.
 #pragma once
 
 #include <span>
@@ -12,8 +12,9 @@ namespace talus {
 
 /// Stage 7: friction of the contacts that slip, over the substep as it was solved; whether there
 /// is any that varies.
-bool renew_friction(const Scene& scene, const State& state, const IslandMembers& members,
-                    const FreeMotions& free, const SubstepHits& hits, IslandSystem& system);
+bool renew_friction(const Scene& scene, const State& state, const PairSearch& search,
+                    const IslandMembers& members, const FreeMotions& free, const SubstepHits& hits,
+                    IslandSystem& system);
 
 /// Stage 9: work of couples, and the ways that members have slid.
 void end_soil(const Scene& scene, const IslandMembers& members, const FreeMotions& free,

@@ -324,6 +324,7 @@ struct MassMaker {
     const int fixed = on_fixed ? fixed_of(scene, m.block_b) : -1;
     const Yielding* yielding = on_fixed ? giving_way(scene, fixed, m.normal) : nullptr;
     open_pair(static_cast<int>(ka), on_fixed ? -1 : members.place[m.block_b]);
+    const GroundClass of = on_fixed ? fixed_class(scene, fixed) : pair_class(scene, m);
     Faces faces;
     bool is_first = true;
     for (int p = m.point_begin; p < m.point_end; ++p) {
@@ -332,10 +333,11 @@ struct MassMaker {
       if (!set_motion(m.normal, point, a, b, motion)) continue;
       if (is_first) {
         is_first = false;
-        faces = faces_of(m, fixed);
+        faces = faces_of(of, m, fixed);
         match_memories(m, name_of_body(scene, m.block_b), search.pairs.points,
                        state.memory[m.block_a], out.making.memories);
       }
+      weaken_friction(of, slip_of(m.normal, motion), faces.friction);
       if (yielding != nullptr) yield_to(*yielding, m, a, motion, faces);
       MassContact contact;
       contact.key = point.key;
@@ -348,8 +350,11 @@ struct MassMaker {
     (void)close_pair();
   }
 
-  [[nodiscard]] Faces faces_of(const PairManifold& m, int fixed) const {
-    const GroundClass& of = fixed >= 0 ? fixed_class(scene, fixed) : pair_class(scene, m);
+  static double slip_of(const Vec3& normal, const PointMotion& motion) {
+    return (motion.start - normal.dot(motion.start) * normal).norm();
+  }
+
+  [[nodiscard]] Faces faces_of(const GroundClass& of, const PairManifold& m, int fixed) const {
     Faces faces;
     faces.friction = of.friction;
     faces.restitution = of.restitution;

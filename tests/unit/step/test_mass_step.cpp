@@ -17,6 +17,7 @@
 #include "step/flight.hpp"
 #include "step/step.hpp"
 #include "verify/cases/cases.hpp"
+#include "verify/cases/closed_form.hpp"
 #include "verify/study/ensemble.hpp"
 
 namespace {
@@ -188,6 +189,28 @@ TEST(MassStep, SlidesAsOneBlockDoes) {
     EXPECT_NEAR(place.way, a * 2 * 2 / 2, 1e-5 * a * 2) << dt;
     EXPECT_LT(std::abs(course.imbalance), 1e-3) << dt;
   }
+}
+
+// Tiles slide on a slab that the ground holds, with friction that weakens between blocks.
+TEST(MassStep, FrictionBetweenBlocksWeakensWithSpeed) {
+  Lattice tiles;
+  tiles.along = tiles.across = 6;
+  tiles.high = 1;
+  tiles.thick = 0.2;
+  tiles.above = 1;
+  tiles.velocity = Vec3(5, 0, 0);
+  const SlopeFrame flat = slope_frame(0, 0);
+  std::vector<Body> bodies = cubes_of(tiles, flat, Vec3::Zero());
+  bodies.push_back(body_of(box_in(flat, Vec3::Zero(), Vec3(-1, -1, 0), Vec3(12, 7, 1))));
+  Scene scene = scene_of(plane_trn(flat, 4, 400), ground_of(60, 0.3), bodies, with_masses(true));
+  scene.joint = weakening_ground();
+  const Course course = run(scene, 2);
+  EXPECT_GT(course.steps_in_mass, 100);
+  EXPECT_LT(std::abs(course.imbalance), 1e-3);
+  for (std::size_t b = 0; b < 36; ++b)
+    EXPECT_NEAR(
+        (course.state.motion[b].pose.position - scene.blocks.rest[b].position).dot(flat.dip),
+        weakening_way(5), 5e-3 * weakening_way(5));
 }
 
 // Blocks that fall flat side by side rebound with the restitution, each alone.

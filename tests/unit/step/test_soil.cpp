@@ -190,6 +190,27 @@ TEST_P(Soil, FrictionWeakensWithSpeed) {
   EXPECT_LT(weakening_runaway(settings).error, 1e-3);
 }
 
+// A slab slides on a long one that the ground holds, with friction that weakens between the two.
+TEST_P(Soil, FrictionBetweenBlocksWeakensWithSpeed) {
+  for (const double speed : {2.0, 5.0}) {
+    const SlopeFrame flat = slope_frame(0, 0);
+    const auto slab = [&](const Vec3& low, const Vec3& high, double v) {
+      return body_of(box_in(flat, Vec3::Zero(), low, high), v * flat.dip);
+    };
+    Scene scene = scene_of(plane_trn(flat, 1, 20), ground_of(60),
+                           {slab({-3, -3, 0}, {6, 3, 1}, 0), slab({-1, -1, 1}, {1, 1, 1.2}, speed)},
+                           settings);
+    scene.joint = weakening_ground();
+    cases::Run run(std::move(scene), {});
+    const Vec3 from = run.motion(1).pose.position;
+    run.advance_to(2);
+    EXPECT_LT(run.motion(1).velocity.norm(), 1e-3);
+    EXPECT_LT((run.motion(0).pose.position - run.scene.blocks.rest[0].position).norm(), 1e-3);
+    EXPECT_NEAR((run.motion(1).pose.position - from).dot(flat.dip), weakening_way(speed),
+                2e-3 * weakening_way(speed));
+  }
+}
+
 // --- drag --------------------------------------------------------------------------------------
 
 TEST_P(Soil, DragSlowsASlide) {
