@@ -117,9 +117,7 @@ bool draws_for_all(const MadeWith& settings) {
   const auto is_set = [&settings](const std::string& name) {
     return number_of(settings, name) != 0;
   };
-  if (is_set("solver.friction_scatter_deg") || is_set("solver.cor_scatter") ||
-      is_set("solver.rolling_scatter"))
-    return true;
+  if (is_set("solver.friction_scatter_deg") || is_set("solver.cor_scatter")) return true;
   if (is_set("uncertainty.terrain_rmse_m") && sample_of(settings) != 0) return true;
   const auto is_true = [&settings](const std::string& name) {
     const auto at = settings.values.find(name);

@@ -36,7 +36,6 @@ bool seed_draws(const Site& site) {
   const SolverSettings& solver = site.solver;
   return site.uncertainty.sample != 0 || solver.start_jitter_m_s != 0 ||
          solver.friction_scatter_deg != 0 || solver.cor_scatter != 0 ||
-         solver.rolling_scatter != 0 ||
          std::any_of(site.forests.begin(), site.forests.end(), [](const ForestSettings& forest) {
            return forest.active && forest.new_stand_per_run;
          });
@@ -63,6 +62,8 @@ std::vector<std::string> warn_of_settings(InputLog& log, const Site& site) {
     if (!std::isnan(fence.max_deflection_m) && std::isnan(fence.capacity_kj))
       warn("fence." + fence.name +
            ".max_deflection_m does nothing without capacity_kj: the fence is rigid");
+  if (is_paper && solver.friction == "weakening")
+    warn("friction weakens with law talus alone: law paper takes that of the sections");
   for (const GroundSettings& ground : site.grounds)
     if (is_paper && yields(ground_class(ground)))
       warn("ground." + ground.name +
@@ -73,8 +74,8 @@ std::vector<std::string> warn_of_settings(InputLog& log, const Site& site) {
          " of [uncertainty] not drawn: no --sample is given, so the values of the site file hold");
   if (solver.seed != SolverSettings{}.seed && !seed_draws(site))
     warn(
-        "the seed draws nothing: start_jitter_m_s, friction_scatter_deg, cor_scatter and "
-        "rolling_scatter are 0, so other seeds give the same run");
+        "the seed draws nothing: start_jitter_m_s, friction_scatter_deg and cor_scatter are 0, so "
+        "other seeds give the same run");
   for (const UnusualValue& value : unusual_values(site)) {
     warnings.push_back(value.key + " " + value.finding);
     log.warn(where_of(site, value.key).text() + ": " + warnings.back());

@@ -11,6 +11,7 @@
 #include "scene/make_scene.hpp"
 #include "scene/stems.hpp"
 #include "setup/crushing.hpp"
+#include "site/soils.hpp"
 
 namespace talus {
 namespace {
@@ -33,12 +34,33 @@ void set_yielding(const GroundSettings& drawn, GroundClass& made) {
   made.drag_per_way = drawn.drag_1_m;
 }
 
+bool weakens(const SolverSettings& solver) {
+  return solver.friction == "weakening" && solver.law == "talus";
+}
+
+// Friction at rest stays that of the sections where it is smaller: what is said to fail must not be
+// held.
+double weakened(double friction) { return std::min(friction, weakening().at_rest); }
+
+void weaken(GroundSettings& ground) {
+  if (!std::isnan(ground.friction_weak_deg)) return;
+  const double at_rest = weakened(std::tan(ground.friction_deg * degree));
+  ground.friction_deg = std::atan(at_rest) / degree;
+  ground.friction_weak_deg = std::atan(std::min(at_rest, weakening().fast)) / degree;
+  ground.weakening_speed_m_s = weakening().speed_m_s;
+  ground.scar_friction = ground.scar_rate_1_m = ground.scar_decay_1_s = not_given;
+}
+
 GroundClass rock_class(const MaterialSettings& material, const SolverSettings& solver) {
   GroundClass made;
   made.friction = std::tan(material.friction_deg * degree);
   made.cohesion = material.cohesion_pa;
   made.tension = material.tension_pa;
   made.restitution = std::isnan(solver.cor) ? material.cor : solver.cor;
+  if (!weakens(solver)) return made;
+  made.friction = weakened(made.friction);
+  made.weak_friction = std::min(made.friction, weakening().fast);
+  made.weakening_speed = weakening().speed_m_s;
   return made;
 }
 
@@ -61,6 +83,7 @@ JointClasses joint_classes(const Site& site, const BlockSet& blocks,
     const JointSettings* joints = joints_of(site, set);
     if (joints == nullptr) continue;
     if (!std::isnan(joints->friction_deg)) made.friction = std::tan(joints->friction_deg * degree);
+    if (weakens(site.solver)) made.friction = weakened(made.friction);
     made.cohesion = joints->cohesion_pa;
     made.tension = joints->tension_pa;
   }
@@ -130,7 +153,7 @@ Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
 std::vector<GroundSettings> drawn_grounds(const Site& site) {
   const SolverSettings& solver = site.solver;
   const auto seed = static_cast<std::uint64_t>(solver.seed);
-  Random scatter(seed, "scatter of ground"), rolling_scatter(seed, "scatter of rolling");
+  Random scatter(seed, "scatter of ground");
   std::vector<GroundSettings> drawn = site.grounds;
   for (GroundSettings& ground : drawn) {
     const double friction_shift = solver.friction_scatter_deg * scatter.normal();
@@ -138,10 +161,7 @@ std::vector<GroundSettings> drawn_grounds(const Site& site) {
     const double cor = std::isnan(solver.cor) ? ground.cor : solver.cor;
     ground.friction_deg = std::clamp(ground.friction_deg + friction_shift, 0.0, 89.0);
     ground.cor = std::clamp(cor + cor_shift, 0.0, 1.0);
-    const double factor = std::exp(solver.rolling_scatter * rolling_scatter.normal());
-    ground.rolling_resistance *= factor;
-    ground.spin_resistance *= factor;
-    ground.bearing_kpa /= factor * factor;
+    if (weakens(solver)) weaken(ground);
   }
   return drawn;
 }

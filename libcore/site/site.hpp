@@ -131,7 +131,8 @@ struct GroundSettings {
 /// [solver]
 struct SolverSettings {
   std::string law = "talus";
-  std::string blocks = "auto";  ///< how they move: together, alone; see moves_alone()
+  std::string blocks = "auto";     ///< how they move: together, alone; see moves_alone()
+  std::string friction = "given";  ///< or weakening, see weakening() in soils.hpp
   double duration_s = 60;
   double time_step_s = not_given;  ///< not given: time_step() says
   double gravity_m_s2 = 9.80665;
@@ -142,7 +143,7 @@ struct SolverSettings {
   double accuracy = 0.005;        ///< of the way of what moves: see Settings
   std::int64_t seed = 1, n_runs = 1;
   double start_jitter_m_s = 0;
-  double friction_scatter_deg = 0, cor_scatter = 0, rolling_scatter = 0;
+  double friction_scatter_deg = 0, cor_scatter = 0;
   double max_penetration_m = not_given;
   double max_energy_gain = 0.01;       ///< share of the fall energy; more makes the run fail
   double max_lost_share = 0.01;        ///< of the mass; more makes the run fail

@@ -147,6 +147,7 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
   static const std::vector<SiteKey<S>> table = {
       {"law", &S::law, "contact law", any, "talus|paper"},
       {"blocks", &S::blocks, "how blocks move: together, or each alone among fences and trees that nothing has hit; auto: alone where the site has [rockfall.*]", any, "auto|together|alone"},
+      {"friction", &S::friction, "of all ground and between all blocks: given, by its sections; weakening, falling with the speed of slip, see Weakening friction", any, "given|weakening"},
       {"duration_s", &S::duration_s, "time simulated", positive},
       {"time_step_s", &S::time_step_s, "time step, which law talus cuts where it must; not given: 0.005, law paper 0.0001", {0, 1, true, false}},
       {"accuracy", &S::accuracy, "law talus: estimated error of a moving block's displacement, as a share of it; a step whose estimate is larger is cut", {0, 1, true, false}},
@@ -160,7 +161,6 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"start_jitter_m_s", &S::start_jitter_m_s, "random velocity at the start", {0, 1000}},
       {"friction_scatter_deg", &S::friction_scatter_deg, "standard deviation of the ground's friction between runs", {0, 45}},
       {"cor_scatter", &S::cor_scatter, "standard deviation of the ground's restitution between runs", share},
-      {"rolling_scatter", &S::rolling_scatter, "standard deviation of the logarithm of the ground's rolling resistance between runs", {0, 2}},
       {"max_penetration_m", &S::max_penetration_m, "deeper makes the run fail", positive},
       {"max_energy_gain", &S::max_energy_gain, "share of the fall energy; more makes the run fail", not_negative},
       {"max_lost_share", &S::max_lost_share, "share of the mass that may leave the terrain; more makes the run fail. Of [rockfall.*] 1 when not given", share},

@@ -122,6 +122,13 @@ bool Soil::is_tested() const { return mark == tested; }
 
 std::span<const Soil> soils() { return table; }
 
+const Weakening& weakening() {
+  static constexpr Weakening fitted = {
+      0.84, 0.11, 4, untested,
+      "Lucas, Mangeney and Ampuero 2014 (Nature Communications 5, 3417), back-analysed landslides"};
+  return fitted;
+}
+
 const Soil* soil_named(const std::string& name) {
   const auto found =
       std::find_if(table.begin(), table.end(), [&](const Soil& soil) { return name == soil.name; });

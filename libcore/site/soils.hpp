@@ -27,6 +27,17 @@ struct Soil {
 /// The soil of that name; nullptr: there is none.
 [[nodiscard]] const Soil* soil_named(const std::string& name);
 
+/// Friction that falls with the speed of slip, of [solver] friction = "weakening": mu(v) = fast +
+/// (at_rest - fast) / (1 + v / speed), on all ground and between all blocks. Sections that give
+/// less friction at rest keep it.
+struct Weakening {
+  double at_rest, fast;  ///< tan(phi) [-]
+  double speed_m_s;      ///< at which half of the drop is reached
+  const char* mark;      ///< as of Soil
+  const char* source;
+};
+[[nodiscard]] const Weakening& weakening();
+
 /// Fills the keys of each ground that its soil sets and that are not given, and notes in
 /// Site::sources that they are from there. A key that excludes one that is given is left out.
 void fill_from_soils(Site& site);

@@ -469,15 +469,12 @@ void check_quantity(const Site& site, const QuantitySettings& q) {
 
 // The short form of the same.
 void check_scatter(const Site& site, const QuantitySettings& q) {
-  const auto check = [&](const char* key, double scatter, const std::string& scatter_key,
-                         const char* is = " is a normal that is added") {
+  const auto check = [&](const char* key, double scatter, const std::string& scatter_key) {
     for (const std::string& path : q.keys)
       if (scatter > 0 && group_of(path) == "ground" && last_word(path) == key)
         refuse(site, q, "keys", path + " is drawn here, and scatters by [solver] " + scatter_key,
-               "take one of them out; " + scatter_key + is);
+               "take one of them out; " + scatter_key + " is a normal that is added");
   };
-  for (const char* key : {"rolling_resistance", "spin_resistance", "bearing_kpa"})
-    check(key, site.solver.rolling_scatter, "rolling_scatter", " is a lognormal factor");
   check("friction_deg", site.solver.friction_scatter_deg, "friction_scatter_deg");
   check("cor", site.solver.cor_scatter, "cor_scatter");
 }

@@ -361,6 +361,8 @@ void warn_of_soils(Tool& tool, const Site& site, const BlockSet& blocks) {
   double heaviest_t = 0;
   for (int b = 0; b < n_blocks(blocks); ++b)
     heaviest_t = std::max(heaviest_t, blocks.volume[b] * density_of(b) / 1000);
+  if (site.solver.friction == "weakening")
+    tool.warn(std::string("solver.friction: weakening has no field test: ") + weakening().source);
   for (const GroundSettings& ground : site.grounds) {
     const Soil* soil = soil_named(ground.soil);
     if (soil == nullptr) continue;

@@ -212,13 +212,16 @@ void add_result(const ReportData& data, Json& out) {
 std::string friction_of(const ReportData& data) {
   const Texts& texts = data.texts;
   std::map<std::string, std::pair<double, double>> grounds;  // least and most friction [deg]
-  for (const RunFile& run : data.runs)
-    for (const GroundSettings& ground : parse_site(run.info.config, run.info.run_id).grounds) {
+  for (const RunFile& run : data.runs) {
+    const Site site = parse_site(run.info.config, run.info.run_id);
+    if (site.solver.friction == "weakening") continue;  // has no one tangent
+    for (const GroundSettings& ground : site.grounds) {
       auto& [low, high] =
           grounds.try_emplace(ground.name, ground.friction_deg, ground.friction_deg).first->second;
       low = std::min(low, ground.friction_deg);
       high = std::max(high, ground.friction_deg);
     }
+  }
   const auto tangent = [&](double degrees) { return shown(texts, std::tan(degrees * degree)); };
   const auto range = [&texts](const std::string& low, const std::string& high) {
     return texts.of("words.range", {{"low", low}, {"high", high}});
@@ -494,10 +497,17 @@ void add_assumptions(const ReportData& data, Json& out) {
   out["soils"] = out["placed"] = Json::array();
   for (const GroundSettings& ground : data.site.grounds)
     if (const Soil* soil = soil_named(ground.soil))
-      out["soils"].push_back({{"ground", ground.name},
+      out["soils"].push_back({{"key", "ground." + ground.name},
                               {"soil", soil->name},
                               {"mark", soil->mark},
                               {"source", soil->source}});
+  if (std::any_of(data.runs.begin(), data.runs.end(), [](const RunFile& run) {
+        return parse_site(run.info.config, run.info.run_id).solver.friction == "weakening";
+      }))
+    out["soils"].push_back({{"key", "solver.friction"},
+                            {"soil", "weakening"},
+                            {"mark", weakening().mark},
+                            {"source", weakening().source}});
   const auto say_shape = [&](const BodySettings& body) {
     out["placed"].push_back({{"blocks", body.name}, {"shape", shape_of(data.texts, body)}});
   };
