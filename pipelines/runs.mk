@@ -3,12 +3,13 @@
 #   RUNS, SEED  how many seeds, from which one ([solver] n_runs and seed); RUNS=auto, RUNS_MOST
 #   CASES       names of variants, CASE_<name> the options of each, WEIGHTS what they count, e.g.
 #               CASES = low high, CASE_low = --set ground.slope.friction_deg=28,
-#               WEIGHTS = low=1 high=3
+#               WEIGHTS = low=1 high=3; CASES = constant weakening: the two bounds of a slide
 #   WITHOUT     yes: also the runs without fences; when not given: where a fence of the site stands
 #   SHARD, SHARDS  which of the runs, of several makes that share them (slurm.mk)
 # out: $(OUT)/runs/run_SEED.h5, of cases runs/CASE/run_SEED.h5, runs/ensemble.json; without/ alike
 # ensemble.json changes when a run does. Results depend on it, not on the times of runs.
 WITHOUT ?= $(SITE_FENCES_STAND)
+CASE_weakening ?= --set solver.friction=weakening
 kinds := runs $(if $(filter yes,$(WITHOUT)),without)
 ensembles := $(kinds:%=$(OUT)/%/ensemble.json)
 

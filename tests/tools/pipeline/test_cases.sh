@@ -30,6 +30,18 @@ assert '2 of 2' in page and '0 of 2' in page and 'mass that moved more than 1 m'
 assert page.count('the fence is a rigid wall') >= 2, page.count('the fence is a rigid wall')
 PY
 
+# The two bounds of a slide: one word, a percentile of each.
+made slope OUT=bounds RUNS=1 WITHOUT=no CASES='constant weakening' runout
+prints "case weakening: 1 of 1 run moved"
+python3 - <<'PY' || fail "the bounds of friction are not those"
+import json
+cases = {c['case']: c for c in json.load(open('slope/bounds/runout.json'))['cases']}
+assert list(cases) == ['constant', 'weakening'], list(cases)
+assert all(set(c['percentiles']) == {'share_left_source', 'rockfalls', 'rock_avalanches', 'at_least'} for c in cases.values())
+far = [c['spread_over_runs']['L95_m']['max'] for c in cases.values()]
+assert far[1] > 1.05 * far[0], far
+PY
+
 # Maps of each case stand side by side, in one window; pooled ones are folded and say what they are.
 python3 - <<'PY' || fail "maps of the cases are not side by side"
 page = open('slope/out/report.html').read()
