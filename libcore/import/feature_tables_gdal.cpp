@@ -63,7 +63,8 @@ std::vector<FeatureTable> read_feature_tables(const std::string& path,
 }
 
 std::string digest_of_features(const std::string& path, const std::string& layer,
-                               const std::string& where) {
+                               const std::string& where,
+                               const std::vector<std::string>& attributes) {
   const VectorDataset source = open_vectors(parse_source_path(path));
   OGRLayer* const open = source.dataset->GetLayerByName(layer.c_str());
   if (open == nullptr) throw InputError({path}, "has no layer " + layer);
@@ -78,6 +79,11 @@ std::string digest_of_features(const std::string& path, const std::string& layer
     std::vector<unsigned char> bytes(geometry->WkbSize());
     geometry->exportToWkb(wkbNDR, bytes.data(), wkbVariantIso);
     hash.add(bytes.data(), bytes.size());
+    for (const std::string& name : attributes) {
+      const int field = feature->GetFieldIndex(name.c_str());
+      const std::string value = field < 0 ? "" : value_of(*feature, field);
+      hash.add(value.c_str(), value.size() + 1);
+    }
   }
   return hash.hex();
 }

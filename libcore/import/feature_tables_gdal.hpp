@@ -28,10 +28,12 @@ struct FeatureTable {
 [[nodiscard]] std::vector<FeatureTable> read_feature_tables(const std::string& path,
                                                             const std::vector<std::string>& layers);
 
-/// Digest of the coordinate system and the geometries of the features that `where` lets through, in
-/// order; other attributes and the bytes of the file do not count. Throws InputError.
+/// Digest of the coordinate system, the geometries and `attributes` of the features that `where`
+/// lets through, in order; other attributes and the bytes of the file do not count. Throws
+/// InputError.
 [[nodiscard]] std::string digest_of_features(const std::string& path, const std::string& layer,
-                                             const std::string& where);
+                                             const std::string& where,
+                                             const std::vector<std::string>& attributes);
 
 /// WKT of what a raster, or the first layer of a vector source, is in; empty where it says none.
 /// Throws InputError when the source cannot be opened.

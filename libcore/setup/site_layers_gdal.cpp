@@ -21,12 +21,6 @@ std::vector<std::string> keys_of(const SiteLayer& layer) {
   return keys;
 }
 
-std::vector<std::string> attributes_of(const SiteLayer& layer) {
-  std::vector<std::string> names;
-  for (const KeyDescription& attribute : layer.attributes) names.push_back(attribute.key);
-  return names;
-}
-
 // A field may be anybody's own; one that is nearly a key is a mistake.
 void check_field(const std::string& field, std::vector<std::string> keys,
                  const std::vector<std::string>& attributes, const std::string& place) {
@@ -72,7 +66,7 @@ struct Reader {
   const Site& site;
   const SiteLayer& layer;
   const FeatureTable& table;
-  std::vector<std::string> keys = keys_of(layer), attributes = attributes_of(layer);
+  std::vector<std::string> keys = keys_of(layer), attributes = attributes_of(layer.name);
   std::vector<LayerSection> sections = {};
 
   std::string place_of(const FeatureTable::Row& row) const {
@@ -84,7 +78,8 @@ struct Reader {
       if (section.name == name) return section;
     LayerSection section{layer.section, name, place, {}};
     const std::string filter = name.empty() ? "" : "name = '" + name + "'";
-    section.digest = digest_of_features(resolved(site, site.info.layers), layer.name, filter);
+    section.digest =
+        digest_of_features(resolved(site, site.info.layers), layer.name, filter, attributes);
     section.values.push_back({layer.prefix + "file", site.info.layers + "|layername=" + layer.name +
                                                          (filter.empty() ? "" : "|subset=") +
                                                          filter});

@@ -10,6 +10,7 @@
 #include "io/crs_gdal.hpp"
 #include "io/data_files_gdal.hpp"
 #include "setup/vector_inputs_gdal.hpp"
+#include "site/site_layers.hpp"
 
 namespace talus {
 namespace {
@@ -50,7 +51,7 @@ std::string state_of(const Site& site, const std::string& file) {
   const std::string path = resolved(site, file);
   if (!names_layers_file(site, file)) return digest_of_data(path);
   const SourcePath named = parse_source_path(path);
-  return digest_of_features(named.source, named.layer, named.subset);
+  return digest_of_features(named.source, named.layer, named.subset, attributes_of(named.layer));
 }
 
 RequestedLayer requested(const Site& site, const SitePlace& place) {

@@ -65,6 +65,14 @@ const std::vector<SiteLayer>& site_layers() {
   return layers;
 }
 
+std::vector<std::string> attributes_of(const std::string& layer) {
+  std::vector<std::string> names;
+  for (const SiteLayer& known : site_layers())
+    if (known.name == layer)
+      for (const KeyDescription& attribute : known.attributes) names.push_back(attribute.key);
+  return names;
+}
+
 bool has_names(const SiteLayer& layer) { return layer.section != "source"; }
 
 }  // namespace talus

@@ -24,6 +24,9 @@ struct SiteLayer {
 };
 [[nodiscard]] const std::vector<SiteLayer>& site_layers();
 
+/// Names of what each feature of a layer says of itself; none of most layers.
+[[nodiscard]] std::vector<std::string> attributes_of(const std::string& layer);
+
 /// Whether each feature has a name, which stands for [fence.NAME]; the features of [source] do not.
 [[nodiscard]] bool has_names(const SiteLayer& layer);
 

@@ -14,6 +14,7 @@
 #include "import/feature_tables_gdal.hpp"
 #include "io/data_files_gdal.hpp"
 #include "setup/site_files.hpp"
+#include "site/site_layers.hpp"
 #include "site/stages.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/object_files.hpp"
@@ -84,7 +85,8 @@ std::string digests_of(const std::string& path, FileDigests& digests) {
 // no other source. A GIS also changes bytes of the file when it only looks at it.
 std::string digest_of_layer(const Site& site, const EffectiveValue& value) {
   const SourcePath named = parse_source_path(resolved(site, unquoted(value.value)));
-  return " " + digest_of_features(named.source, named.layer, named.subset);
+  return " " +
+         digest_of_features(named.source, named.layer, named.subset, attributes_of(named.layer));
 }
 
 // What a stage reads, a line a value; files by their content.
