@@ -66,7 +66,9 @@ Json points_json(const std::vector<Field<Row>>& fields, const std::vector<Row>& 
   return list;
 }
 
-Json by_chance(double error) { return {number_or_null(0.5 - error), number_or_null(0.5 + error)}; }
+Json interval_json(const Interval& interval) {
+  return {number_or_null(interval.low), number_or_null(interval.high)};
+}
 
 Json boulders_json(const BoulderScore& score, const Vec3& origin) {
   Json levels = Json::array(), curve = Json::array();
@@ -88,7 +90,7 @@ Json boulders_json(const BoulderScore& score, const Vec3& origin) {
           {"noise_high_m", number_or_null(score.noise_high)},
           {"told_apart", score.is_told_apart()},
           {"mean_percentile", number_or_null(score.mean_percentile)},
-          {"by_chance", by_chance(score.mean_share_error)},
+          {"by_chance", interval_json(score.by_chance)},
           {"in_reach", json_of(score.reached)},
           {"computed_runout_m", curve},
           {"points", points_json(boulder_fields(), score.rows, origin)}};
@@ -143,7 +145,7 @@ Json event_json(const ObservedEvent& event, const EventScore& score, const Vec3&
     out["scars"] = {{"n", score.scars->rows.size()},
                     {"n_passed", score.scars->n_passed},
                     {"mean_percentile", number_or_null(score.scars->mean_percentile)},
-                    {"by_chance", by_chance(score.scars->mean_share_error)},
+                    {"by_chance", interval_json(score.scars->by_chance)},
                     {"points", points_json(scar_fields(), score.scars->rows, origin)}};
   if (score.outline) {
     out["outline"] = row_json(outline_fields(), OutlineRow{score.name, *score.outline});

@@ -1,6 +1,7 @@
 // tools/calibrate/talus_calibrate.cpp
 // Runs beside what was observed, and the values that this does not contradict. Page:
 // docs/tools/talus-calibrate.md
+#include <algorithm>
 #include <limits>
 
 #include "post/reduce.hpp"
@@ -62,6 +63,9 @@ Computed read_all(RunInputs& runs, const std::vector<ObservedEvent>& events,
       add_passages(computed, events, run, part.member[r], rows[r]);
     }
   }
+  computed.is_event_a_run =
+      std::any_of(runs.members.begin(), runs.members.end(),
+                  [](const RunMember& run) { return !run.info.independent || run.draws_for_all; });
   finish(computed);
   return computed;
 }

@@ -44,7 +44,7 @@ double deviation_of(const Values& values) {
 // Values drawn again from a sample, by their weights.
 class Drawing {
  public:
-  explicit Drawing(const Values& values) : values_(values), random_(1, "observed") {
+  Drawing(const Values& values, Random& random) : values_(values), random_(random) {
     for (const WeightedValue& v : values)
       upto_.push_back((upto_.empty() ? 0 : upto_.back()) + v.weight);
   }
@@ -62,13 +62,14 @@ class Drawing {
  private:
   const Values& values_;
   std::vector<double> upto_;
-  Random random_;
+  Random& random_;
 };
 
 // Of a number of the sample, by drawing it again; none of fewer points than bound their median.
 Interval bootstrap_interval(const Values& values, const std::function<double(const Values&)>& of) {
   if (static_cast<int>(values.size()) < points_needed(0.5)) return {nan_value, nan_value};
-  Drawing drawing(values);
+  Random random(1, "observed");
+  Drawing drawing(values, random);
   std::vector<double> drawn;
   for (int k = 0; k < n_drawn; ++k) drawn.push_back(of(drawing.draw(values.size())));
   return {percentile(drawn, 0.025), percentile(drawn, 0.975)};
@@ -80,8 +81,10 @@ Compared compared(const Values& observed, const Values& computed,
 }
 
 // Of the mean of n values that are evenly between 0 and 1.
-double error_of_mean_share(std::size_t n) {
-  return n == 0 ? nan_value : z_95 / std::sqrt(12.0 * static_cast<double>(n));
+Interval even_shares(std::size_t n) {
+  if (n == 0) return {nan_value, nan_value};
+  const double off = std::min(0.5, z_95 / std::sqrt(12.0 * static_cast<double>(n)));
+  return {0.5 - off, 0.5 + off};
 }
 
 // --- shares over clusters ------------------------------------------------------------------------
@@ -253,14 +256,44 @@ Compared compared_level(const Values& observed, const Values& computed, double p
   return {weighted_percentile(observed, p), interval, weighted_percentile(computed, p)};
 }
 
-// The area that as many points have which were drawn from the computed ones.
-void add_noise(const Values& computed, BoulderScore& score) {
-  Drawing drawing(computed);
-  std::vector<double> areas;
-  for (int k = 0; k < n_drawn; ++k)
-    areas.push_back(area_between(drawing.draw(score.rows.size()), computed));
+// What as many points have that were drawn from the computed ones: of a run, which is drawn by its
+// weight, where an event is one.
+void add_noise(const std::vector<ComputedBlock>& blocks, const std::vector<AlongAcross>& at,
+               bool is_event_a_run, const Values& pooled, BoulderScore& score) {
+  std::vector<Values> groups;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (groups.empty() || (is_event_a_run && blocks[b].run != blocks[b - 1].run))
+      groups.emplace_back();
+    groups.back().push_back({at[b].runout, blocks[b].weight});
+  }
+  Values numbers;  // of the groups
+  Random random(1, "computed");
+  std::vector<Drawing> drawings;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    numbers.push_back({static_cast<double>(g), weight_of(groups[g])});
+    drawings.emplace_back(groups[g], random);
+  }
+  Drawing of_groups(numbers, random);
+  std::vector<double> upto(1, 0);
+  for (const WeightedValue& v : pooled) upto.push_back(upto.back() + v.weight);
+  const auto share = [&](const WeightedValue& v) {
+    const auto above = std::upper_bound(
+        pooled.begin(), pooled.end(), v.value,
+        [](double value, const WeightedValue& other) { return value < other.value; });
+    return upto[static_cast<std::size_t>(above - pooled.begin())] / upto.back();
+  };
+  std::vector<double> areas, shares;
+  for (int k = 0; k < n_drawn; ++k) {
+    const auto group = static_cast<std::size_t>(of_groups.draw(1)[0].value);
+    const Values drawn = drawings[group].draw(score.rows.size());
+    areas.push_back(area_between(drawn, pooled));
+    double sum = 0;
+    for (const WeightedValue& v : drawn) sum += share(v);
+    shares.push_back(sum / static_cast<double>(drawn.size()));
+  }
   score.noise = percentile(areas, 0.5);
   score.noise_high = percentile(areas, 0.95);
+  score.by_chance = {percentile(shares, 0.025), percentile(shares, 0.975)};
 }
 
 BoulderScore score_boulders(const ObservedEvent& event, const Computed& computed,
@@ -301,11 +334,10 @@ BoulderScore score_boulders(const ObservedEvent& event, const Computed& computed
     score.levels[k] = compared_level(seen_runout, runout, observed_levels[k]);
   score.across = compared(seen_across, across, deviation_of);
   score.area = area_between(seen_runout, runout);
-  if (!runout.empty()) add_noise(runout, score);
+  if (!runout.empty()) add_noise(computed.blocks, at, computed.is_event_a_run, runout, score);
   for (int k = 0; k <= 100; ++k)
     score.computed_percentiles.push_back(weighted_percentile(runout, k / 100.0));
   score.mean_percentile = sum / n;
-  score.mean_share_error = error_of_mean_share(score.rows.size());
   score.reached = {n_reached / n, wilson_interval(n_reached / n, n), 1};
   return score;
 }
@@ -332,7 +364,7 @@ ScarScore score_scars(const ObservedEvent& event, const std::vector<std::vector<
     score.rows.push_back(std::move(row));
   }
   score.mean_percentile = score.n_passed > 0 ? sum / score.n_passed : nan_value;
-  score.mean_share_error = error_of_mean_share(static_cast<std::size_t>(score.n_passed));
+  score.by_chance = even_shares(static_cast<std::size_t>(score.n_passed));
   return score;
 }
 
@@ -391,9 +423,9 @@ std::string share_text(const ComputedShare& share) {
 }
 
 // "their mean percentile is 0.61, of as many by chance 0.364 to 0.636"
-std::string percentile_text(double mean, double error) {
-  return "their mean percentile is " + text(mean, 2) + ", by chance " + text(0.5 - error, 2) +
-         " to " + text(0.5 + error, 2);
+std::string percentile_text(double mean, const Interval& by_chance) {
+  return "their mean percentile is " + text(mean, 2) + ", by chance " + text(by_chance.low, 2) +
+         " to " + text(by_chance.high, 2);
 }
 
 }  // namespace
@@ -426,7 +458,7 @@ std::string text(const EventScore& score) {
          ", of as many points drawn from the " + "computed " + metres(b.noise) + ", at most " +
          metres(b.noise_high) + ": " +
          (b.is_told_apart() ? "the points tell them apart" : "the points do not tell them apart") +
-         "; " + percentile_text(b.mean_percentile, b.mean_share_error));
+         "; " + percentile_text(b.mean_percentile, b.by_chance));
     line(what_they_tell(b) + "; " + percent(b.reached.observed) +
          " of them lie in the computed reach");
   }
@@ -434,7 +466,7 @@ std::string text(const EventScore& score) {
     const ScarScore& s = *score.scars;
     const auto n = static_cast<std::int64_t>(s.rows.size());
     line("computed blocks pass " + std::to_string(s.n_passed) + " of " + counted(n, "scar") +
-         (s.n_passed > 0 ? "; " + percentile_text(s.mean_percentile, s.mean_share_error) : ""));
+         (s.n_passed > 0 ? "; " + percentile_text(s.mean_percentile, s.by_chance) : ""));
   }
   if (score.outline)
     line(share_text(score.outline->inside) + " of the computed deposit lies in the outline, and " +

@@ -45,6 +45,9 @@ struct Computed {
   PassageGrid grid;                                        ///< of passages
   std::vector<std::uint8_t> is_passed;                     ///< by any block       (n_cells)
   std::vector<std::vector<std::vector<ScarPass>>> passes;  ///< [event][scar]
+  /// What is observed of an event is of one run: its blocks move together, or share what the run
+  /// drew. Else it is of rocks from any of the runs.
+  bool is_event_a_run = false;
   // finish()
   Vec2 start = Vec2::Zero();  ///< mean of the blocks [m]
   double left_share = 0;      ///< of their weight, that left the terrain; NaN: there are none
@@ -111,10 +114,10 @@ struct BoulderScore {
   std::array<Compared, observed_levels.size()> levels;  ///< percentiles of the run-out [m]
   Compared across;                                      ///< standard deviation across [m]
   double area = 0;        ///< between the distributions of the run-outs [m]
-  double noise = 0;       ///< as many points drawn from the computed ones: the area's median [m]
+  double noise = 0;       ///< as many points drawn from a run, or from all: the area's median [m]
   double noise_high = 0;  ///< and what it stays below with 95 % [m]
   double mean_percentile = 0;                ///< of the observed among the computed run-outs [-]
-  double mean_share_error = 0;               ///< that as many points would have by chance, 95 % [-]
+  Interval by_chance;                        ///< 95 % of what the drawn points have [-]
   std::vector<double> computed_percentiles;  ///< run-outs at 0, 1 ... 100 %, for a chart   (101)
   Compared reached;  ///< share of the points that lie in the computed reach; computed: 1
   /// The observations tell that the computed distribution is not theirs.
@@ -131,9 +134,9 @@ struct ScarRow {
 
 struct ScarScore {
   std::vector<ScarRow> rows;
-  int n_passed = 0;             ///< scars that a computed block passed
-  double mean_percentile = 0;   ///< of those [-]; NaN: none
-  double mean_share_error = 0;  ///< that as many scars would have by chance, 95 % [-]
+  int n_passed = 0;            ///< scars that a computed block passed
+  double mean_percentile = 0;  ///< of those [-]; NaN: none
+  Interval by_chance;          ///< 95 % of what as many even shares have [-]
 };
 
 struct OutlineScore {

@@ -170,7 +170,8 @@ TEST(Observed, PointsOfTheComputedDistributionAreRarelyToldApart) {
     for (int k = 0; k < 12; ++k) places.emplace_back(1.0 + random.below(400), 0);
     const BoulderScore score = *score_of(boulders_at(places), 0, computed, basis).boulders;
     n_apart += score.is_told_apart();
-    n_beyond += std::abs(score.mean_percentile - 0.5) > score.mean_share_error;
+    n_beyond +=
+        score.mean_percentile < score.by_chance.low || score.mean_percentile > score.by_chance.high;
   }
   EXPECT_LE(n_apart, n_trials / 8);
   EXPECT_LE(n_beyond, n_trials / 8);
@@ -178,6 +179,25 @@ TEST(Observed, PointsOfTheComputedDistributionAreRarelyToldApart) {
   std::vector<Vec2> near;
   for (int k = 1; k <= 12; ++k) near.emplace_back(10 * k, 0);
   EXPECT_TRUE(score_of(boulders_at(near), 0, computed, basis).boulders->is_told_apart());
+}
+
+// Where all blocks of a run share what it drew, an event is one run: points near one another are no
+// wonder.
+TEST(Observed, PointsOfOneRunMayLieTogether) {
+  Computed computed;
+  for (int r = 0; r < 20; ++r)
+    for (int b = 0; b < 10; ++b)
+      computed.blocks.push_back({r, b, 1, Vec2(0, 0), Vec2(10 * r + b, 0), 1, true, false});
+  finish(computed);
+  const ShareBasis basis = share_basis(clusters_of_runs(std::vector<double>(20, 10), 10));
+  const ObservedEvent event = boulders_at({{31, 0}, {33, 0}, {35, 0}, {37, 0}, {39, 0}});
+  const BoulderScore of_rocks = *score_of(event, 0, computed, basis).boulders;
+  EXPECT_TRUE(of_rocks.is_told_apart());
+  EXPECT_NEAR(of_rocks.by_chance.low, 0.5 - 1.96 / std::sqrt(60), 0.03);
+  computed.is_event_a_run = true;
+  const BoulderScore of_run = *score_of(event, 0, computed, basis).boulders;
+  EXPECT_FALSE(of_run.is_told_apart());
+  EXPECT_LT(of_run.by_chance.low, 0.05);
 }
 
 TEST(Observed, SpreadAcrossIsAStandardDeviation) {
@@ -240,7 +260,7 @@ TEST(Observed, ScarsStandAmongTheHeightsThatPassedTheirCell) {
   EXPECT_TRUE(std::isnan(free.percentile.share) && std::isnan(free.p95));
   EXPECT_EQ(score.scars->n_passed, 1);
   EXPECT_NEAR(score.scars->mean_percentile, 1.0 / 3, 1e-12);
-  EXPECT_NEAR(score.scars->mean_share_error, 1.96 / std::sqrt(12), 1e-4);
+  EXPECT_EQ(score.scars->by_chance.low, 0);  // of a single scar
 }
 
 // Of the blocks at rest one in two lies in it; blocks passed one of its four cells.
