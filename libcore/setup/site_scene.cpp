@@ -56,7 +56,7 @@ GroundClass rock_class(const MaterialSettings& material, const SolverSettings& s
   made.friction = std::tan(material.friction_deg * degree);
   made.cohesion = material.cohesion_pa;
   made.tension = material.tension_pa;
-  made.restitution = std::isnan(solver.cor) ? material.cor : solver.cor;
+  made.restitution = material.cor;
   if (!weakens(solver)) return made;
   made.friction = weakened(made.friction);
   made.weak_friction = std::min(made.friction, weakening().fast);
@@ -158,9 +158,8 @@ std::vector<GroundSettings> drawn_grounds(const Site& site) {
   for (GroundSettings& ground : drawn) {
     const double friction_shift = solver.friction_scatter_deg * scatter.normal();
     const double cor_shift = solver.cor_scatter * scatter.normal();
-    const double cor = std::isnan(solver.cor) ? ground.cor : solver.cor;
     ground.friction_deg = std::clamp(ground.friction_deg + friction_shift, 0.0, 89.0);
-    ground.cor = std::clamp(cor + cor_shift, 0.0, 1.0);
+    ground.cor = std::clamp(ground.cor + cor_shift, 0.0, 1.0);
     if (weakens(solver)) weaken(ground);
   }
   return drawn;

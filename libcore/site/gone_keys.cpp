@@ -14,6 +14,7 @@ constexpr GoneKey gone_keys[] = {
     {"solver", "min_time_step_s", "time_step_s = SECONDS"},
     {"solver", "max_time_step_s", "time_step_s = SECONDS"},
     {"solver", "rolling_scatter", "a section [uncertainty.NAME] with keys and apply = \"factor\""},
+    {"solver", "cor", "cor in [material.NAME] and [ground.NAME]"},
     {"terrain", "layer", R"(contours = "FILE|layername=LAYER")"},
     {"terrain", "where", R"(contours = "FILE|subset=FILTER")"},
     {"terrain", "breaklines_layer", R"(breaklines = "FILE|layername=LAYER")"},

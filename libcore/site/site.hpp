@@ -137,7 +137,6 @@ struct SolverSettings {
   double time_step_s = not_given;  ///< not given: time_step() says
   double gravity_m_s2 = 9.80665;
   double normal_stiffness_n_m = not_given;
-  double cor = not_given;  ///< overrides those of materials and ground
   std::string strain = "auto";
   bool end_when_standing = true;  ///< a run in which nothing moves ends after some seconds
   double accuracy = 0.005;        ///< of the way of what moves: see Settings

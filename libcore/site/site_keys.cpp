@@ -153,7 +153,6 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"accuracy", &S::accuracy, "law talus: estimated error of a moving block's displacement, as a share of it; a step whose estimate is larger is cut", {0, 1, true, false}},
       {"gravity_m_s2", &S::gravity_m_s2, "gravity, downwards", {0, 1000}},
       {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "penalty stiffness of a contact", positive},
-      {"cor", &S::cor, "coefficient of restitution everywhere", share},
       {"strain", &S::strain, "strain degrees of freedom", any, "auto|on|off"},
       {"end_when_standing", &S::end_when_standing, "a run in which no block moved more than 0.1 m or is faster than 2 mm/s after 3 s ends there, and says so"},
       {"seed", &S::seed, "seed of the run", not_negative},

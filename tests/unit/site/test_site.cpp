@@ -221,6 +221,9 @@ TEST(Site, AKeyThatIsGoneSaysWhatToWriteInstead) {
   EXPECT_EQ(refusal("[fence.a]\nline_where = 'k = 1'\n"),
             "s/site.toml:2: the key line_where of [fence.a] is gone | write file = "
             "\"FILE|subset=FILTER\"");
+  EXPECT_EQ(refusal("[solver]\ncor = 0.3\n"),
+            "s/site.toml:2: the key cor of [solver] is gone | write cor in [material.NAME] and "
+            "[ground.NAME]");
   EXPECT_EQ(refusal("[fence.a]\nbreaklines_layer = 'a'\n").find("gone"), std::string::npos);
 }
 
