@@ -72,12 +72,13 @@ void add_joint_contacts(const Hulls& hulls, const PlacedHulls& placed, int part_
       if (hulls.cover[face_a] == FaceCover::all || hulls.cover[face_b] == FaceCover::all) continue;
       const Vec3 normal_a = normal_at(placed, face_a), normal_b = normal_at(placed, face_b);
       if (normal_a.dot(normal_b) > -opposed) continue;
-      const FaceOverlap common = face_overlap(corners_of(hulls, placed, part_a, face_a), normal_a,
-                                              corners_of(hulls, placed, part_b, face_b));
+      FaceOverlap common = face_overlap(corners_of(hulls, placed, part_a, face_a), normal_a,
+                                        corners_of(hulls, placed, part_b, face_b));
       if (!(common.area > tolerance * tolerance)) continue;
       if (std::abs(normal_b.dot(common.centre) - placed.offset[face_b]) > tolerance) continue;
       contacts.push_back({hulls.body[part_a], hulls.body[part_b], hulls.joint_set[face_a],
-                          hulls.joint_set[face_b], normal_b, common.centre, common.area});
+                          hulls.joint_set[face_b], normal_b, common.centre, common.area,
+                          std::move(common.outline)});
     }
 }
 

@@ -19,6 +19,7 @@ struct JointContact {
   Vec3 normal = Vec3::Zero();            ///< unit, from B to A
   Vec3 point = Vec3::Zero();             ///< centre of the common area [m]
   double area = 0;                       ///< common area A_c [m2]
+  std::vector<Vec3> outline;             ///< of the common area, in the face of A [m]
 };
 
 /// All pairs of faces, not inside a body, whose planes are opposed within `angle` [rad], are not

@@ -1,6 +1,7 @@
 #include "geometry/face_overlap.hpp"
 
 #include <Eigen/Geometry>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -40,6 +41,7 @@ FaceOverlap face_overlap(std::span<const Vec3> one, const Vec3& normal,
   if (twice_area == 0) return {};
   overlap.centre /= twice_area;
   overlap.area = std::abs(twice_area) / 2;
+  overlap.outline = std::move(polygon);
   return overlap;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "base/types.hpp"
 
@@ -13,6 +14,7 @@ namespace talus {
 struct FaceOverlap {
   double area = 0;             ///< [m2]
   Vec3 centre = Vec3::Zero();  ///< centre of area, in the plane of the first face [m]
+  std::vector<Vec3> outline;   ///< in that plane [m]; empty without area
 };
 
 /// Overlap of polygon `one` (counter-clockwise about its unit normal) with `other`, which is

@@ -52,11 +52,10 @@ BlockEquations<Dof> equations(const Scene& scene, int b, const State& state) {
       angular_velocity(m.pose.attitude, m.angular_momentum, blocks.inertia[i]);
   eq.F.setZero();
   eq.F.template head<3>() =
-      blocks.mass[i] * free_acceleration(scene, b, state.time, state.time + dt);
-  for (const PointLoad& load : scene.loads) {
-    if (load.block != b) continue;
+      blocks.mass[i] * free_acceleration(scene, b, state.time, state.time + dt, state.pressure);
+  for (const PointLoad& load : loads_on(scene, b)) {
     const typename BlockEquations<Dof>::Vec full =
-        displacement<Dof>(eq.R * load.point).transpose() * load.force;
+        displacement<Dof>(eq.R * load.point).transpose() * force_of(load, state.pressure);
     eq.F.template tail<Dof - 3>() += full.template tail<Dof - 3>();
   }
   eq.K = 2 / (dt * dt) * M;
@@ -362,10 +361,12 @@ struct OpenClose {
     const Vec& D = w.D[k];
     const Vec velocity = 2 / dt * D - w.equations[k].velocity;
     Motion& m = state.motion[i];
-    const Vec3 external = free_acceleration(scene, b, state.time, state.time + dt) - scene.gravity;
-    state.ledger.base += scene.blocks.mass[i] * external.dot(D.template head<3>());
     m.pose.position += D.template head<3>();
     m.pose.attitude = (rotation_by(D.template segment<3>(3)) * m.pose.attitude).normalized();
+    const Vec3 loads = book_loads(scene, b, before.pose, m.pose, state);
+    const Vec3 external =
+        free_acceleration(scene, b, state.time, state.time + dt, state.pressure) - scene.gravity;
+    state.ledger.base += (scene.blocks.mass[i] * external - loads).dot(D.template head<3>());
     m.velocity = velocity.template head<3>();
     m.angular_momentum =
         angular_momentum(m.pose.attitude, velocity.template segment<3>(3), scene.blocks.inertia[i]);

@@ -97,7 +97,7 @@ struct HealthRow {
   double largest_penetration = 0;                             ///< [m]
   double translation = 0, rotation = 0, potential = 0, elastic = 0;   ///< at `time` [J]
   double friction = 0, impact = 0, contact = 0, base = 0, fence = 0;  ///< since the start [J]
-  double rolling = 0, drag = 0, breakage = 0;                         ///< since the start [J]
+  double rolling = 0, drag = 0, breakage = 0, water = 0;              ///< since the start [J]
   double removed = 0;                                                 ///< since the start [J]
 };
 

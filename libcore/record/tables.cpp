@@ -307,6 +307,8 @@ const Table<HealthRow>& table_of() {
           {"breakage_loss_j", "J",
            "kinetic energy of blocks that were crushed, and work of fracture, since the start",
            of<&HealthRow::breakage>, Kept::where_any},
+          {"water_work_j", "J", "put in by the pressure of water in joints since the start",
+           of<&HealthRow::water>, Kept::where_any},
           {"cut_yielding_touched", "1",
            "substeps of islands made again in the interval because a fence or stem is first "
            "touched within it",

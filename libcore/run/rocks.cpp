@@ -69,7 +69,7 @@ void add(const HealthRow& row, HealthRow& sum) {
        {&HealthRow::translation, &HealthRow::rotation, &HealthRow::potential, &HealthRow::elastic,
         &HealthRow::friction, &HealthRow::impact, &HealthRow::contact, &HealthRow::base,
         &HealthRow::fence, &HealthRow::rolling, &HealthRow::drag, &HealthRow::breakage,
-        &HealthRow::removed})
+        &HealthRow::removed, &HealthRow::water})
     sum.*energy += row.*energy;
   sum.largest_error = std::max(sum.largest_error, row.largest_error);
   sum.largest_penetration = std::max(sum.largest_penetration, row.largest_penetration);
@@ -141,9 +141,10 @@ void add_state(Batch& batch, int n_rocks, State& state) {
     crushed.block += batch.first;
     state.crushed.push_back(crushed);
   }
-  for (const auto energy : {&EnergyLedger::friction, &EnergyLedger::impact, &EnergyLedger::contact,
-                            &EnergyLedger::base, &EnergyLedger::fence, &EnergyLedger::rolling,
-                            &EnergyLedger::drag, &EnergyLedger::breakage, &EnergyLedger::removed})
+  for (const auto energy :
+       {&EnergyLedger::friction, &EnergyLedger::impact, &EnergyLedger::contact, &EnergyLedger::base,
+        &EnergyLedger::fence, &EnergyLedger::rolling, &EnergyLedger::drag, &EnergyLedger::breakage,
+        &EnergyLedger::removed, &EnergyLedger::water})
     state.ledger.*energy += from.ledger.*energy;
   add(from.counters, state.counters);
   add(from.mishaps, batch.first, state.mishaps);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "base/text.hpp"
 #include "record/deep_rows.hpp"
 #include "record/tree_hits.hpp"
@@ -110,6 +111,7 @@ void close_interval(Runner& runner) {
   row.drag = state.ledger.drag;
   row.breakage = state.ledger.breakage;
   row.removed = state.ledger.removed;
+  row.water = state.ledger.water;
   runner.file.health.push_back(row);
   HealthRow next;
   next.fell_through = row.fell_through;
@@ -126,8 +128,8 @@ bool falls_in_batches(const Runner& runner) {
 // Whether nothing moves any more, and nothing will.
 bool rests(const Runner& runner) {
   const State& state = runner.state;
-  return !runner.law && !shakes(runner.scene.base) && runner.scene.loads.empty() &&
-         runner.scene.crush_load.empty() && state.stride == 1 &&
+  return !runner.law && !shakes(runner.scene.base) && runner.scene.crush_load.empty() &&
+         state.stride == 1 &&
          std::all_of(state.phase.begin(), state.phase.end(),
                      [](Phase phase) { return does_not_move(phase); }) &&
          std::none_of(state.deep.begin(), state.deep.end(),
@@ -166,7 +168,8 @@ double turned_over(const Runner& runner, const HealthRow& row) {
   // so that neither rounding at rest nor overlaps at the start that are pressed out are a gain
   const std::vector<double>& radius = blocks.shapes.radius;
   const double least_fall = 0.1 * *std::min_element(radius.begin(), radius.end());
-  return std::max(std::abs(potential_start - row.potential) + kinetic_start + std::abs(row.base),
+  return std::max(std::abs(potential_start - row.potential) + kinetic_start + std::abs(row.base) +
+                      std::abs(row.water),
                   least_fall * weight);
 }
 
@@ -175,7 +178,7 @@ double energy_gain(const Runner& runner, const HealthRow& row) {
   const double now = row.translation + row.rotation + row.potential + row.elastic;
   // What is gone into friction and impacts came from somewhere too. The ledger of law paper leaves
   // out what its integrator damps.
-  double known = now - runner.energy_start - row.base;
+  double known = now - runner.energy_start - row.base - row.water;
   if (!runner.law)
     known += std::max(0.0, row.friction + row.impact + row.contact + row.fence + row.rolling +
                                row.drag + row.breakage + row.removed);
@@ -201,8 +204,8 @@ double least_restitution(const Scene& scene) {
 // with full restitution not hits either.
 double energy_loss(const Runner& runner, const HealthRow& row, double restitution) {
   const double now = row.translation + row.rotation + row.potential + row.elastic;
-  double lost = runner.energy_start + row.base - now - row.friction - row.fence - row.rolling -
-                row.drag - row.breakage - row.removed;
+  double lost = runner.energy_start + row.base + row.water - now - row.friction - row.fence -
+                row.rolling - row.drag - row.breakage - row.removed;
   if (restitution < 1) lost -= row.impact;
   return lost / turned_over(runner, row);
 }
@@ -346,6 +349,9 @@ Runner resume_run(const Scene& scene, const RunOptions& options, std::vector<Rec
   Runner runner = make_runner(scene, options, std::move(lines), std::move(file));
   const int n_cells = std::max(1, runner.passages.grid.n_rows * runner.passages.grid.n_cols);
   Checkpoint checkpoint = unpack(runner.file.checkpoint, n_blocks(scene), n_cells, path);
+  if (checkpoint.state.pressure.size() != scene.wet_faces.size())
+    throw InputError({path, 0, "checkpoint"}, "belongs to another scene",
+                     "start the run again without --resume");
   runner.state = std::move(checkpoint.state);
   if (runner.law) runner.law->state = std::move(checkpoint.paper);
   runner.sampler = std::move(checkpoint.sampler);
@@ -422,7 +428,7 @@ bool stands(const Runner& runner) {
   const State& state = runner.state;
   if (runner.law || falls_in_batches(runner)) return false;
   if (state.time < standing_after_s - half_step(runner)) return false;
-  if (shakes(scene.base) || !scene.loads.empty()) return false;
+  if (shakes(scene.base)) return false;
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<std::size_t>(b);
     if (state.phase[i] == Phase::unborn) continue;  // the whole block stands for its fragments

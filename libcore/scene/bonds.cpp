@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "contact/start_contacts.hpp"
 #include "scene/bond_face.hpp"
 
 namespace talus {
@@ -62,26 +61,36 @@ GroundClass pair_class(const Scene& scene, const PairManifold& m) {
                  face_class(scene, m.block_b, m.joint_set_b));
 }
 
+double closed_gap(const Scene& scene) {
+  const std::vector<double>& radius = scene.blocks.hulls.radius;
+  double least_radius = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < radius.size(); ++b)
+    if (is_fixed(scene, static_cast<int>(b)) || is_released(scene, b))
+      least_radius = std::min(least_radius, radius[b]);
+  return bonded_gap_ratio * least_radius;
+}
+
+std::vector<JointContact> closed_faces(const Scene& scene) {
+  const Hulls& hulls = scene.blocks.hulls;
+  std::vector<Pose> poses = scene.blocks.rest;
+  poses.insert(poses.end(), scene.fixed.pose.begin(), scene.fixed.pose.end());
+  PlacedHulls placed;
+  place_hulls(hulls, poses, {}, {}, placed);
+  std::vector<JointContact> faces = joint_contacts(hulls, placed, closed_gap(scene), bonded_angle);
+  std::erase_if(faces, [&](const JointContact& c) {
+    return is_fixed(scene, c.block_b) || !is_released(scene, c.block_a) ||
+           !is_released(scene, c.block_b);
+  });
+  return faces;
+}
+
 std::vector<BlockBond> start_bonds(const Scene& scene) {
   std::vector<BlockBond> bonds;
   const JointClasses& joints = scene.joints;
   if (!std::any_of(joints.of_set.begin(), joints.of_set.end(), has_strength) &&
       !std::any_of(joints.of_block.begin(), joints.of_block.end(), has_strength))
     return bonds;
-  const Hulls& hulls = scene.blocks.hulls;
-  std::vector<Pose> poses = scene.blocks.rest;
-  poses.insert(poses.end(), scene.fixed.pose.begin(), scene.fixed.pose.end());
-  PlacedHulls placed;
-  place_hulls(hulls, poses, {}, {}, placed);
-  double least_radius = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < hulls.radius.size(); ++b)
-    if (is_fixed(scene, static_cast<int>(b)) || is_released(scene, b))
-      least_radius = std::min(least_radius, hulls.radius[b]);
-  const double gap = bonded_gap_ratio * least_radius;
-  for (const JointContact& c : joint_contacts(hulls, placed, gap, bonded_angle)) {
-    if (is_fixed(scene, c.block_b) || !is_released(scene, c.block_a) ||
-        !is_released(scene, c.block_b))
-      continue;
+  for (const JointContact& c : closed_faces(scene)) {
     const GroundClass face = smaller(face_class(scene, c.block_a, c.joint_set_a),
                                      face_class(scene, c.block_b, c.joint_set_b));
     if (!has_strength(face)) continue;

@@ -9,6 +9,7 @@
 
 #include "contact/ground.hpp"
 #include "contact/manifold.hpp"
+#include "contact/start_contacts.hpp"
 #include "scene/scene.hpp"
 
 namespace talus {
@@ -27,6 +28,12 @@ struct BlockBond {
 /// A face of a joint set has the friction and the strength of that set, any other face those of its
 /// block's rock.
 [[nodiscard]] GroundClass pair_class(const Scene& scene, const PairManifold& manifold);
+
+/// Gap of faces that lie against each other where the blocks stand [m].
+[[nodiscard]] double closed_gap(const Scene& scene);
+
+/// The faces of released blocks that lie against each other where the blocks stand.
+[[nodiscard]] std::vector<JointContact> closed_faces(const Scene& scene);
 
 /// Bonds of all faces that lie against each other where the blocks stand and both have cohesion, or
 /// both tensile strength: one for the faces of two blocks in one direction. Sorted by block_a, then

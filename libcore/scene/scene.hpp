@@ -39,11 +39,23 @@ struct Settings {
   bool sleep = true;         ///< law talus: blocks at rest are left out
 };
 
-/// A force on a material point of a block, constant in local axes.
+/// A force on a material point of a block, constant in local axes but for what a wet face loses.
 struct PointLoad {
   int block = 0;
   Vec3 point = Vec3::Zero();  ///< body axes [m]
   Vec3 force = Vec3::Zero();  ///< local axes [N]
+  int wet_face = -1;          ///< whose pressure it is, of Scene::wet_faces; -1: of none
+};
+
+/// A face of block A with water in it at the start, against block B or the ground. Its pressure is
+/// in Scene::loads; State::pressure says how much of it is left.
+struct WetFace {
+  int block_a = 0, block_b = -1;  ///< B -1: the ground
+  Vec3 point_a = Vec3::Zero();    ///< centre of pressure, body axes of A [m]
+  Vec3 point_b = Vec3::Zero();    ///< body axes of B; of the ground local axes [m]
+  Vec3 normal = Vec3::Zero();     ///< unit, into A, body axes of A
+  double force = 0;               ///< on A along the normal [N]
+  double extent = 0;              ///< diameter of the circle of its area [m]
 };
 
 /// Bodies at rest. Body axes: origin at the centroid, axes along the principal axes of inertia.
@@ -84,6 +96,8 @@ struct Scene {
   std::vector<Canopy> canopies;      ///< law talus: forests that drag
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
   std::vector<PointLoad> loads;      ///< sorted by block
+  std::vector<WetFace> wet_faces;    ///< by A                                    (n_wet_faces)
+  double drained_at = 0;             ///< opening at which their pressure is gone [m]
   AccelerationRecord base;           ///< empty: the ground stands still
   Settings settings;
 };

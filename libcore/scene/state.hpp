@@ -16,13 +16,14 @@
 
 namespace talus {
 
-/// Sums since the start over all blocks, all in joule; what each adds is >= 0 except `contact` and
-/// `base`.
+/// Sums since the start over all blocks, all in joule; what each adds is >= 0 except `contact`,
+/// `base` and `water`.
 struct EnergyLedger {
   double friction = 0;  ///< dissipated by sliding
   double impact = 0;    ///< dissipated by the restitution law
   double contact = 0;   ///< dissipated or stored by normal contact and strain damping
   double base = 0;      ///< put in by base motion and point loads
+  double water = 0;     ///< put in by the pressure of water in joints
   double fence = 0;     ///< taken by panels of fences, and what else gave way
   double rolling = 0;   ///< dissipated by rolling and pivoting resistance, in hits too
   double drag = 0;      ///< dissipated by drag of ground and forests
@@ -118,6 +119,7 @@ struct State : BlockLives {  // clang-format off
   PairState pairs;                          ///< close pairs of blocks and their axes
   PlacedHulls placed;                       ///< where the pairs were searched last
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
+  std::vector<double> pressure;             ///< share left of that at the start [-]   (n_wet_faces)
   std::vector<DeepBlock> deep;              ///<                                     (n_blocks)
   std::vector<SlidWay> slid;                ///< empty: friction follows no way      (n_blocks)
   std::vector<BlockLoad> load;              ///< empty: none is crushed                 (n_blocks)

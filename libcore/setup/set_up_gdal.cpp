@@ -1,7 +1,9 @@
 #include "setup/set_up_gdal.hpp"
 
+#include <cstdint>
 #include <utility>
 
+#include "base/text.hpp"
 #include "setup/run_settings.hpp"
 #include "setup/scene_inputs_gdal.hpp"
 #include "terrain/trn_flags.hpp"
@@ -28,7 +30,12 @@ void make_scene(const Site& site, const SetUpRequest& request, InputLog& log, Se
   log.detail(as_text(setup.plan));
   cut_fragments(log, site, setup.inputs);
   setup.blocks = setup.inputs.parts.blocks;
+  const bool has_water = setup.inputs.parts.water.has_value();
   setup.scene = make_site_scene(site, setup.plan, std::move(setup.inputs.parts));
+  if (const std::size_t n = setup.scene.wet_faces.size(); n > 0)
+    log.info("[water] is in " + counted(static_cast<std::int64_t>(n), "joint face"));
+  else if (has_water)
+    log.warn("[water] is below all joint faces, or all are drained: the mass is dry");
 }
 
 SetUp set_up(const Site& site, const SetUpRequest& request, InputLog& log) {

@@ -195,6 +195,8 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
   for (const StandingFence& fence : parts.fences) add_fence(scene, fence);
   if (!parts.stems.empty()) add_forest(scene, std::move(parts.stems), std::move(parts.stem_faces));
   scene.canopies = std::move(parts.canopies);
+  scene.drained_at = site.water.drained_at_m;
+  if (parts.water) add_joint_water(*parts.water, scene);
   check_scene(scene);
   return scene;
 }

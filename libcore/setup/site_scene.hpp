@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "blocks/block_set.hpp"
 #include "scene/fence.hpp"
+#include "scene/joint_water.hpp"
 #include "scene/scene.hpp"
 #include "site/base_motion.hpp"
 #include "site/plan.hpp"
@@ -25,6 +27,7 @@ struct SceneParts {
   std::vector<Stem> stems;              ///< of the forests that stand in it
   std::vector<GroundClass> stem_faces;  ///< by Stem::section
   std::vector<Canopy> canopies;         ///< of the forests that drag
+  std::optional<JointWater> water;      ///< of [water]
 };
 
 /// [solver] time_step_s, else 5 ms for law talus and 0.1 ms for law paper [s].

@@ -206,6 +206,7 @@ std::vector<SiteRaster> rasters_of(const Site& site) {
   };
   add("terrain.ground_raster", site.terrain.ground_raster);
   add("source.raster", site.source.raster);
+  add("water.raster", site.water.raster);
   for (const RockfallSettings& rocks : site.rockfalls) {
     const std::string section = "rockfall." + rocks.name;
     add(section + ".rockdensity_raster", rocks.rockdensity_raster);

@@ -17,12 +17,10 @@
 #include "blocks/base_level.hpp"
 #include "blocks/daylight_envelope.hpp"
 #include "blocks/failure_raster.hpp"
-#include "import/dem_gdal.hpp"
-#include "import/site_rasters_gdal.hpp"
-#include "io/crs_gdal.hpp"
 #include "setup/ground_class_inputs_gdal.hpp"
 #include "setup/site_shapes_gdal.hpp"
 #include "setup/sliding_sets.hpp"
+#include "setup/value_raster_gdal.hpp"
 #include "setup/vector_inputs_gdal.hpp"
 #include "site/joint_list.hpp"
 
@@ -41,28 +39,12 @@ Area read_area(InputLog& log, const BlocksWork& work) {
   return without_repeated_corners({shapes_in_plan(log, work.site, work.ground, place_of(source))});
 }
 
-// Heights of the surface in the terrain's own system, where both say it.
-void check_heights_of_surface(InputLog& log, const BlocksWork& work, const DemFile& raster) {
-  const std::string assumed = assumed_heights(raster.crs_wkt(), work.ground.crs_wkt);
-  if (!assumed.empty()) log.info(raster.path() + " and the terrain: both are " + assumed);
-  if (!same_heights(raster.crs_wkt(), work.ground.crs_wkt))
-    throw InputError({raster.path()},
-                     "the heights are in " + crs_name(height_crs(raster.crs_wkt())) +
-                         ", those of the terrain in " + crs_name(height_crs(work.ground.crs_wkt)),
-                     "bring both to one system of heights first");
-}
-
 // Elevations of the failure surface at the nodes of the terrain.
 std::vector<double> read_failure_raster(InputLog& log, const BlocksWork& work) {
   const std::string path = resolved(work.site, work.site.source.raster);
   const bool is_thickness = work.site.source.failure_surface == "thickness";
-  read_data(log, "source.raster", path);
-  DemOptions options;
-  options.crs_may_be_missing = true;
-  const DemFile raster(path, options);
-  check_raster_system(raster.crs_wkt(), work.ground.crs_wkt, CellKind::heights, path);
-  if (!is_thickness) check_heights_of_surface(log, work, raster);
-  std::vector<double> z = read_dem(raster, frame_of(work.ground));
+  std::vector<double> z = read_at_nodes(log, work.site, work.ground, "source.raster",
+                                        work.site.source.raster, !is_thickness);
   if (is_thickness) {
     lower_by_thickness(work.ground, work.area, {path}, z);
     return z;

@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "import/dem_gdal.hpp"
 #include "import/site_rasters_gdal.hpp"
+#include "io/crs_gdal.hpp"
 #include "io/raster_commands.hpp"
 #include "setup/vector_inputs_gdal.hpp"
 
@@ -63,6 +64,27 @@ ValueRaster read_values(const ValueRasterContext& of, const char* key, const std
   hash.add(out.value.data(), out.value.size() * sizeof out.value[0]);
   of.log.content_read(of.section + "." + key, hash.hex());
   return out;
+}
+
+std::vector<double> read_at_nodes(InputLog& log, const Site& site, const Trn& ground,
+                                  const std::string& role, const std::string& file,
+                                  bool has_elevations) {
+  const std::string path = resolved(site, file);
+  read_data(log, role, path);
+  DemOptions options;
+  options.crs_may_be_missing = true;
+  const DemFile raster(path, options);
+  check_raster_system(raster.crs_wkt(), ground.crs_wkt, CellKind::heights, path);
+  if (has_elevations) {
+    const std::string assumed = assumed_heights(raster.crs_wkt(), ground.crs_wkt);
+    if (!assumed.empty()) log.info(path + " and the terrain: both are " + assumed);
+    if (!same_heights(raster.crs_wkt(), ground.crs_wkt))
+      throw InputError({path},
+                       "the heights are in " + crs_name(height_crs(raster.crs_wkt())) +
+                           ", those of the terrain in " + crs_name(height_crs(ground.crs_wkt)),
+                       "bring both to one system of heights first");
+  }
+  return read_dem(raster, frame_of(ground));
 }
 
 namespace {

@@ -39,6 +39,13 @@ struct ValueRasterContext {
 [[nodiscard]] ValueRaster read_values(const ValueRasterContext& of, const char* key,
                                       const std::string& file, const MapBox& box);
 
+/// What a raster has at the nodes of the terrain, NaN where it is unknown; `role` is the key that
+/// names `file`. Throws InputError where it is no raster with one band or is in another system than
+/// the terrain; where it `has_elevations`, in another system of heights, too.
+[[nodiscard]] std::vector<double> read_at_nodes(InputLog& log, const Site& site, const Trn& ground,
+                                                const std::string& role, const std::string& file,
+                                                bool has_elevations);
+
 /// Throws InputError, with the command that brings `raster` to them, where it has other cells than
 /// `first`.
 void check_same_cells(const ValueRaster& raster, const ValueRaster& first);

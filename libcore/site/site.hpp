@@ -201,6 +201,16 @@ struct BaseMotionSettings {
   double direction_deg = 0;  ///< azimuth, clockwise from north
 };
 
+/// [water]: water in the joints of the mass before it moves. At most one of the first three.
+struct WaterSettings {
+  std::vector<Vec3> surface_m;  ///< map x, y, z: one point of a level, or three of a plane
+  std::string raster;           ///< elevations of the piezometric surface
+  double depth_m = not_given;   ///< of it below the surface of the mass
+  std::vector<std::string> cracks, drained;  ///< joint sets; "source_side"
+  double crack_fill_m = not_given;           ///< above the lowest point of each crack
+  double drained_at_m = 0.01;                ///< opening of a face that drains it
+};
+
 /// [fragmentation]: blocks that break in two when they are hit hard.
 struct FragmentationSettings {
   bool enabled = false;
@@ -386,6 +396,7 @@ struct Site {
   SolverSettings solver;
   OutputSettings output;
   BaseMotionSettings base_motion;
+  WaterSettings water;
   FragmentationSettings fragmentation;
   JointNorth joint_north;
   std::vector<JointSettings> joints;        ///< in the order of the file, as all named sections

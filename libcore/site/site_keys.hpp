@@ -58,6 +58,7 @@ template <> const std::vector<SiteKey<FenceSettings>>& keys_of();
 template <> const std::vector<SiteKey<ForestSettings>>& keys_of();
 template <> const std::vector<SiteKey<OutputSettings>>& keys_of();
 template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of();
+template <> const std::vector<SiteKey<WaterSettings>>& keys_of();
 template <> const std::vector<SiteKey<FragmentationSettings>>& keys_of();
 template <> const std::vector<SiteKey<PlacedSettings>>& keys_of();
 template <> const std::vector<SiteKey<RockfallSettings>>& keys_of();
@@ -124,6 +125,7 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("fence", site.fences);
   visit("forest", site.forests);
   visit("base_motion", site.base_motion);
+  visit("water", site.water);
   visit("fragmentation", site.fragmentation);
   visit("output", site.output);
   visit("uncertainty", site.uncertainty);

@@ -3,6 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/displacement.hpp"
+#include "scene/bond_face.hpp"
+#include "scene/sleep.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/flight.hpp"
+
 namespace talus {
 namespace {
 
@@ -55,22 +61,103 @@ double range_of_base(const AccelerationRecord& base, double from, double to) {
   return (high - low).norm();
 }
 
-Vec3 free_acceleration(const Scene& scene, int b, double t_start, double t_end) {
+Vec3 free_acceleration(const Scene& scene, int b, double t_start, double t_end,
+                       std::span<const double> pressure) {
   Vec3 a = scene.gravity;
   if (shakes(scene.base))
     a -= (sampled_impulse(scene.base, t_start, t_end) +
           harmonic_impulse(scene.base.harmonic, t_start, t_end)) /
          (t_end - t_start);
-  for (const PointLoad& load : scene.loads)
-    if (load.block == b) a += load.force / scene.blocks.mass[b];
+  for (const PointLoad& load : loads_on(scene, b))
+    a += force_of(load, pressure) / scene.blocks.mass[b];
   return a;
 }
 
-Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
+std::span<const PointLoad> loads_on(const Scene& scene, int b) {
+  const auto first =
+      std::lower_bound(scene.loads.begin(), scene.loads.end(), b,
+                       [](const PointLoad& load, int block) { return load.block < block; });
+  auto last = first;
+  while (last != scene.loads.end() && last->block == b) ++last;
+  return {first, last};
+}
+
+bool is_loaded(const Scene& scene, int b, std::span<const double> pressure) {
+  const std::span<const PointLoad> loads = loads_on(scene, b);
+  return std::any_of(loads.begin(), loads.end(),
+                     [&](const PointLoad& load) { return !force_of(load, pressure).isZero(0); });
+}
+
+Vec3 load_torque(const Scene& scene, int b, const Quat& attitude,
+                 std::span<const double> pressure) {
   Vec3 torque = Vec3::Zero();
-  for (const PointLoad& load : scene.loads)
-    if (load.block == b) torque += (attitude * load.point).cross(load.force);
+  for (const PointLoad& load : loads_on(scene, b))
+    torque += (attitude * load.point).cross(force_of(load, pressure));
   return torque;
+}
+
+Vec6 load_strain(const Scene& scene, int b, const Quat& attitude,
+                 std::span<const double> pressure) {
+  Vec6 sum = Vec6::Zero();
+  for (const PointLoad& load : loads_on(scene, b))
+    sum += strain_load(load.point, attitude.conjugate() * force_of(load, pressure));
+  return sum;
+}
+
+Vec3 book_loads(const Scene& scene, int b, const Pose& from, const Pose& to, State& state) {
+  Vec3 sum = Vec3::Zero();
+  for (const PointLoad& load : loads_on(scene, b)) {
+    const Vec3 force = force_of(load, state.pressure);
+    (load.wet_face < 0 ? state.ledger.base : state.ledger.water) +=
+        force.dot(place(to, load.point) - place(from, load.point));
+    sum += force;
+  }
+  return sum;
+}
+
+namespace {
+
+// By how far the faces have parted along the normal, and at all.
+double pressure_left(const Scene& scene, const State& state, const WetFace& face) {
+  const bool on_ground = face.block_b < 0;
+  if (!takes_part(state, face.block_a) || !(on_ground || takes_part(state, face.block_b))) return 0;
+  const Pose a = motion_at(scene, state, face.block_a, state.time).pose;
+  const Vec3 there =
+      on_ground ? face.point_b
+                : place(motion_at(scene, state, face.block_b, state.time).pose, face.point_b);
+  const Vec3 apart = place(a, face.point_a) - there;
+  const double opening = std::max(0.0, apart.dot(a.attitude * face.normal));
+  const double in_common = std::max(0.0, 1 - apart.norm() / face.extent);
+  if (scene.drained_at > 0) return in_common * std::max(0.0, 1 - opening / scene.drained_at);
+  const std::vector<double>& radius = scene.blocks.shapes.radius;
+  const double smaller =
+      on_ground ? radius[face.block_a] : std::min(radius[face.block_a], radius[face.block_b]);
+  return opening > bonded_gap_ratio * smaller ? 0 : in_common;
+}
+
+bool is_asleep(const State& state, int b) { return b >= 0 && phase_of(state, b) == Phase::asleep; }
+
+// Whether a loss of force moves a block of `mass`, did nothing else hold it.
+bool moves(const Scene& scene, double lost, double mass) {
+  return lost > law::least_speed * scene.gravity.norm() * mass;
+}
+
+}  // namespace
+
+void drain_faces(const Scene& scene, State& state) {
+  for (size_t f = 0; f < state.pressure.size(); ++f) {
+    if (state.pressure[f] == 0) continue;
+    const WetFace& face = scene.wet_faces[f];
+    const double left = std::min(state.pressure[f], pressure_left(scene, state, face));
+    const double lost = (state.pressure[f] - left) * face.force;
+    bool is_felt = true;  // by those of its blocks that sleep
+    for (const int b : {face.block_a, face.block_b})
+      if (is_asleep(state, b)) is_felt &= left == 0 || moves(scene, lost, scene.blocks.mass[b]);
+    if (!is_felt || lost == 0) continue;
+    state.pressure[f] = left;
+    for (const int b : {face.block_a, face.block_b})
+      if (is_asleep(state, b)) wake_bonded(b, state.time, state);
+  }
 }
 
 }  // namespace talus

@@ -105,9 +105,7 @@ BlockSystem<Dof> static_system(const Scene& scene, int b, const BlockNumbers& c,
     const Mat6 C = elastic_matrix(blocks.young[i], blocks.poisson[i]);
     Vec6 stress = C * state.strain[i];
     if (!blocks.initial_stress.empty()) stress += blocks.initial_stress[i];
-    for (const PointLoad& load : scene.loads)
-      if (load.block == b)
-        stress -= strain_load(load.point, s.R.transpose() * load.force) / blocks.volume[i];
+    stress -= load_strain(scene, b, s.free.pose.attitude, state.pressure) / blocks.volume[i];
     const Vec6 rate = C.ldlt().solve(stress) / -c.recovery_time;
     system.mass.template topRightCorner<6, 6>().setZero();
     system.mass.template bottomLeftCorner<6, 6>().setZero();
@@ -142,7 +140,7 @@ std::optional<StaticPass> static_pass(const Scene& scene, int b, const BlockNumb
                                       double friction, bool from_touch, State& state, Work& work) {
   const auto i = static_cast<size_t>(b);
   Motion& motion = state.motion[i];
-  const Substep s = predict(scene, b, c, motion, 0, h);
+  const Substep s = predict(scene, b, c, motion, 0, h, state.pressure);
   (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
                       std::min(search_margin(c, h), law::shallow * c.radius), work.world_vertices,
                       work.contacts);

@@ -14,6 +14,7 @@
 #include "step/impact.hpp"
 #include "step/island/step_island.hpp"
 #include "step/island/untouched.hpp"
+#include "step/loads.hpp"
 #include "step/lone/step_talus.hpp"
 #include "step/mass/step_mass.hpp"
 #include "step/mishaps.hpp"
@@ -51,6 +52,7 @@ State start_unsettled(const Scene& scene) {
   if (!scene.crush_load.empty()) state.load.resize(n);
   state.yielding = start_yielding(scene);
   state.bonds = start_bonds(scene);
+  state.pressure.assign(scene.wet_faces.size(), 1);
   if (!scene.fragments.empty()) {
     state.hit_loss.assign(n, 0);
     state.n_hits.assign(n, 0);
@@ -129,6 +131,7 @@ void advance_talus(const Scene& scene, State& state, Work& work, StepReport& rep
 
 void end_step(const Scene& scene, State& state, Work& work, StepReport& report) {
   state.time += step_length(scene, state);
+  drain_faces(scene, state);
   break_blocks(scene, state, work);
   crush_blocks(scene, state);
   note_deep_blocks(scene, state, work.deep, report);

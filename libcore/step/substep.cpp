@@ -197,15 +197,15 @@ double search_margin(const BlockNumbers& c, double h) {
 }
 
 Substep predict(const Scene& scene, int b, const BlockNumbers& c, const Motion& start, double t,
-                double h) {
+                double h, std::span<const double> pressure) {
   Substep s;
   s.h = h;
   s.start = start;
-  s.free_acceleration = free_acceleration(scene, b, t, t + h);
-  if (scene.loads.empty()) {
+  s.free_acceleration = free_acceleration(scene, b, t, t + h, pressure);
+  if (loads_on(scene, b).empty()) {
     s.free = fly(start, c.inertia, s.free_acceleration, h);
   } else {  // half of their torque's impulse before the flight, so that it turns the block too
-    const Vec3 half = h / 2 * load_torque(scene, b, start.pose.attitude);
+    const Vec3 half = h / 2 * load_torque(scene, b, start.pose.attitude, pressure);
     Motion kicked = start;
     kicked.angular_momentum += half;
     s.free = fly(kicked, c.inertia, s.free_acceleration, h);

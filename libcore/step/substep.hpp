@@ -40,8 +40,9 @@ namespace talus {
 [[nodiscard]] double time_to_touch(double gap, double speed, double gap_end, double touch,
                                    double h);
 
+/// The motion of block b from `start` without contact; `pressure` as State has it.
 [[nodiscard]] Substep predict(const Scene& scene, int b, const BlockNumbers& c, const Motion& start,
-                              double t, double h);
+                              double t, double h, std::span<const double> pressure);
 
 /// I + strain of block b.
 [[nodiscard]] Mat3 stretch_of(const State& state, int b);

@@ -6,6 +6,7 @@
 #include "scene/stems.hpp"
 #include "scene/yielding.hpp"
 #include "step/crushing.hpp"
+#include "step/loads.hpp"
 #include "step/soil.hpp"
 #include "step/substep.hpp"
 
@@ -31,9 +32,10 @@ Motion begin_drag(const Scene& scene, const State& state, std::size_t b, double 
 void end_block(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                const Motion& end, bool on_ground, double t, State& state, StepReport& report) {
   const auto i = static_cast<std::size_t>(b);
-  const Vec3 external = s.free_acceleration - scene.gravity;
-  if (!external.isZero(0))
-    state.ledger.base += c.mass * external.dot(end.pose.position - s.start.pose.position);
+  const Vec3 loads = book_loads(scene, b, s.start.pose, end.pose, state);
+  const Vec3 by_base = s.free_acceleration - scene.gravity - loads / c.mass;
+  if (!by_base.isZero(0))
+    state.ledger.base += c.mass * by_base.dot(end.pose.position - s.start.pose.position);
   Motion& motion = state.motion[i];
   Motion after = end;
   if (any_drags(scene)) {

@@ -13,10 +13,10 @@ namespace talus {
 // A field added to one of these structs and forgotten here would be lost on --resume: the sizes
 // say that a list has to be looked at again.
 
-static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 72 && sizeof(RunCounters) == 64);
+static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 80 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 112 &&
-              sizeof(HealthRow) == 208 + 8 * substep_cut_names.size());
-static_assert(sizeof(State) == 2 * 8 + 23 * 24 + sizeof(HitChain) + sizeof(EnergyLedger) +
+              sizeof(HealthRow) == 216 + 8 * substep_cut_names.size());
+static_assert(sizeof(State) == 2 * 8 + 24 * 24 + sizeof(HitChain) + sizeof(EnergyLedger) +
                                    sizeof(RunCounters) + sizeof(PairState) + sizeof(PlacedHulls) +
                                    sizeof(FenceState) + sizeof(YieldingState) + sizeof(Mishaps));
 static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
@@ -47,7 +47,7 @@ void fields(Fields<Archive>& archive, Motion& motion) {
 template <class Archive>
 void fields(Fields<Archive>& archive, EnergyLedger& ledger) {
   archive(ledger.friction, ledger.impact, ledger.contact, ledger.base, ledger.fence, ledger.rolling,
-          ledger.drag, ledger.breakage, ledger.removed);
+          ledger.drag, ledger.breakage, ledger.removed, ledger.water);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, BlockBond& bond) {
@@ -194,7 +194,7 @@ void fields(Fields<Archive>& archive, HealthRow& row) {
           row.unconverged, row.left_domain, row.fell_through, row.not_finite,
           row.largest_penetration, row.largest_error, row.translation, row.rotation, row.potential,
           row.elastic, row.friction, row.impact, row.contact, row.base, row.fence, row.rolling,
-          row.drag, row.breakage, row.removed);
+          row.drag, row.breakage, row.removed, row.water);
   for (std::int64_t& n : row.cuts) archive(n);
 }
 template <class Archive>
@@ -203,16 +203,16 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
   archive(state.time, state.stride, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.support, checkpoint.paper.rebound,
           state.rest_pose, state.rest_steps, state.strain, state.strain_rate, state.memory,
-          state.mass, state.carried, state.pairs, state.placed, state.bonds, state.deep, state.slid,
-          state.load, state.crushed, state.hit_loss, state.n_hits, state.breaks, state.mishaps,
-          state.yielding, state.fence, state.stem_hits, state.stem_chain, state.ledger,
-          state.counters, checkpoint.trackers, checkpoint.sampler, checkpoint.interval,
-          checkpoint.energy_start, checkpoint.n_done);
+          state.mass, state.carried, state.pairs, state.placed, state.bonds, state.pressure,
+          state.deep, state.slid, state.load, state.crushed, state.hit_loss, state.n_hits,
+          state.breaks, state.mishaps, state.yielding, state.fence, state.stem_hits,
+          state.stem_chain, state.ledger, state.counters, checkpoint.trackers, checkpoint.sampler,
+          checkpoint.interval, checkpoint.energy_start, checkpoint.n_done);
 }
 
 namespace {
 
-constexpr std::uint64_t format = 0x37316b6365686374;  // "tcheck17"
+constexpr std::uint64_t format = 0x38316b6365686374;  // "tcheck18"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

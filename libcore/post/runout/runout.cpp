@@ -415,8 +415,8 @@ EnergyShares energy_shares(const RunFile& run) {
   const HealthRow &start = run.health.front(), &end = run.health.back();
   const double at_start = start.translation + start.rotation + start.friction + start.impact +
                           start.contact + start.fence + start.breakage + start.removed +
-                          start.elastic - start.base;
-  shares.put_in = start.potential - end.potential + at_start + end.base;
+                          start.elastic - start.base - start.water;
+  shares.put_in = start.potential - end.potential + at_start + end.base + end.water;
   if (!(shares.put_in > 0)) return {};
   shares.friction = end.friction / shares.put_in;
   shares.impact = end.impact / shares.put_in;

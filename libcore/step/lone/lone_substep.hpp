@@ -14,6 +14,7 @@
 #include "scene/state.hpp"
 #include "solver/newton.hpp"
 #include "step/deep_blocks.hpp"
+#include "step/loads.hpp"
 #include "step/substep.hpp"
 #include "step/work.hpp"
 
@@ -57,9 +58,8 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
         c.per_inertia.cwiseProduct(system.mass.template block<3, 6>(3, 6) * v.tail<6>());
     momentum = system.mass * v;
     momentum.template tail<6>() -= s.h * volume * stress;
-    for (const PointLoad& load : scene.loads)
-      if (load.block == b)
-        momentum.template tail<6>() += s.h * strain_load(load.point, s.R.transpose() * load.force);
+    momentum.template tail<6>() +=
+        s.h * load_strain(scene, b, s.free.pose.attitude, state.pressure);
     system.mass.template bottomRightCorner<6, 6>() += s.h * c.recovery_time * volume * C;
     system.free_velocity = system.mass.ldlt().solve(momentum);
     system.velocity = system.free_velocity;

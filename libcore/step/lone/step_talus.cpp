@@ -64,7 +64,7 @@ struct Advance {
   [[nodiscard]] size_t i() const { return static_cast<size_t>(b); }
   Motion& motion() { return state.motion[i()]; }
 
-  bool gravity_only() const { return !shakes(scene.base) && scene.loads.empty(); }
+  bool gravity_only() const { return !shakes(scene.base) && !is_loaded(scene, b, state.pressure); }
   bool free_fall_only() const { return may_fly && gravity_only(); }
 
   void finish(const Substep& s, const Motion& end, double t, double t_next) {
@@ -181,7 +181,7 @@ struct Advance {
   // Substep of h from t; h is shortened to the first impact or when the forces do not converge.
   template <int Dof>
   Attempt attempt(double t, double& h, bool last) {
-    Substep s = predict(scene, b, c, begin_drag(scene, state, i(), h), t, h);
+    Substep s = predict(scene, b, c, begin_drag(scene, state, i(), h), t, h, state.pressure);
     if constexpr (Dof == 12) {
       s.is_straining = true;
       s.straining = strain_tensor(state.strain_rate[i()]);

@@ -93,7 +93,8 @@ struct MassMaker {
     const Pose& start = s.start.pose;
     m.momentum = s.start.angular_momentum;
     if (!scene.loads.empty())  // as predict() has it
-      m.momentum += free.h / 2 * load_torque(scene, static_cast<int>(b), start.attitude);
+      m.momentum +=
+          free.h / 2 * load_torque(scene, static_cast<int>(b), start.attitude, state.pressure);
     m.attitude = free_rotation(start.attitude, m.momentum, c.inertia, free.h / 2);
     const Mat3 R = m.attitude.toRotationMatrix();
     m.per_inertia = R * c.per_inertia.asDiagonal() * R.transpose();

@@ -32,20 +32,20 @@ TEST(Loads, AHarmonicGroundGivesEachStepItsMeanAcceleration) {
   const talus::HarmonicMotion motion{Vec3(3, -2, 0.5), 7.5, 0.3, 2.7};
   const talus::Scene scene = shaken(motion);
   for (const auto& [from, to] : {std::pair(0.4, 0.405), std::pair(1.0, 1.5), std::pair(2.0, 2.3)})
-    EXPECT_NEAR(
-        (scene.gravity - talus::free_acceleration(scene, 0, from, to) - mean_of(motion, from, to))
-            .norm(),
-        0, 1e-7)
+    EXPECT_NEAR((scene.gravity - talus::free_acceleration(scene, 0, from, to, {}) -
+                 mean_of(motion, from, to))
+                    .norm(),
+                0, 1e-7)
         << from;
 }
 
 TEST(Loads, AHarmonicGroundStandsStillBeforeItsStartAndAfterItsEnd) {
   const talus::HarmonicMotion motion{Vec3(4, 0, 0), 2, 1, 2};
   const talus::Scene scene = shaken(motion);
-  EXPECT_EQ(talus::free_acceleration(scene, 0, 0.5, 1), scene.gravity);
-  EXPECT_EQ(talus::free_acceleration(scene, 0, 2, 2.005), scene.gravity);
+  EXPECT_EQ(talus::free_acceleration(scene, 0, 0.5, 1, {}), scene.gravity);
+  EXPECT_EQ(talus::free_acceleration(scene, 0, 2, 2.005, {}), scene.gravity);
   // a step over the end takes the part before it alone
-  const Vec3 a = scene.gravity - talus::free_acceleration(scene, 0, 1.9, 2.1);
+  const Vec3 a = scene.gravity - talus::free_acceleration(scene, 0, 1.9, 2.1, {});
   EXPECT_NEAR(a.x(), 4 * (std::cos(1.8) - std::cos(2.0)) / 2 / 0.2, 1e-12);
 }
 
@@ -53,7 +53,7 @@ TEST(Loads, AHarmonicGroundIsRightToRoundingInTheShortestStep) {
   const talus::HarmonicMotion motion{Vec3(1, 0, 0), 5, 0, 1e9};
   const talus::Scene scene = shaken(motion);
   const double t = 1e-3, h = 1e-11;
-  const Vec3 a = scene.gravity - talus::free_acceleration(scene, 0, t, t + h);
+  const Vec3 a = scene.gravity - talus::free_acceleration(scene, 0, t, t + h, {});
   EXPECT_NEAR(a.x() / std::sin(5 * (t + h / 2)), 1, 1e-6);  // h itself is known to 2e-8
 }
 

@@ -6,6 +6,7 @@
 #include "base/random.hpp"
 #include "contact/search.hpp"
 #include "motion/rotation.hpp"
+#include "scene/joint_water.hpp"
 #include "step/flight.hpp"
 #include "step/step.hpp"
 #include "step/substep.hpp"
@@ -113,6 +114,32 @@ TEST(Step, MassesDoNotAllocateAfterWarmUp) {
   while (state.time < 0.715) step(scene, state, work);
   EXPECT_EQ(n_allocations, before);
   EXPECT_TRUE(state.mass[0].is_in_mass);
+}
+
+// A block on a slope slides off water that its opening joints lose.
+TEST(Step, WaterDoesNotAllocate) {
+  if (!counts_allocations) GTEST_SKIP() << "the thread sanitizer counts nothing";
+  const SlopeFrame frame = slope_frame(35, 0);
+  std::vector<Body> bodies;
+  for (const double x : {-1.0, 0.0, 1.0})
+    bodies.push_back(body_of(box_in(frame, Vec3::Zero(), Vec3(x, -1, 0), Vec3(x + 1, 1, 1))));
+  Scene scene = scene_of(plane_trn(frame, 1, 40), ground_of(30), bodies, {});
+  JointWater water;
+  water.unit_weight = 1e4;
+  water.surface = scene.ground.trn.elevation;
+  for (double& z : water.surface) z += 0.7;
+  add_joint_water(water, scene);
+  scene.drained_at = 0.01;
+  ASSERT_EQ(scene.wet_faces.size(), 5u);
+  const State first = start(scene);
+  State state = first;
+  Work work = make_work(scene);
+  for (int warm_up = 0; warm_up < 2; ++warm_up, state = first)
+    for (int i = 0; i < 200; ++i) step(scene, state, work);
+  const long before = n_allocations;
+  for (int i = 0; i < 200; ++i) step(scene, state, work);
+  EXPECT_EQ(n_allocations, before);
+  EXPECT_LT(state.pressure[0], 1);
 }
 
 TEST(Step, IsTheSameToTheBitWhenRepeated) {

@@ -377,6 +377,8 @@ talus::Checkpoint sample_checkpoint() {
   state.memory[1][2].key.feature_a = 42;
   state.memory[1][2].normal_force = 1e-300;
   state.mass.resize(2);
+  state.pressure = {1, 0.25, 0};
+  state.ledger.water = 17;
   state.mass[1] = {.is_in_mass = true, .calm = 3, .unsettled = 4, .barred = 5};
   state.counters.impacts = 99;
   checkpoint.trackers.resize(2);
@@ -397,6 +399,8 @@ TEST(Checkpoint, ReadsBackToTheBit) {
   EXPECT_EQ(back.state.memory[1][2].normal_force, 1e-300);
   EXPECT_EQ(back.state.support[1], Vec3(4, 5, 6));
   EXPECT_EQ(back.state.counters.impacts, 99);
+  EXPECT_EQ(back.state.pressure, (std::vector<double>{1, 0.25, 0}));
+  EXPECT_EQ(back.state.ledger.water, 17);
   EXPECT_TRUE(back.state.mass[1].is_in_mass);
   EXPECT_EQ(back.state.mass[1].barred, 5);
   EXPECT_EQ(back.state.deep[1].steps, 12);

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "scene/joint_water.hpp"
+#include "verify/cases/cases.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+constexpr double weight = 1e4;  // of water [N/m3]
+
+std::vector<double> level(const Scene& scene, double z) {
+  return std::vector<double>(scene.ground.trn.elevation.size(), z);
+}
+
+Polyhedron tagged(Polyhedron body, int tag) {
+  body.face_tag.assign(body.face_tag.size(), tag);
+  return body;
+}
+
+Vec3 force_on(const Scene& scene, int b) {
+  Vec3 sum = Vec3::Zero();
+  for (const PointLoad& load : scene.loads)
+    if (load.block == b) sum += load.force;
+  return sum;
+}
+
+Vec3 couple_on(const Scene& scene, int b) {
+  Vec3 sum = Vec3::Zero();
+  for (const PointLoad& load : scene.loads)
+    if (load.block == b) sum += (scene.blocks.rest[b].attitude * load.point).cross(load.force);
+  return sum;
+}
+
+Scene two_cubes() {
+  return scene_of(plane_trn(slope_frame(0, 0), 1, 10), ground_of(30),
+                  {body_of(tagged(box(Vec3(-2, -1, 0), Vec3(0, 1, 2)), 0)),
+                   body_of(tagged(box(Vec3(0, -1, 0), Vec3(2, 1, 2)), 0))},
+                  {});
+}
+
+// Two cubes of side 2 side by side on level ground, water to 1.5 m: 1.5 m of head on either base of
+// 4 m2, and w 1.5^2 / 2 on 2 m of the joint, half a metre above its foot.
+TEST(JointWater, LiftsAndThrusts) {
+  Scene scene = two_cubes();
+  JointWater water;
+  water.unit_weight = weight;
+  water.surface = level(scene, 1.5);
+  add_joint_water(water, scene);
+  EXPECT_EQ(scene.wet_faces.size(), 3u);
+  const double thrust = weight * 1.5 * 1.5 / 2 * 2, lift = weight * 1.5 * 4;
+  EXPECT_NEAR((force_on(scene, 0) - Vec3(-thrust, 0, lift)).norm(), 0, 1e-8 * lift);
+  EXPECT_NEAR((force_on(scene, 1) - Vec3(thrust, 0, lift)).norm(), 0, 1e-8 * lift);
+  // half a metre below the centroids
+  EXPECT_NEAR((couple_on(scene, 1) - Vec3(0, -0.5 * thrust, 0)).norm(), 0, 1e-8 * lift);
+}
+
+TEST(JointWater, IsNotInDrainedSets) {
+  Scene scene = two_cubes();
+  JointWater water;
+  water.unit_weight = weight;
+  water.surface = level(scene, 1.5);
+  water.of_set = {JointFill::drained};
+  add_joint_water(water, scene);
+  EXPECT_TRUE(scene.loads.empty());
+}
+
+// Cracks are filled above their own lowest point, whatever the piezometric surface: the joint of
+// two piles of two cubes is one crack, and its upper half has the head that is left there.
+TEST(JointWater, StandsInACrackAboveItsFoot) {
+  std::vector<Body> bodies;
+  for (const double x : {-2.0, 0.0})
+    for (const double z : {0.0, 2.0}) {
+      Body body = body_of(box(Vec3(x, -1, z), Vec3(x + 2, 1, z + 2)));
+      for (int f = 0; f < 6; ++f) body.parts[0].face_tag[f] = f < 2 ? 1 : 0;  // x: set 1
+      bodies.push_back(body);
+    }
+  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 10), ground_of(30), bodies, {});
+  JointWater water;
+  water.unit_weight = weight;
+  water.of_set = {JointFill::surface, JointFill::crack};
+  water.crack_fill = 3;
+  add_joint_water(water, scene);
+  EXPECT_EQ(scene.wet_faces.size(), 2u);
+  const double below = weight * (3 * 2 - 2) * 2, above = weight * 0.5 * 2;
+  EXPECT_NEAR((force_on(scene, 0) - Vec3(-below, 0, 0)).norm(), 0, 1e-8 * below);
+  EXPECT_NEAR((force_on(scene, 1) - Vec3(-above, 0, 0)).norm(), 0, 1e-8 * below);
+  EXPECT_NEAR((force_on(scene, 2) - Vec3(below, 0, 0)).norm(), 0, 1e-8 * below);
+}
+
+// A mass of even upright thickness on a slope, piezometric surface at a depth below its top: the
+// head on its base is what is left of the thickness, all over it; the top and the sides are dry.
+TEST(JointWater, IsSoDeepBelowTheTop) {
+  const SlopeFrame frame = slope_frame(25, 30);
+  const double thick = 2, depth = 0.7;
+  Polyhedron mass = tagged(box(Vec3(-3, -2, 0), Vec3(3, 2, thick)), face_terrain);
+  for (Vec3& v : mass.vertices)
+    v = v.x() * frame.dip + v.y() * frame.strike + v.z() * Vec3::UnitZ();
+  Scene scene = scene_of(plane_trn(frame, 0.5, 10), ground_of(30), {body_of(mass)}, {});
+  JointWater water;
+  water.unit_weight = weight;
+  water.depth = depth;
+  add_joint_water(water, scene);
+  const Vec3 exact = weight * (thick - depth) * 24 * frame.normal;
+  EXPECT_NEAR((force_on(scene, 0) - exact).norm(), 0, 1e-6 * exact.norm());
+}
+
+}  // namespace
