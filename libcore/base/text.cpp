@@ -76,6 +76,18 @@ std::string lower(std::string_view text) {
   return lowered;
 }
 
+std::string folded(std::string_view line, std::size_t columns) {
+  std::string lines;
+  for (std::string_view indent; line.size() + indent.size() > columns; indent = "  ") {
+    std::size_t at = line.rfind("; ", columns - indent.size() - 1);
+    if (at == std::string_view::npos) at = line.find("; ");
+    if (at == std::string_view::npos) break;
+    lines.append(indent).append(line.substr(0, at + 1)).append("\n");
+    line.remove_prefix(at + 2);
+  }
+  return lines + (lines.empty() ? "" : "  ") + std::string(line);
+}
+
 std::string xml_escaped(std::string_view text) {
   std::string allowed, out;
   for (const char c : text)

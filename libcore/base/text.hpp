@@ -27,6 +27,10 @@ namespace talus {
 [[nodiscard]] std::string nearest_name(std::string_view name,
                                        const std::vector<std::string>& known);
 
+/// `line` as lines of at most `columns` letters where it can be parted behind a "; ": those that
+/// follow are indented. A phrase that is longer stays whole.
+[[nodiscard]] std::string folded(std::string_view line, std::size_t columns);
+
 /// Lower case of the ASCII letters; other bytes as they are.
 [[nodiscard]] std::string lower(std::string_view text);
 

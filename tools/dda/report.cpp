@@ -284,15 +284,15 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double from_s, doub
 }
 
 std::string run_summary(const Json& report, const RunFile& file) {
-  const auto number = [&report](const char* key) { return text(report[key].get<double>(), 4); };
+  const auto number = [&report](const char* key) { return text(report[key].get<double>(), 3); };
   const Json& moved = report["mean_displacement_m"];
   const double horizontal = std::hypot(moved[0].get<double>(), moved[1].get<double>());
   const auto count = [&report](const char* key, const char* noun) {
     return counted(report[key].get<std::int64_t>(), noun);
   };
   const double fell = -moved[2].get<double>();
-  const std::string centre = "centre of mass moved " + text(horizontal, 4) + " m and " +
-                             (fell < 0 ? "rose " : "fell ") + text(std::abs(fell), 4) + " m, ";
+  const std::string centre = "centre of mass moved " + text(horizontal, 3) + " m and " +
+                             (fell < 0 ? "rose " : "fell ") + text(std::abs(fell), 3) + " m; ";
   return count("n_blocks", file.info.independent ? "rock" : "block") + ", " + number("time_s") +
          " s in " + count("steps", "step") + ": " + (file.info.independent ? "" : centre) +
          text(moved_of_run(file)) + "; largest speed " + number("largest_speed_m_s") + " m/s, " +

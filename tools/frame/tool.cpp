@@ -116,7 +116,8 @@ struct Tool::Impl {
 
   std::string as_words(const std::string& level, const std::string& text) const {
     if (level == info_level) return labelled(text);
-    if (level == hint_level) return labelled("  hint: " + text);
+    if (level == hint_level)
+      return (options.label.empty() ? "" : options.label + ": ") + "  hint: " + text;
     return labelled(name + (level == warning_level ? ": warning: " : ": ") + text);
   }
 
@@ -127,8 +128,18 @@ struct Tool::Impl {
     return json_text(object);
   }
 
+  // In lines that a terminal holds.
   std::string labelled(const std::string& text) const {
-    return options.label.empty() ? text : options.label + ": " + text;
+    constexpr std::size_t columns = 120;
+    std::string lines;
+    for (std::size_t from = 0; from <= text.size();) {
+      const std::size_t end = std::min(text.find('\n', from), text.size());
+      const std::string line = text.substr(from, end - from);
+      lines += (from == 0 ? "" : "\n") +
+               folded(options.label.empty() ? line : options.label + ": " + line, columns);
+      from = end + 1;
+    }
+    return lines;
   }
 
   void event(const std::string& level, const std::string& text) {

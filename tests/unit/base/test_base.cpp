@@ -42,6 +42,15 @@ TEST(Text, OnlyWholeFiniteNumbersAreRead) {
   EXPECT_EQ(value, 1500);
 }
 
+TEST(Folded, PartsLongLinesBehindSemicolons) {
+  EXPECT_EQ(folded("a b; c", 24), "a b; c");
+  EXPECT_EQ(folded("run_1: aaaa bbbb; cccc dddd; eeee ffff gggg hhhh; x", 24),
+            "run_1: aaaa bbbb;\n  cccc dddd;\n  eeee ffff gggg hhhh; x");
+  EXPECT_EQ(folded("one phrase without an end; x", 24), "one phrase without an end;\n  x");
+  EXPECT_EQ(folded("one phrase without any place", 24), "one phrase without any place");
+  EXPECT_EQ(folded("1234567890; 1234567890; ", 12), "1234567890;\n  1234567890;\n  ");
+}
+
 TEST(NearestName, FindsTheMisspeltAndLeavesTheUnlike) {
   const std::vector<std::string> known = {"friction_deg", "cohesion_pa", "tension_pa"};
   EXPECT_EQ(nearest_name("fricton_deg", known), "friction_deg");
