@@ -49,6 +49,19 @@ FlightInstant flight_instant(const Scene& scene, int block, const Motion& motion
   return {true, {motion, high.z(), spin_energy}, centre + low.head<2>(), centre + high.head<2>()};
 }
 
+// Height of a centroid above the plane of the one triangle that some pieces lie over.
+struct HeightAbovePlane {
+  bool known = false;
+  int from = 0;  // piece at which x is 0
+  double height = 0, rate = 0, curve = 0;
+
+  [[nodiscard]] double at(double x) const { return height + x * (rate + x * curve); }
+  [[nodiscard]] double highest(double low, double high) const {
+    const double largest = std::max(at(low), at(high)), peak = -rate / (2 * curve);
+    return curve < 0 && peak > low && peak < high ? std::max(largest, at(peak)) : largest;
+  }
+};
+
 // The pieces of one flight. Where the block is followed piece by piece and where not depends on
 // what can change: cells only near their sides, and the largest height of the block's top only
 // where its centroid is nearly as high as it gets.
@@ -61,6 +74,7 @@ struct FlightRecord {
   int n_pending = 0;     // pieces before this are in the tracker's pending values
   double top_bound = 0;  // no vertex is higher above the centroid [m]
   double spin_energy_start = 0, spin_energy_end = 0;  // [J]
+  HeightAbovePlane above{};                           // in the pieces whose top is raised
 
   [[nodiscard]] const Segment& segment() const { return motion.segment(); }
   [[nodiscard]] PassageTracker& tracker() const { return recorder.trackers[piece.block]; }
@@ -94,6 +108,29 @@ struct FlightRecord {
     return largest_heights(scene.ground.trn, path(from, to), 0, 1).centroid;
   }
 
+  // Largest height of the centroid in some of the pieces that see_plane() was called for.
+  [[nodiscard]] double highest_of_some(int from, int to) const {
+    return above.known ? above.highest(from - above.from, to - above.from) : highest(from, to);
+  }
+
+  void see_plane(int from, int to) {
+    above.known = false;
+    const Trn& trn = scene.ground.trn;
+    const Vec3 start = position_at(from), end = position_at(to);
+    if (to - from == 1 || !segment().acceleration.head<2>().isZero(0) ||
+        !contains(trn, start.x(), start.y()) || !contains(trn, end.x(), end.y()))
+      return;
+    const int triangle = triangle_at(trn, start.x(), start.y());
+    if (triangle_at(trn, end.x(), end.y()) != triangle) return;
+    const GridPoint at = locate(trn, start.x(), start.y());
+    const Vec2 gradient = triangle_gradient(trn, at.cell, is_upper(at));
+    const Vec3 off = start - node_point(trn, at.cell.row, at.cell.col),
+               path = piece.duration * velocity_at(from);
+    above = {true, from, off.z() - gradient.dot(off.head<2>()),
+             path.z() - gradient.dot(path.head<2>()),
+             0.5 * segment().acceleration.z() * piece.duration * piece.duration};
+  }
+
   // Raises the top's height by that in some pieces, in which the centroid comes as high as
   // `centroid`: in halves, the higher one first, as long as the top may come higher than it has.
   void raise_top(int from, int to, double centroid) {
@@ -108,7 +145,7 @@ struct FlightRecord {
       return;
     }
     const int middle = (from + to) / 2;
-    const double before = highest(from, middle), after = highest(middle, to);
+    const double before = highest_of_some(from, middle), after = highest_of_some(middle, to);
     if (!(after > before)) raise_top(from, middle, before);
     raise_top(middle, to, after);
     if (after > before) raise_top(from, middle, before);
@@ -131,6 +168,7 @@ struct FlightRecord {
     }
     values.centroid_height = static_cast<float>(centroid);
     tracker().pending.raise(values);
+    see_plane(n_pending, k);
     raise_top(n_pending, k, centroid);
     n_pending = k;
   }
@@ -139,15 +177,20 @@ struct FlightRecord {
     return segment().start.velocity + k * piece.duration * segment().acceleration;
   }
 
-  // The last piece up to which a ball around the block stays over the only cell that is covered.
-  [[nodiscard]] int end_in_cell(int k, const CoveredStrip& strip) const {
-    if (tracker().covered.size() != 1 || !segment().acceleration.head<2>().isZero(0)) return k;
-    const double radius = recorder.by_centroid ? 0 : scene.blocks.shapes.radius[piece.block];
+  // The last piece up to which balls tell that the covered cells stay: one around the block that
+  // stays in `outer`, one in it that reaches beyond both sides of `inner`.
+  [[nodiscard]] int end_in_cells(int k, const CoveredStrip& strip) const {
+    if (!strip.is_strip || !segment().acceleration.head<2>().isZero(0)) return k;
+    if (recorder.by_centroid && tracker().covered.size() > 1) return k;
+    const double around = recorder.by_centroid ? 0 : scene.blocks.shapes.radius[piece.block];
+    const double within = recorder.by_centroid ? 0 : recorder.inner_radius[piece.block];
     const Vec2 at = position_at(k).head<2>(), velocity = segment().start.velocity.head<2>();
     double longest = (n - k) * piece.duration;
     for (int axis = 0; axis < 2; ++axis) {
-      const double low = at[axis] - radius - strip.outer.low[axis];
-      const double high = strip.outer.high[axis] - radius - at[axis];
+      const double low = std::min(at[axis] - around - strip.outer.low[axis],
+                                  at[axis] + within - strip.inner.high[axis]);
+      const double high = std::min(strip.outer.high[axis] - around - at[axis],
+                                   strip.inner.low[axis] + within - at[axis]);
       if (!(low > 0 && high > 0)) return k;
       const double ahead = velocity[axis] > 0 ? high : low;
       if (velocity[axis] != 0) longest = std::min(longest, ahead / std::abs(velocity[axis]));
@@ -170,7 +213,7 @@ struct FlightRecord {
     recorder.flight_instants.assign(static_cast<std::size_t>(n) + 1, {});
     CoveredStrip strip = strip_of(recorder.grid, tracker().covered);
     for (int k = 0; k < n;) {
-      k = end_in_cell(k, strip);
+      k = end_in_cells(k, strip);
       if (k == n) break;
       if (!stays(k, strip)) {
         raise_pending(k);

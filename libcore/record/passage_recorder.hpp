@@ -66,6 +66,7 @@ struct PassageRecorder {
   bool by_centroid = false;  ///< count a cell only while the centroid is over it
   PassageTable table;
   std::vector<PassageTracker> trackers;        ///<                                      (n_blocks)
+  std::vector<double> inner_radius;            ///< of a ball in the block, about its centroid [m]
   std::vector<LastExtents> last_extents;       ///<                                     (n_blocks)
   std::vector<FlightInstant> flight_instants;  ///< of the flight at hand      (n_pieces + 1)
 };

@@ -52,6 +52,20 @@ int n_pieces(const Segment& segment, double turn, double cell_size) {
   return std::max(1, static_cast<int>(std::ceil(n)));
 }
 
+// Of the largest ball about the centroid in one of the block's parts.
+double inner_radius(const Shapes& shapes, int block) {
+  double largest = 0;
+  for (int part = shapes.part_begin[block]; part < shapes.part_begin[block + 1]; ++part) {
+    double radius = shapes.radius[block];
+    for (int f = shapes.face_begin[part]; f < shapes.face_begin[part + 1]; ++f)
+      radius = std::min(radius, shapes.faces[f].offset);
+    for (int w = shapes.wall_begin[part]; w < shapes.wall_begin[part + 1]; ++w)
+      radius = std::min(radius, shapes.walls[w].offset);
+    largest = std::max(largest, radius);
+  }
+  return largest;
+}
+
 }  // namespace
 
 PassageGrid passage_grid(const Trn& trn, double cell_size) {
@@ -79,6 +93,8 @@ PassageRecorder start_passages(const Scene& scene, const PassageGrid& grid, bool
   recorder.frame.node0 = grid.corner;
   recorder.by_centroid = by_centroid;
   recorder.trackers.resize(n_blocks(scene));
+  for (int b = 0; b < n_blocks(scene); ++b)
+    recorder.inner_radius.push_back(inner_radius(scene.blocks.shapes, b));
   recorder.last_extents.resize(n_blocks(scene));
   return recorder;
 }
