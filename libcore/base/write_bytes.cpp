@@ -29,7 +29,8 @@ int open_new(const std::string& path) {
 
 }  // namespace
 
-void write_bytes(const std::string& path, std::span<const unsigned char> bytes) {
+void write_bytes(const std::string& path, std::span<const unsigned char> bytes,
+                 std::span<const unsigned char> end) {
   const int descriptor = open_new(path);
   const auto remove = [&] {
     std::error_code error;
@@ -45,12 +46,13 @@ void write_bytes(const std::string& path, std::span<const unsigned char> bytes) 
                      "make room, or name an output elsewhere");
   };
   if (descriptor < 0) fail("cannot be opened for writing");
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t n = write(descriptor, bytes.data() + done, bytes.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail("cannot be written");
-    done += static_cast<std::size_t>(n);
-  }
+  for (const std::span<const unsigned char> part : {bytes, end})
+    for (std::size_t done = 0; done < part.size();) {
+      const ssize_t n = write(descriptor, part.data() + done, part.size() - done);
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) fail("cannot be written");
+      done += static_cast<std::size_t>(n);
+    }
   if (fsync(descriptor) != 0 && errno != EINVAL) fail("cannot be synced to the disk");
   if (close(descriptor) == 0) return;
   remove();

@@ -128,7 +128,7 @@ void write_blocks(const std::string& path, const BlockSet& set,
   if (!set.weight.empty())
     write_array(file, {"weight", "block", "1", "weight in statistics, e.g. events a year"},
                 set.weight);
-  write_bytes(path, file.image());
+  file.save(path);
 }
 
 bool is_block_set(const std::string& path) {

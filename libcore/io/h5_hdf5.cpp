@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "base/write_bytes.hpp"
 #include "io/seal.hpp"
 
 namespace talus {
@@ -169,7 +170,7 @@ struct H5Writer::Impl {
     }
   }
 
-  static constexpr std::size_t smallest_chunk = 1024;
+  static constexpr std::size_t smallest_chunk = 1024, chunk_bytes = 65536;
 
   // Chunks of about 64 KiB along the first dimension; short arrays in one piece without filters.
   static Id creation(const Shape& shape, std::size_t size) {
@@ -178,7 +179,7 @@ struct H5Writer::Impl {
     const std::size_t row = std::max<std::size_t>(1, shape[0] == 0 ? 1 : product(shape) / shape[0]);
     if (product(shape) * size < smallest_chunk) return list;
     std::vector<hsize_t> chunk(shape.begin(), shape.end());
-    chunk[0] = std::clamp<hsize_t>(65536 / (row * size), 1, shape[0]);
+    chunk[0] = std::clamp<hsize_t>(chunk_bytes / (row * size), 1, shape[0]);
     require(H5Pset_chunk(list, static_cast<int>(chunk.size()), chunk.data()) >= 0 &&
                 H5Pset_shuffle(list) >= 0 && H5Pset_deflate(list, 4) >= 0 &&
                 H5Pset_fletcher32(list) >= 0,
@@ -186,9 +187,10 @@ struct H5Writer::Impl {
     return list;
   }
 
-  void write(const std::string& path, hid_t stored, hid_t native, const void* values,
-             const Dimensions& dimensions, std::size_t size, const std::string& units,
-             const std::string& long_name) const {
+  // Calls put(set, extent), which writes the values.
+  template <class Put>
+  void make(const std::string& path, hid_t stored, const Dimensions& dimensions, std::size_t size,
+            const std::string& units, const std::string& long_name, Put&& put) const {
     const Shape shape = shape_of(dimensions);
     const std::vector<hsize_t> extent(shape.begin(), shape.end());
     const Id space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
@@ -197,11 +199,18 @@ struct H5Writer::Impl {
     const Id set(H5Dcreate2(file, path.c_str(), stored, space, H5P_DEFAULT, list, H5P_DEFAULT),
                  H5Dclose);
     require(set.valid(), "making " + path);
-    if (product(shape) > 0)
-      require(H5Dwrite(set, native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, "writing " + path);
+    if (product(shape) > 0) require(put(set, space) >= 0, "writing " + path);
     if (!units.empty()) put_text(set, "units", units);
     put_text(set, "long_name", long_name);
     name_dimensions(path, set, dimensions);
+  }
+
+  void write(const std::string& path, hid_t stored, hid_t native, const void* values,
+             const Dimensions& dimensions, std::size_t size, const std::string& units,
+             const std::string& long_name) const {
+    make(path, stored, dimensions, size, units, long_name, [&](hid_t set, hid_t) {
+      return H5Dwrite(set, native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+    });
   }
 };
 
@@ -238,6 +247,39 @@ template void H5Writer::array(const std::string&, std::span<const float>, const 
                               const std::string&, const std::string&);
 template void H5Writer::array(const std::string&, std::span<const double>, const Dimensions&,
                               const std::string&, const std::string&);
+
+template <class T>
+void H5Writer::column(const std::string& path, const Dimension& dimension,
+                      const std::function<void(std::size_t first, std::span<T> values)>& fill,
+                      const std::string& units, const std::string& long_name) {
+  const hid_t native = native_type<T>();
+  const auto put = [&](hid_t set, hid_t space) {
+    std::vector<T> values(std::min(dimension.extent, Impl::chunk_bytes / sizeof(T)));
+    herr_t result = 0;
+    for (hsize_t first = 0; first < dimension.extent && result >= 0; first += values.size()) {
+      const hsize_t n = std::min<hsize_t>(values.size(), dimension.extent - first);
+      fill(first, std::span(values.data(), n));
+      const Id in_memory(H5Screate_simple(1, &n, nullptr), H5Sclose);
+      result = H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &n, nullptr);
+      if (result >= 0) result = H5Dwrite(set, native, in_memory, space, H5P_DEFAULT, values.data());
+    }
+    return result;
+  };
+  impl_->make(path, file_type(native), {dimension}, sizeof(T), units, long_name, put);
+}
+
+template void H5Writer::column(const std::string&, const Dimension&,
+                               const std::function<void(std::size_t, std::span<std::int32_t>)>&,
+                               const std::string&, const std::string&);
+template void H5Writer::column(const std::string&, const Dimension&,
+                               const std::function<void(std::size_t, std::span<std::int64_t>)>&,
+                               const std::string&, const std::string&);
+template void H5Writer::column(const std::string&, const Dimension&,
+                               const std::function<void(std::size_t, std::span<float>)>&,
+                               const std::string&, const std::string&);
+template void H5Writer::column(const std::string&, const Dimension&,
+                               const std::function<void(std::size_t, std::span<double>)>&,
+                               const std::string&, const std::string&);
 
 void H5Writer::text(const std::string& path, const std::string& value,
                     const std::string& long_name) {
@@ -289,15 +331,19 @@ void H5Writer::attribute(const std::string& object, const std::string& name,
   Impl::put(impl_->object(object), name, H5T_IEEE_F64LE, space, value.data());
 }
 
-std::vector<unsigned char> H5Writer::image() {
+// From where HDF5 keeps the file: a copy would double what a large one needs.
+void H5Writer::save(const std::string& path) {
   require(H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) >= 0, "completing the file");
   const ssize_t size = H5Fget_file_image(impl_->file, nullptr, 0);
-  require(size > 0, "taking the file");
-  std::vector<unsigned char> bytes(static_cast<std::size_t>(size));
-  require(H5Fget_file_image(impl_->file, bytes.data(), bytes.size()) == size, "taking the file");
+  void* handle = nullptr;
+  require(size > 0 && H5Fget_vfd_handle(impl_->file, H5P_DEFAULT, &handle) >= 0, "taking the file");
+  const std::span bytes(*static_cast<unsigned char**>(handle), static_cast<std::size_t>(size));
+  // The file says that it is open: what H5Fget_file_image() takes out of its copy.
+  constexpr std::size_t version = 8, open_flags = 20;
+  require(bytes[version] < 2, "a file of the first format");
+  std::fill_n(bytes.begin() + open_flags, 4, 0);
   const std::string seal = seal_of(bytes.data(), bytes.size());
-  bytes.insert(bytes.end(), seal.begin(), seal.end());
-  return bytes;
+  write_bytes(path, bytes, {reinterpret_cast<const unsigned char*>(seal.data()), seal.size()});
 }
 
 // --- reading -----------------------------------------------------------------------------------

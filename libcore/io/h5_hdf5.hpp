@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -41,6 +42,11 @@ class H5Writer {
   template <class T>
   void array(const std::string& path, std::span<const T> values, const Dimensions& dimensions,
              const std::string& units, const std::string& long_name);
+  /// The same of one dimension, a piece at a time: fill(first, values) sets those from `first` on.
+  template <class T>
+  void column(const std::string& path, const Dimension& dimension,
+              const std::function<void(std::size_t first, std::span<T> values)>& fill,
+              const std::string& units, const std::string& long_name);
   void text(const std::string& path, const std::string& value, const std::string& long_name);
   /// Of fixed length, packed. netCDF 4.9 reads only a single one: for long texts of many runs.
   void texts(const std::string& path, const std::vector<std::string>& values,
@@ -55,8 +61,8 @@ class H5Writer {
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
   void attribute(const std::string& object, const std::string& name, std::span<const double> value);
 
-  /// The bytes of the file; nothing can be added afterwards.
-  [[nodiscard]] std::vector<unsigned char> image();
+  /// Writes the file by write_bytes(); nothing can be added afterwards.
+  void save(const std::string& path);
 
  private:
   struct Impl;

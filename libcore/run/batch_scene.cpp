@@ -1,5 +1,7 @@
 #include "run/batch_scene.hpp"
 
+#include "scene/make_scene.hpp"
+
 namespace talus {
 namespace {
 
@@ -96,7 +98,7 @@ Scene without_rocks(const Scene& scene) {
   return batch;
 }
 
-void take_rocks(const Scene& scene, int first, int end, Scene& batch) {
+void take_rocks(const Scene& scene, const BlockSet* surfaces, int first, int end, Scene& batch) {
   const Rows rows{first, end};
   const Blocks& from = scene.blocks;
   Blocks& to = batch.blocks = {};
@@ -110,8 +112,12 @@ void take_rocks(const Scene& scene, int first, int end, Scene& batch) {
   add(from.velocity, rows, to.velocity);
   add(from.spin, rows, to.spin);
   add(from.initial_stress, rows, to.initial_stress);
-  add_shapes(from.shapes, rows, to.shapes);
-  add_hulls(from.hulls, rows, to.hulls);
+  if (surfaces == nullptr) {
+    add_shapes(from.shapes, rows, to.shapes);
+    add_hulls(from.hulls, rows, to.hulls);
+  } else {
+    for (int b = first; b < end; ++b) add_surfaces(*surfaces, b, to);
+  }
   add_hulls(from.hulls, {n_blocks(scene), n_bodies(from.hulls)}, to.hulls);
   batch.crush_load.clear();
   batch.joints.of_block.clear();

@@ -4,6 +4,7 @@
 // out:   the same ground, fixed bodies and settings, and a few rocks
 #pragma once
 
+#include "blocks/block_set.hpp"
 #include "scene/scene.hpp"
 
 namespace talus {
@@ -12,6 +13,7 @@ namespace talus {
 [[nodiscard]] Scene without_rocks(const Scene& scene);
 
 /// Puts rocks [first, end) of `scene` into `batch` (of without_rocks), in the place of those there.
-void take_rocks(const Scene& scene, int first, int end, Scene& batch);
+/// Their surfaces are made of the blocks of `surfaces`; null: they are in the scene.
+void take_rocks(const Scene& scene, const BlockSet* surfaces, int first, int end, Scene& batch);
 
 }  // namespace talus

@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "run/batch_scene.hpp"
+#include "scene/worlds.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-// So few that what they touch stays in the cache; rocks between two looks at the limits.
-constexpr int batch_size = 16, rocks_at_once = 1024;
+constexpr int rocks_at_once = 1024;  // between two looks at the limits
 
 /// Rocks [first, end), done.
 struct Batch {
@@ -31,7 +31,7 @@ std::vector<Batch> next_batches(int n_done, int n_rocks) {
   for (int first = n_done; first < end; first = batches.back().end) {
     Batch& batch = batches.emplace_back();
     batch.first = first;
-    batch.end = std::min(n_rocks, first + batch_size);
+    batch.end = std::min(n_rocks, first + rocks_at_a_time);
     if (n_rocks - batch.end == 1) batch.end = n_rocks;
   }
   return batches;
@@ -182,10 +182,20 @@ void add_frames(const Batch& batch, Runner& runner) {
   put(from.strain, frames.strain, 6);
 }
 
+// Rows that are more than memory should hold go to a file.
+void keep_few_passages(Runner& runner) {
+  std::vector<Passage>& rows = runner.file.passages;
+  if (runner.options.folder.empty() || rows.size() <= runner.options.passages_in_memory) return;
+  if (!runner.earlier) runner.earlier = std::make_shared<PassageRows>(runner.options.folder);
+  runner.earlier->append(rows);
+  rows.clear();
+}
+
 void add(Batch& batch, Runner& runner) {
   add_state(batch, n_blocks(runner.scene), runner.state);
   add_frames(batch, runner);
   add_rows(batch.file.passages, batch.first, runner.file.passages);
+  keep_few_passages(runner);
   add_rows(batch.file.crossings, batch.first, runner.crossings.rows);
   add_rows(batch.file.object_hits, batch.first, runner.objects.rows);
   add_health(batch.file.health, runner.file.health);
@@ -193,17 +203,10 @@ void add(Batch& batch, Runner& runner) {
   runner.n_done = batch.end;
 }
 
-bool has_strength(const std::vector<GroundClass>& classes) {
-  return std::any_of(classes.begin(), classes.end(),
-                     [](const GroundClass& c) { return c.cohesion > 0 || c.tension > 0; });
-}
-
 }  // namespace
 
 bool fall_in_batches(const Scene& scene, const RunOptions& options) {
-  return !scene.settings.block_contacts && n_blocks(scene) > batch_size + 1 && !options.paper &&
-         scene.fragments.empty() && scene.loads.empty() && !has_strength(scene.joints.of_set) &&
-         !has_strength(scene.joints.of_block);
+  return fall_a_few_at_a_time(scene, n_blocks(scene)) && !options.paper;
 }
 
 void advance_rocks(Runner& runner, const std::function<Runner(const Scene&)>& fall) {
@@ -212,7 +215,7 @@ void advance_rocks(Runner& runner, const std::function<Runner(const Scene&)>& fa
   const auto compute = [&](std::uint32_t i) {
     if (runner.options.is_stopped && runner.options.is_stopped()) return;
     std::unique_ptr<Scene> scene = pool.take();
-    take_rocks(runner.scene, batches[i].first, batches[i].end, *scene);
+    take_rocks(runner.scene, runner.options.surfaces, batches[i].first, batches[i].end, *scene);
     Runner done = fall(*scene);
     batches[i].state = std::move(done.state);
     batches[i].file = std::move(done.file);

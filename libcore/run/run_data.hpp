@@ -5,12 +5,16 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "base/workers.hpp"
+#include "blocks/block_set.hpp"
 #include "record/crossings.hpp"
 #include "record/frames.hpp"
 #include "record/object_hits.hpp"
+#include "record/passage_rows.hpp"
 #include "record/passages.hpp"
 #include "record/run_file.hpp"
 #include "run/law.hpp"
@@ -39,8 +43,11 @@ struct RunOptions {
   bool strain = false;                                                  ///< store strains in frames
   std::optional<PaperSettings> paper;  ///< law paper moves the blocks, not law talus
   RunLimits limits;
+  const BlockSet* surfaces = nullptr;  ///< of rocks whose scene has none (make_site_scene)
   Workers* workers = nullptr;  ///< share the loops of a step, or the rocks that fall one by one;
                                ///< the bits do not depend on them
+  std::string folder;          ///< takes the passages of rocks one by one that are more than
+  std::size_t passages_in_memory = 1 << 18;  ///< these; empty: none
   std::function<bool()>
       is_stopped;  ///< asked by any thread before the next few rocks; may be empty
 };
@@ -63,6 +70,7 @@ struct Runner {
   HealthRow interval;       ///< since the last row of health
   double energy_start = 0;  ///< kinetic, potential and elastic energy at time 0 [J]
   RunFile file;
+  std::shared_ptr<PassageRows> earlier = {};  ///< passages before those in `file`; may be null
   int n_done = 0;  ///< rocks of a run of rocks one by one, else all blocks
 };
 

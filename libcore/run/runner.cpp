@@ -313,6 +313,7 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
                 {},
                 0,
                 std::move(file),
+                {},
                 in_batches ? 0 : n_blocks(scene)};
   if (options.passages)
     runner.passages.grid = passage_grid(scene.ground.trn, options.passage_cell_size);

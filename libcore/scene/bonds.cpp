@@ -87,6 +87,7 @@ std::vector<JointContact> closed_faces(const Scene& scene) {
 std::vector<BlockBond> start_bonds(const Scene& scene) {
   std::vector<BlockBond> bonds;
   const JointClasses& joints = scene.joints;
+  if (!scene.settings.block_contacts) return bonds;
   if (!std::any_of(joints.of_set.begin(), joints.of_set.end(), has_strength) &&
       !std::any_of(joints.of_block.begin(), joints.of_block.end(), has_strength))
     return bonds;

@@ -42,6 +42,17 @@ void check_speed(const char* what, double speed, const char* unit, int block) {
                    "see velocity_m_s and spin_rad_s of its section [blocks.*] or [rockfall.*]");
 }
 
+// A block of no surface that is as large as the one that `of` is made of.
+void add_extent(const Blocks& of, Blocks& to) {
+  const auto repeat = [](std::vector<int>& begin) { begin.push_back(begin.back()); };
+  to.shapes.radius.push_back(of.shapes.radius.back());
+  to.shapes.thickness.push_back(of.shapes.thickness.back());
+  to.hulls.radius.push_back(of.hulls.radius.back());
+  for (auto* begin : {&to.shapes.vertex_begin, &to.shapes.part_begin, &to.shapes.edge_begin,
+                      &to.hulls.part_begin, &to.hulls.body_vertex_begin, &to.hulls.body_edge_begin})
+    repeat(*begin);
+}
+
 void add_block(Scene& scene, const BlockSet& set, int b, const Material& material) {
   const auto i = static_cast<std::size_t>(b);
   Blocks& blocks = scene.blocks;
@@ -62,24 +73,49 @@ void add_block(Scene& scene, const BlockSet& set, int b, const Material& materia
   blocks.rest.push_back({set.centroid[i], Quat(axes)});
   blocks.velocity.push_back(set.velocity[i]);
   blocks.spin.push_back(set.spin[i]);
-  std::vector<Polyhedron> parts;
-  for (int p = set.convex_part_begin[i]; p < set.convex_part_begin[i + 1]; ++p)
-    parts.push_back(convex_part(set, p));
-  add_shape(blocks.shapes, parts, block_shell(set, b), set.centroid[i], axes.transpose(),
-            face_internal);
-  add_hulls(blocks.hulls, parts, set.centroid[i], axes.transpose());
+}
+
+void check_materials(const BlockSet& set, std::span<const Material> materials) {
+  for (std::size_t m = 0; m < materials.size(); ++m)
+    check_material(materials[m],
+                   m < set.material_names.size() ? set.material_names[m] : std::to_string(m));
+}
+
+const Material& material_of(const BlockSet& set, int b, std::span<const Material> materials) {
+  const auto m = static_cast<std::size_t>(set.material[static_cast<std::size_t>(b)]);
+  TALUS_ASSERT(m < materials.size());
+  return materials[m];
 }
 
 }  // namespace
 
+void add_surfaces(const BlockSet& set, int b, Blocks& to) {
+  const auto i = static_cast<std::size_t>(b);
+  const Mat3 axes = principal_axes(set.second_moment[i]);
+  std::vector<Polyhedron> parts;
+  for (int p = set.convex_part_begin[i]; p < set.convex_part_begin[i + 1]; ++p)
+    parts.push_back(convex_part(set, p));
+  add_shape(to.shapes, parts, block_shell(set, b), set.centroid[i], axes.transpose(),
+            face_internal);
+  add_hulls(to.hulls, parts, set.centroid[i], axes.transpose());
+}
+
 void add_blocks(Scene& scene, const BlockSet& set, std::span<const Material> materials) {
-  for (std::size_t m = 0; m < materials.size(); ++m)
-    check_material(materials[m],
-                   m < set.material_names.size() ? set.material_names[m] : std::to_string(m));
+  check_materials(set, materials);
   for (int b = 0; b < n_blocks(set); ++b) {
-    const auto m = static_cast<std::size_t>(set.material[b]);
-    TALUS_ASSERT(m < materials.size());
-    add_block(scene, set, b, materials[m]);
+    add_block(scene, set, b, material_of(set, b, materials));
+    add_surfaces(set, b, scene.blocks);
+  }
+}
+
+void add_blocks_without_surfaces(Scene& scene, const BlockSet& set,
+                                 std::span<const Material> materials) {
+  check_materials(set, materials);
+  for (int b = 0; b < n_blocks(set); ++b) {
+    add_block(scene, set, b, material_of(set, b, materials));
+    Blocks one;
+    add_surfaces(set, b, one);
+    add_extent(one, scene.blocks);
   }
 }
 

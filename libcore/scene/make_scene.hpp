@@ -20,6 +20,11 @@ struct Material {
 /// Appends the blocks of `set`; `materials` in the order of set.material_names (at least one).
 /// Throws InputError for a block without volume, or a density, E or nu out of range.
 void add_blocks(Scene& scene, const BlockSet& set, std::span<const Material> materials);
+/// The same without surfaces, of which only radius and thickness are kept: 11 kB less a rock.
+void add_blocks_without_surfaces(Scene& scene, const BlockSet& set,
+                                 std::span<const Material> materials);
+/// Appends the surfaces of block b of `set`.
+void add_surfaces(const BlockSet& set, int b, Blocks& to);
 
 /// Throws InputError for what no run can be computed with: dt <= 0, friction < 0, a restitution
 /// outside 0..1, a base motion whose times do not increase.

@@ -31,7 +31,8 @@ void make_scene(const Site& site, const SetUpRequest& request, InputLog& log, Se
   cut_fragments(log, site, setup.inputs);
   setup.blocks = setup.inputs.parts.blocks;
   const bool has_water = setup.inputs.parts.water.has_value();
-  setup.scene = make_site_scene(site, setup.plan, std::move(setup.inputs.parts));
+  setup.scene =
+      make_site_scene(site, setup.plan, std::move(setup.inputs.parts), request.surfaces_later);
   if (const std::size_t n = setup.scene.wet_faces.size(); n > 0)
     log.info("[water] is in " + counted(static_cast<std::int64_t>(n), "joint face"));
   else if (has_water)

@@ -12,7 +12,8 @@ namespace talus {
 
 struct SetUpRequest {
   DdaFiles files;
-  bool full_plan = false;  ///< compute also what the scene could do without
+  bool full_plan = false;       ///< compute also what the scene could do without
+  bool surfaces_later = false;  ///< of make_site_scene()
 };
 
 struct SetUp {

@@ -10,6 +10,7 @@
 #include "base/units.hpp"
 #include "scene/make_scene.hpp"
 #include "scene/stems.hpp"
+#include "scene/worlds.hpp"
 #include "setup/crushing.hpp"
 #include "site/soils.hpp"
 
@@ -165,7 +166,8 @@ std::vector<GroundSettings> drawn_grounds(const Site& site) {
   return drawn;
 }
 
-Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts) {
+Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts,
+                      bool surfaces_later) {
   const SolverSettings& solver = site.solver;
   const auto seed = static_cast<std::uint64_t>(solver.seed);
   Scene scene;
@@ -179,11 +181,15 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
   scene.gravity = {0, 0, -solver.gravity_m_s2};
   scene.settings = settings_of(solver, plan);
   scene.base = std::move(parts.base);
-  add_blocks(scene, parts.blocks, rock.materials);
   const FragmentationSettings& breaking = site.fragmentation;
   scene.fragments = std::move(parts.fragments);
   scene.fragmentation = {breaking.energy_j_m2, breaking.spread, breaking.separation_share,
                          static_cast<std::uint64_t>(breaking.seed)};
+  if (surfaces_later && solver.law == "talus" &&
+      fall_a_few_at_a_time(scene, n_blocks(parts.blocks)))
+    add_blocks_without_surfaces(scene, parts.blocks, rock.materials);
+  else
+    add_blocks(scene, parts.blocks, rock.materials);
   if (solver.law == "talus") {
     const auto n_released = std::count_if(scene.fragments.begin(), scene.fragments.end(),
                                           [](const Fragment& f) { return f.parent < 0; });

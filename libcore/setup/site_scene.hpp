@@ -47,7 +47,11 @@ struct SceneParts {
 /// The scene with the settings of the site and the decisions of the plan. Scatter of friction and
 /// restitution and the jitter of the start are drawn from [solver] seed. Throws InputError for a
 /// block material that the site file does not know, and what check_scene() refuses.
-[[nodiscard]] Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts);
+///
+/// `surfaces_later`: rocks that fall a few at a time have no surfaces, which whoever runs the scene
+/// makes of the block set (RunOptions::surfaces).
+[[nodiscard]] Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts,
+                                    bool surfaces_later = false);
 
 /// How blocks are cut for [fragmentation]; `set`: before that.
 [[nodiscard]] SplitSettings split_settings(const Site& site, const BlockSet& set);

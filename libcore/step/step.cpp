@@ -63,7 +63,6 @@ State start_unsettled(const Scene& scene) {
   }
   for (size_t b = 0; b < n; ++b) {
     if (!is_released(scene, b)) keep_unborn(state, b);
-    state.memory[b].reserve(expected_contacts);
     state.motion[b].pose = scene.blocks.rest[b];
     state.motion[b].velocity = scene.blocks.velocity[b];
     state.motion[b].angular_momentum = angular_momentum(
@@ -74,6 +73,7 @@ State start_unsettled(const Scene& scene) {
 
 State start(const Scene& scene, Work& work) {
   State state = start_unsettled(scene);
+  for (std::vector<ContactMemory>& memory : state.memory) memory.reserve(expected_contacts);
   if (!scene.settings.trn_contacts || !scene.settings.static_start) return state;
   for (int b = 0; b < n_blocks(scene); ++b) settle_block(scene, b, state, work);
   return state;

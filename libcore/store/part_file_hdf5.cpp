@@ -631,7 +631,7 @@ void write_part_file(const std::string& path, const Part& part, const std::vecto
   write_reaches(file, part);
   write_tables(file, part);
   if (part.grid.n_rows > 0) write_cells(file, part, rows);
-  write_bytes(path, file.image());
+  file.save(path);
 }
 
 struct PartFile::Impl {

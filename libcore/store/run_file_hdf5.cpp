@@ -6,8 +6,8 @@
 #include <system_error>
 
 #include "base/error.hpp"
-#include "base/write_bytes.hpp"
 #include "io/h5_hdf5.hpp"
+#include "record/passage_rows.hpp"
 #include "record/pieces.hpp"
 #include "record/run_file.hpp"
 #include "store/run_file_pieces_hdf5.hpp"
@@ -152,8 +152,11 @@ void read_reach(const H5Reader& file, const std::string& path, RunFile& run) {
   run.reach = std::move(reach);
 }
 
-void write_passages(H5Writer& file, const RunFile& run) {
-  write_table(file, run.passages);
+void write_passages(H5Writer& file, const RunFile& run, const PassageRows* earlier) {
+  const std::size_t n = earlier != nullptr ? earlier->size() : 0;
+  write_table<Passage>(file, n + run.passages.size(), [&](std::size_t i) -> const Passage& {
+    return i < n ? (*earlier)[i] : run.passages[i - n];
+  });
   write_grid(file, "passages", run.grid, run.info.origin, run.passages_by_centroid);
 }
 
@@ -311,13 +314,17 @@ RunFile read_run_head(const std::string& path) {
 }
 
 void write_run_file(const std::string& path, const RunFile& run) {
+  write_run_file(path, run, nullptr);
+}
+
+void write_run_file(const std::string& path, const RunFile& run, const PassageRows* earlier) {
   H5Writer file;
   write_info(file, run);
   write_blocks(file, run.blocks);
   write_phases(file, run);
   write_frames(file, run);
   write_reach(file, run);
-  if (run.grid.n_rows > 0) write_passages(file, run);
+  if (run.grid.n_rows > 0) write_passages(file, run, earlier);
   write_crossings(file, run);
   write_object_hits(file, run);
   write_fences(file, run);
@@ -329,12 +336,16 @@ void write_run_file(const std::string& path, const RunFile& run) {
   if (!run.checkpoint.empty())
     file.array<std::uint8_t>("checkpoint", run.checkpoint, {{"/byte", run.checkpoint.size()}}, "1",
                              "state of the solver and the recorder, for talus-dda --resume");
-  write_bytes(path, file.image());
+  file.save(path);
 }
 
 void replace_run_file(const std::string& path, const RunFile& run) {
+  replace_run_file(path, run, nullptr);
+}
+
+void replace_run_file(const std::string& path, const RunFile& run, const PassageRows* earlier) {
   const std::string temporary = path + ".new";
-  write_run_file(temporary, run);
+  write_run_file(temporary, run, earlier);
   std::error_code error;
   std::filesystem::rename(temporary, path, error);
   if (error) throw InputError({path}, "cannot be put in place: " + error.message());

@@ -17,14 +17,16 @@ void write_field(H5Writer& file, const char* group, const StoredField<Row>& fiel
                  const RowAt& row) {
   Row fresh;
   const auto write = [&]<class T>(T* unchanged) {
-    std::vector<T> values(n);
+    const auto value = [&](std::size_t i) { return *std::get<T*>(field.at(row(i))); };
     bool any = field.kept != Kept::where_any;
-    for (std::size_t i = 0; i < n; ++i) {
-      values[i] = *std::get<T*>(field.at(row(i)));
-      any = any || values[i] != *unchanged;
-    }
-    if (any)
-      file.array<T>(path_of(group, field.name), values, {{"row", n}}, field.unit, field.title);
+    for (std::size_t i = 0; i < n && !any; ++i) any = value(i) != *unchanged;
+    if (!any) return;
+    file.column<T>(
+        path_of(group, field.name), {"row", n},
+        [&](std::size_t first, std::span<T> values) {
+          for (std::size_t i = 0; i < values.size(); ++i) values[i] = value(first + i);
+        },
+        field.unit, field.title);
   };
   std::visit(write, field.at(fresh));
 }
@@ -45,13 +47,21 @@ void read_field(const H5Reader& file, const char* group, const StoredField<Row>&
 
 template <class Row>
 void write_table(H5Writer& file, const std::vector<Row>& rows) {
+  write_table<Row>(file, rows.size(), [&](std::size_t i) -> const Row& { return rows[i]; });
+}
+
+template <class Row>
+void write_table(H5Writer& file, std::size_t n,
+                 const std::function<const Row&(std::size_t)>& row_at) {
   const Table<Row>& table = table_of<Row>();
   file.group(table.name, table.title);
   Row copy;
-  const auto row = [&](std::size_t i) -> Row& { return copy = rows[i]; };
-  for (const StoredField<Row>& field : table.fields)
-    write_field(file, table.name, field, rows.size(), row);
+  const auto row = [&](std::size_t i) -> Row& { return copy = row_at(i); };
+  for (const StoredField<Row>& field : table.fields) write_field(file, table.name, field, n, row);
 }
+
+template void write_table(H5Writer&, std::size_t,
+                          const std::function<const Passage&(std::size_t)>&);
 
 template <class Row>
 std::vector<Row> read_table(const H5Reader& file, bool only_faults) {

@@ -5,6 +5,7 @@
 // them and check what rows refer to.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "io/h5_hdf5.hpp"
@@ -15,6 +16,10 @@ namespace talus {
 
 template <class Row>
 void write_table(H5Writer& file, const std::vector<Row>& rows);
+/// The same of `n` rows: `row_at(i)`.
+template <class Row>
+void write_table(H5Writer& file, std::size_t n,
+                 const std::function<const Row&(std::size_t)>& row_at);
 /// `only_faults`: the fields that are kept as faults, the others stay zero. Throws InputError for
 /// a field that is missing or not as long as the first.
 template <class Row>

@@ -89,7 +89,7 @@ void write_xdmf(const std::string& path, const std::string& data_path, const std
   data.array<std::int32_t>("block", faces.block, {{"face", faces.block.size()}}, "1",
                            "block of each face");
   for (int k = 0; k < n_frames(run.frames); ++k) write_frame(data, run, faces, k);
-  write_bytes(data_path, data.image());
+  data.save(data_path);
   const std::string xml = described(run, faces, data_name);
   write_bytes(path, {reinterpret_cast<const unsigned char*>(xml.data()), xml.size()});
 }

@@ -17,11 +17,17 @@ namespace {
 
 using std::size_t;
 
+// Passages that are not in runner.file.
+size_t n_earlier(const Runner& runner) { return runner.earlier ? runner.earlier->size() : 0; }
+
 // Of all moments where passages are recorded, else of those of the frames.
-double largest_speed(const RunFile& file) {
+double largest_speed(const Runner& runner) {
+  const RunFile& file = runner.file;
   float largest = 0;
+  for (size_t i = 0; i < n_earlier(runner); ++i)
+    largest = std::max(largest, (*runner.earlier)[i].largest.speed);
   for (const Passage& row : file.passages) largest = std::max(largest, row.largest.speed);
-  if (!file.passages.empty()) return largest;
+  if (n_earlier(runner) > 0 || !file.passages.empty()) return largest;
   const std::vector<float>& v = file.frames.velocity;
   for (std::size_t i = 0; i + 2 < v.size(); i += 3)
     largest = std::max(largest, std::hypot(v[i], v[i + 1], v[i + 2]));
@@ -258,12 +264,12 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double from_s, doub
                {"unconverged", counters.unconverged},
                {"left_domain", counters.left_domain},
                {"n_breaks", file.breaks.size()},
-               {"n_passages", file.passages.size()},
+               {"n_passages", n_earlier(runner) + file.passages.size()},
                {"n_crossings", file.crossings.size()},
                {"n_fence_hits", file.fence_hits.size()},
                {"fences", fences_on(runner)},
                {"n_frames", n_frames(file.frames)},
-               {"largest_speed_m_s", largest_speed(file)},
+               {"largest_speed_m_s", largest_speed(runner)},
                {"mean_displacement_m", {moved.x(), moved.y(), moved.z()}},
                {"moved", moved_json(moved_of_run(file))},
                {"cpu_time_s", cpu_s},

@@ -142,7 +142,7 @@ class Checkpoints {
   void write(Runner& runner) {
     const auto begin = Clock::now();
     update_file(runner, true);
-    replace_run_file(path_, runner.file);
+    replace_run_file(path_, runner.file, runner.earlier.get());
     const double cost = std::chrono::duration<double>(Clock::now() - begin).count();
     next_ = Clock::now() + to_duration(std::max(interval_s_, 20 * cost));
   }
@@ -215,11 +215,15 @@ void write_outputs(Tool& tool, Runner& runner, const Site& site, const Trn& trn,
   update_file(runner, false);
   const std::string path = tool.stage(o.out);
   if (keeps_frames(site.output, site.solver.seed)) {
-    write_run_file(path, runner.file);
+    write_run_file(path, runner.file, runner.earlier.get());
     merge_pieces(runner.file);
   } else {
     merge_pieces(runner.file);  // the reach is that of the pieces
-    write_run_file(path, without_frames(runner.file, trn, {}));
+    RunFrames frames = runner.file.frames;
+    runner.file = without_frames(std::move(runner.file), trn, {});
+    write_run_file(path, runner.file, runner.earlier.get());
+    runner.file.reach.reset();
+    runner.file.frames = std::move(frames);
   }
 }
 
@@ -241,6 +245,8 @@ void compute_run(Tool& tool, const Site& site, const SetUp& setup, const DdaOpti
   RunOptions options = run_options(site, setup.plan, o);
   Workers workers(n_threads(setup.scene, o));
   if (workers.n_threads() > 1) options.workers = &workers;
+  options.surfaces = &setup.blocks;
+  options.folder = fs::absolute(o.out).parent_path();
   options.is_stopped = [&tool] { return tool.interrupted(); };
   tool.detail(counted(workers.n_threads(), "thread"));
   ask_for_frames(setup.scene, options, site);

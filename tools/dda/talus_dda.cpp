@@ -64,6 +64,7 @@ int main(int argc, char** argv) {
     check_site_crs(site);
     check_options(tool, o);
     o.request.full_plan = o.plan == "full";
+    o.request.surfaces_later = true;
     SetUp setup = plan_scene(site, o.request, tool);
     if (o.plan == "show") {
       tool.leave_out_of_run_id({"plan"});

@@ -5,6 +5,7 @@
 
 #include "run/runner.hpp"
 #include "scene/fence.hpp"
+#include "scene/make_scene.hpp"
 #include "store/checkpoint.hpp"
 #include "verify/cases/cases.hpp"
 
@@ -17,8 +18,8 @@ double height(double x, double y) {
   return -std::tan(std::numbers::pi / 6) * x + 0.3 * std::sin(0.7 * x) * std::cos(0.9 * y);
 }
 
-// Rocks `first` to `end` of a row of boxes above a rough slope, which fall one by one.
-Scene rocks(int first, int end) {
+// Boxes `first` to `end` of a row above a rough slope.
+std::vector<Body> boxes(int first, int end) {
   std::vector<Body> bodies;
   for (int i = first; i < end; ++i) {
     Body body;
@@ -29,14 +30,18 @@ Scene rocks(int first, int end) {
     body.spin = {0.5, 1, -0.03 * i};
     bodies.push_back(body);
   }
+  return bodies;
+}
+
+// They fall one by one.
+Scene rocks(int first, int end) {
   Settings settings;
   settings.dt = 0.01;
   settings.block_contacts = false;
-  return scene_of(make_trn(height, 2, 80), ground_of(30, 0.5), bodies, settings);
+  return scene_of(make_trn(height, 2, 80), ground_of(30, 0.5), boxes(first, end), settings);
 }
 
-Scene fenced_rocks(int n) {
-  Scene scene = rocks(0, n);
+void add_fence_below(Scene& scene) {
   StandingFence fence;
   for (const double y : {-35.0, -10.0, 10.0, 35.0}) fence.posts.emplace_back(0, y, height(0, y));
   fence.depth = {1, 1, 1};
@@ -44,6 +49,11 @@ Scene fenced_rocks(int n) {
   fence.capacity = 2e5;
   fence.deflection = 2;
   add_fence(scene, fence);
+}
+
+Scene fenced_rocks(int n) {
+  Scene scene = rocks(0, n);
+  add_fence_below(scene);
   return scene;
 }
 
@@ -61,12 +71,13 @@ Runner begun(const Scene& scene, const RunOptions& wanted) {
   return begin_run(scene, wanted, {record_line("low", {{5, -60, 0}, {5, 60, 0}})}, file);
 }
 
-RunFile ended(Runner runner) {
+Runner over(Runner runner) {
   while (!is_over(runner)) advance(runner);
   finish(runner);
   update_file(runner, false);
-  return runner.file;
+  return runner;
 }
+RunFile ended(Runner runner) { return over(std::move(runner)).file; }
 
 void expect_same(const RunFile& a, const RunFile& b) {
   ASSERT_EQ(a.passages.size(), b.passages.size());
@@ -135,6 +146,39 @@ TEST(Rocks, HaveTheSameBitsInTwoThreads) {
   const RunFile one = ended(begun(scene, options()));
   EXPECT_GT(one.fence_hits.size(), 10U);
   expect_same(one, ended(begun(scene, shared)));
+}
+
+TEST(Rocks, FallTheSameWhereTheirSurfacesAreMadeAsTheyFall) {
+  const Scene scene = fenced_rocks(40);
+  BlockSet set;
+  set.material_names = {"rock"};
+  for (const Body& body : boxes(0, 40)) add_body(set, body);
+  Scene without = rocks(0, 40);
+  without.blocks = {};
+  const Material material;
+  add_blocks_without_surfaces(without, set, std::span(&material, 1));
+  add_fence_below(without);
+  EXPECT_TRUE(vertices_of(without.blocks.shapes, 39).empty());
+  RunOptions later = options();
+  later.surfaces = &set;
+  expect_same(ended(begun(scene, options())), ended(begun(without, later)));
+}
+
+TEST(Rocks, HaveTheSamePassagesWhereThoseWentThroughAFile) {
+  const Scene scene = fenced_rocks(40);
+  RunOptions few = options();
+  few.folder = testing::TempDir();
+  few.passages_in_memory = 100;
+  const Runner whole = over(begun(scene, options())), parted = over(begun(scene, few));
+  ASSERT_TRUE(parted.earlier);
+  EXPECT_LE(parted.file.passages.size(), 100U);
+  ASSERT_EQ(parted.earlier->size() + parted.file.passages.size(), whole.file.passages.size());
+  for (std::size_t i = 0; i < parted.earlier->size(); ++i) {
+    EXPECT_EQ((*parted.earlier)[i].block, whole.file.passages[i].block);
+    EXPECT_EQ((*parted.earlier)[i].cell, whole.file.passages[i].cell);
+  }
+  few.folder = testing::TempDir() + "no such folder";
+  EXPECT_THROW(ended(begun(scene, few)), InputError);
 }
 
 TEST(Rocks, GoOnWhereTheyWereStopped) {

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/sha256.hpp"
 #include "io/h5_hdf5.hpp"
+#include "record/passage_rows.hpp"
 #include "record/run_file.hpp"
 #include "store/checkpoint.hpp"
 #include "unit/record/hand_made.hpp"
@@ -283,6 +284,20 @@ TEST(RunFile, OfEqualContentHasEqualBytes) {
   const TemporaryFile one("one.h5"), other("other.h5");
   talus::write_run_file(one.path, sample(200, 5000));
   talus::write_run_file(other.path, talus::read_run_file(one.path));
+  EXPECT_EQ(talus::sha256_of_file(one.path), talus::sha256_of_file(other.path));
+}
+
+// More rows than a piece that is read at once, and than a chunk of the file.
+TEST(RunFile, HasTheSameBytesWhereItsFirstPassagesAreInAnotherFile) {
+  const TemporaryFile one("whole.h5"), other("parted.h5");
+  RunFile run = sample(2, 40000);
+  talus::write_run_file(one.path, run);
+  talus::PassageRows earlier(testing::TempDir());
+  const std::vector<talus::Passage> all = run.passages;
+  earlier.append({all.begin(), all.begin() + 7000});
+  earlier.append({all.begin() + 7000, all.begin() + 39000});
+  run.passages.assign(all.begin() + 39000, all.end());
+  talus::write_run_file(other.path, run, &earlier);
   EXPECT_EQ(talus::sha256_of_file(one.path), talus::sha256_of_file(other.path));
 }
 
