@@ -71,12 +71,13 @@ std::vector<Vec2> points_along(const std::vector<Vec2>& line, double spacing) {
   return points;
 }
 
-std::vector<Vec2> points_over(const Trn& ground, const ReleaseArea& release, double spacing) {
+std::vector<Vec2> points_over(const Trn& ground, const ReleaseArea& release, double spacing,
+                              const Vec2& shift) {
   std::vector<Vec2> points;
   double sum = 0.5 * spacing * spacing;  // the first point after half a share
   // R2 sequence: steps by the plastic number fill the unit square evenly.
   constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
-  double u = 0.5, v = 0.5;
+  double u = std::fmod(0.5 + shift.x(), 1), v = std::fmod(0.5 + shift.y(), 1);
   for_each_triangle(ground, release, [&](const std::array<Vec3, 3>& p, bool is_steep) {
     sum += triangle_area(p);
     for (; sum >= spacing * spacing; sum -= spacing * spacing) {

@@ -23,9 +23,10 @@ struct ReleaseArea {
 
 /// One point for every spacing^2 of sloping ground in the area: triangle after triangle, a point
 /// wherever the summed true area passes a multiple, placed in the triangle by the R2 sequence:
-/// even, but no grid. Those on flatter ground are left out.
+/// even, but no grid. Those on flatter ground are left out. `shift` of the sequence, 0 to 1 each:
+/// as many other points in the same triangles.
 [[nodiscard]] std::vector<Vec2> points_over(const Trn& ground, const ReleaseArea& release,
-                                            double spacing);
+                                            double spacing, const Vec2& shift = Vec2::Zero());
 
 /// True area of the triangles, and of those that are steep enough [m2].
 struct SlopingArea {

@@ -66,7 +66,7 @@ bool is_everywhere(const RockfallSettings& s) {
          s.polygon.empty() && s.polygon_file.empty() && s.rockdensity_raster.empty();
 }
 
-void add_areas(const RockfallSection& section, std::vector<ReleasePlace>& places) {
+void add_areas(const RockfallSection& section, Random& random, std::vector<ReleasePlace>& places) {
   const RockfallSettings& s = section.settings;
   const SitePlace where = areas_of(s);
   ReleaseArea release{{}, s.min_slope_deg * degree};
@@ -80,7 +80,8 @@ void add_areas(const RockfallSection& section, std::vector<ReleasePlace>& places
       std::isnan(s.release_spacing_m) ? section.ground.cell_size : s.release_spacing_m;
   const SlopingArea area = sloping_area(section.ground, release);
   check_number(section, area.steep / (spacing * spacing));
-  for (const Vec2& p : points_over(section.ground, release, spacing))
+  const Vec2 shift{random.uniform(), random.uniform()};
+  for (const Vec2& p : points_over(section.ground, release, spacing, shift))
     places.push_back({Vec3(p.x(), p.y(), NAN), spacing * spacing});
   if (s.min_slope_deg > 0)
     section.tool.info(section.path + ": " + percent(area.steep / area.all) + " of the ground of " +
@@ -110,7 +111,7 @@ void check_density(const RockfallSection& section, const ValueRaster& density, s
                    "[rockfall.*] with a material each");
 }
 
-void add_cells(const RockfallSection& section, std::vector<ReleasePlace>& places) {
+void add_cells(const RockfallSection& section, Random& random, std::vector<ReleasePlace>& places) {
   const RockfallSettings& s = section.settings;
   if (s.rockdensity_raster.empty()) return;
   const int n_extents = !s.d1_raster.empty() + !s.d2_raster.empty() + !s.d3_raster.empty();
@@ -132,7 +133,10 @@ void add_cells(const RockfallSection& section, std::vector<ReleasePlace>& places
     const double slope = slope_deg_at(section.ground, at);
     if (!(slope >= s.min_slope_deg)) continue;  // unknown ground, too
     check_density(section, density, cell);
-    ReleasePlace place{Vec3(at.x(), at.y(), NAN), side * side / std::cos(slope * degree)};
+    const Vec2 off{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)}, there = at + side * off;
+    const bool is_ground = !std::isnan(slope_deg_at(section.ground, there));
+    const Vec2& start = is_ground ? there : at;
+    ReleasePlace place{Vec3(start.x(), start.y(), NAN), side * side / std::cos(slope * degree)};
     if (n_extents == 3) {
       for (int k = 0; k < 3; ++k) {
         place.extents[k] = extents[static_cast<std::size_t>(k)]->value[cell];
@@ -151,7 +155,7 @@ void add_cells(const RockfallSection& section, std::vector<ReleasePlace>& places
   }
 }
 
-// A place that is named twice is one place.
+// A place that is named twice is one place. Those of areas and cells are others in another run.
 std::vector<ReleasePlace> places_of(const RockfallSection& section) {
   std::vector<ReleasePlace> places;
   std::vector<Vec3> points = local_points(section.tool, section.site, section.ground,
@@ -162,8 +166,10 @@ std::vector<ReleasePlace> places_of(const RockfallSection& section) {
     for (const ReleasePlace& place : released) points.push_back(place.position);
   }
   for (const Vec3& point : each_place_once(section, points)) places.push_back({point});
-  add_areas(section, places);
-  add_cells(section, places);
+  Random random(static_cast<std::uint64_t>(section.settings.seed),
+                "release places of " + section.settings.name);
+  add_areas(section, random, places);
+  add_cells(section, random, places);
   if (places.empty())
     section.refuse("no place releases rocks",
                    "give position_m, release_file, polygon_file or rockdensity_raster; a "

@@ -285,6 +285,13 @@ TEST(Placement, PointsOverAnAreaFollowTheSlopingArea) {
   std::copy_if(points.begin(), points.end(), std::back_inserter(expected),
                [](const Vec2& p) { return p.x() > 20; });
   EXPECT_EQ(points_over(ground, steep, 1.5), expected);
+  const auto others = points_over(ground, steep, 1.5, {0.3, 0.9});
+  ASSERT_EQ(others.size(), expected.size());
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    EXPECT_NE(others[i], expected[i]);
+    EXPECT_EQ(triangle_at(ground, others[i].x(), others[i].y()),
+              triangle_at(ground, expected[i].x(), expected[i].y()));
+  }
   EXPECT_NEAR(sloping_area(ground, steep).steep, 800 * std::sqrt(2), 1e-9);
   EXPECT_NEAR(sloping_area(ground, steep).all, 800 + 800 * std::sqrt(2), 1e-9);
 }
