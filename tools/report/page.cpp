@@ -4,12 +4,14 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
+#include "ensemble/clusters.hpp"
 #include "post/moved.hpp"
 #include "post/statistics.hpp"
 #include "report/encode.hpp"
@@ -207,6 +209,30 @@ void add_result(const ReportData& data, Json& out) {
 }
 
 // --- run-out -------------------------------------------------------------------------------------
+
+// Cells of the terrain that rocks of any run start in.
+std::size_t n_release_cells(const ReportData& data) {
+  std::set<std::pair<double, double>> cells;
+  for (const RunFile& run : data.runs)
+    for (const Pose& rest : run.blocks.rest) {
+      const Vec2 at = (rest.position.head<2>() - data.bed.node0) / data.bed.cell_size;
+      cells.emplace(std::floor(at.x()), std::floor(at.y()));
+    }
+  return cells.size();
+}
+
+// Of rocks one by one without what needs one mass, and of many cells without what needs one source.
+void set_runout(const ReportData& data, Json& out) {
+  out["runout"] = data.runout;
+  out["many_cells"] = 0;
+  if (!data.rocks_alone) return;
+  const std::size_t n_cells = n_release_cells(data);
+  if (n_cells >= least_clusters) out["many_cells"] = n_cells;
+  Json spread = Json::object();
+  for (const auto& [name, values] : value_at(data.runout, {"spread_over_events"}).items())
+    if (name != "H_cm_over_L_cm") spread[name] = values;
+  out["runout"]["spread_over_events"] = spread;
+}
 
 // What H/L of the centre of mass is compared with: tan(phi) of the ground, as the runs had it.
 std::string friction_of(const ReportData& data) {
@@ -619,7 +645,6 @@ Json data_of(const ReportData& data, const PageFiles& files) {
       {"pictures", pictures_of(data)},
       {"scene", scene_of(data)},
       {"doubts", doubt_rows(data)},
-      {"runout", data.runout},
       {"blocks", data.blocks},
       {"trn", data.trn},
       {"tin", data.tin},
@@ -646,6 +671,7 @@ Json data_of(const ReportData& data, const PageFiles& files) {
       {"released", released_of(data.runout)},
       {"left_share", left_share_of(data.runout)},
       {"rocks_alone", data.rocks_alone}};
+  set_runout(data, out);
   add_result(data, out);
   add_fences(data, out);
   add_uncertainty(data, out);
