@@ -3,7 +3,7 @@
 function(talus_shipped_data out folder)
   set(entries "")
   foreach(name ${ARGN})
-    set(path ${PROJECT_SOURCE_DIR}/${folder}/${name})
+    cmake_path(SET path NORMALIZE ${PROJECT_SOURCE_DIR}/${folder}/${name})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
     file(READ ${path} content)
     string(APPEND entries "    {\"${name}\", R\"talus(${content})talus\"},\n")
@@ -17,13 +17,27 @@ function(talus_shipped_data out folder)
 #include "base/error.hpp"
 
 namespace talus {
+namespace {
+
+const std::map<std::string, std::string>& files() {
+  static const std::map<std::string, std::string> map = {
+@entries@  };
+  return map;
+}
+
+}  // namespace
 
 const std::string& shipped_data(const std::string& name) {
-  static const std::map<std::string, std::string> files = {
-@entries@  };
-  const auto at = files.find(name);
-  if (at == files.end()) throw InputError({name}, "is not a data file that is shipped");
+  const auto at = files().find(name);
+  if (at == files().end()) throw InputError({name}, "is not a data file that is shipped");
   return at->second;
+}
+
+std::vector<std::string> shipped_names(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& [name, content] : files())
+    if (name.starts_with(folder)) names.push_back(name);
+  return names;
 }
 
 }  // namespace talus

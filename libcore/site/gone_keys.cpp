@@ -47,6 +47,9 @@ constexpr GoneKey gone_keys[] = {
     {"joints", "declination_deg", "it in [joints], for all sections"},
     {"joints", "convergence_deg", "it in [joints], for all sections"},
     {"joints", "measured_notation", "the names of the columns in the first line of the list"},
+    {"hazard", "mode", "failure_probability in the classes of masses that may fail once"},
+    {"hazard", "split", "split in a copy of the recipe, and its path as recipe"},
+    {"hazard", "by_weights", "nothing: a class without a frequency takes that of [rockfall.*]"},
     {"object", "layer", R"(file = "FILE|layername=LAYER")"},
     {"object", "where", R"(file = "FILE|subset=FILTER")"},
 };

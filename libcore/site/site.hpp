@@ -272,19 +272,16 @@ struct RockfallSettings : BodySettings {
 /// [hazard]: what hazard classes are made by.
 struct HazardSettings {
   std::string recipe = "switzerland_ti";  ///< a name of share/hazard, or a file
-  std::string mode = "diffuse";           ///< or "localized": one compartment that may fail
-  std::string split;  ///< which side of a recipe's undecided cells; not given: the recipe's own
 };
 
-/// [hazard.class.NAME]: how often what was simulated for a class of volumes happens. Exactly one of
-/// the four ways.
+/// [hazard.class.NAME]: how often what was simulated for a class of volumes happens. One of the
+/// three ways, or none: then the sources say it, see RockfallSettings.
 struct HazardClassSettings {
   std::string name;
   int line = 0;
   double frequency_per_a = not_given;
   double events = not_given, observed_a = not_given;  ///< so many events in so many years
   double failure_probability = not_given, in_years = not_given;
-  bool by_weights = false;  ///< weights of blocks are frequencies, see RockfallSettings
 };
 
 /// [object.NAME]: what is endangered; it stops nothing.
@@ -296,6 +293,11 @@ struct ObjectSettings {
   double width_m = not_given;   ///< of a line
   double radius_m = not_given;  ///< about points
   std::string kind;             ///< "house", "road": printed
+  /// For recipes of risk: the share of the time of who is there most, the probabilities of death of
+  /// who is hit by the recipe's intensities, and how many are there like that.
+  double presence = not_given;
+  std::vector<double> vulnerability;
+  double persons_per_day = not_given;
 };
 
 /// [fence_search.NAME]: where a fence would protect an object best.

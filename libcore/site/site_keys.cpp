@@ -321,7 +321,10 @@ template <> const std::vector<SiteKey<ObjectSettings>>& keys_of() {
       {"file", &S::file, "vector file with areas, or with lines (width_m) or points (radius_m), instead"},
       {"width_m", &S::width_m, "width of lines", positive},
       {"radius_m", &S::radius_m, "radius about points", positive},
-      {"kind", &S::kind, "what it is, e.g. house, road: printed"}};
+      {"kind", &S::kind, "what it is, e.g. house, road: printed"},
+      {"presence", &S::presence, "share of the time that the one most at risk is where rocks hit; with the next two for recipes of risk", {0, 1, true, false}},
+      {"vulnerability", &S::vulnerability, "probability of death of who is hit, one for each intensity of the recipe, from the weakest", share, "", "", 1},
+      {"persons_per_day", &S::persons_per_day, "persons, also in vehicles, that are there so long in a day", positive}};
   return table;
 }
 template <> const std::vector<SiteKey<FenceSearchSettings>>& keys_of() {
@@ -350,20 +353,17 @@ template <> const std::vector<SiteKey<FenceSearchSettings>>& keys_of() {
 template <> const std::vector<SiteKey<HazardSettings>>& keys_of() {
   using S = HazardSettings;
   static const std::vector<SiteKey<S>> table = {
-      {"recipe", &S::recipe, "how classes are made: a name of share/hazard, or a file like those"},
-      {"mode", &S::mode, "many sources that fail again and again, or one that may fail once", any, "diffuse|localized"},
-      {"split", &S::split, "side of cells that a recipe leaves open; the recipe's own when not given", any, "a|b"}};
+      {"recipe", &S::recipe, "how classes are made: a name of share/hazard, or a file like those"}};
   return table;
 }
 template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of() {
   using S = HazardClassSettings;
   static const std::vector<SiteKey<S>> table = {
-      {"frequency_per_a", &S::frequency_per_a, "events a year; of rocks that move alone the rocks that the whole class releases in a year", positive},
+      {"frequency_per_a", &S::frequency_per_a, "events a year; of rocks that move alone the rocks that the whole class releases in a year. Without any frequency those of [rockfall.*] count", positive},
       {"events", &S::events, "events that were counted, instead", not_negative},
       {"observed_a", &S::observed_a, "years in which they were counted", positive},
-      {"failure_probability", &S::failure_probability, "that the mass fails, mode localized", {0, 1, true, false}},
-      {"in_years", &S::in_years, "within so many years", positive},
-      {"by_weights", &S::by_weights, "weights of blocks are their frequencies, of [rockfall.*] frequency_per_a or frequency_per_m2_a"}};
+      {"failure_probability", &S::failure_probability, "instead: that the one mass fails, which may fail once", {0, 1, true, false}},
+      {"in_years", &S::in_years, "within so many years", positive}};
   return table;
 }
 template <> const std::vector<SiteKey<UncertaintySettings>>& keys_of() {

@@ -79,6 +79,9 @@ const std::vector<Stage>& stages() {
         "water",
         "output",
         "object",
+        "-object.presence",
+        "-object.vulnerability",
+        "-object.persons_per_day",
         "fence_search",
         "-fence_search.share",
         "-fence_search.heights_m",
@@ -99,7 +102,9 @@ const std::vector<Stage>& stages() {
       {"calibrate", {"site.crs", "observed"}},
       {"hazard", {"site.name", "site.crs", "hazard"}},
       {"trace", {"site.name", "site.crs", "object", "hazard"}},
-      {"search", {"site.name", "site.crs", "object", "fence_search", "hazard"}},
+      {"search",
+       {"site.name", "site.crs", "object", "-object.presence", "-object.vulnerability",
+        "-object.persons_per_day", "fence_search", "hazard"}},
   };
   return list;
 }

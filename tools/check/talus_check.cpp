@@ -5,7 +5,7 @@
 #include "base/text.hpp"
 #include "base/write_bytes.hpp"
 #include "post/hazard/frequency.hpp"
-#include "post/hazard/recipe.hpp"
+#include "post/hazard/risk.hpp"
 #include "setup/site_crs_gdal.hpp"
 #include "tools/check/look.hpp"
 #include "tools/check/page.hpp"
@@ -86,7 +86,7 @@ CheckPage page_of(Tool& tool, const Options& o, const std::vector<Doubt>& last) 
   for (const std::vector<Doubt>& own : {tool.doubts_found(), last})
     page.doubts.insert(page.doubts.end(), own.begin(), own.end());
   page.run_id = tool.run_id();
-  page.style = shipped_data("report/report.css") + shipped_data("check/check.css");
+  page.style = shipped_data("tools/report/report.css") + shipped_data("tools/check/check.css");
   return page;
 }
 
@@ -116,11 +116,7 @@ int main(int argc, char** argv) {
     const Site& site = site_options.load();
     check_site_crs(site);
     // refused now, not after the runs
-    static_cast<void>(hazard_classes(site));
-    if (const auto file = recipe_file(site)) {
-      tool.read_also("recipe", *file);
-      static_cast<void>(parse_recipe(read_file(*file), *file));
-    }
+    check_exposure(site, read_recipe(tool, site), hazard_classes(site));
     Look look;
     look_or_show(tool, o, site, look);
     find_doubts(look);

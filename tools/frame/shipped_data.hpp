@@ -4,10 +4,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace talus {
 
 /// Content of the file NAME. Throws InputError for another name.
 [[nodiscard]] const std::string& shipped_data(const std::string& name);
+/// Names of the files of a folder, "share/hazard/".
+[[nodiscard]] std::vector<std::string> shipped_names(const std::string& folder);
 
 }  // namespace talus

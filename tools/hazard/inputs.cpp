@@ -2,11 +2,8 @@
 
 #include <algorithm>
 
-#include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "post/reduce.hpp"
-#include "tools/frame/hazard_recipe.hpp"
-#include "tools/frame/shipped_data.hpp"
 
 namespace talus {
 namespace {
@@ -39,16 +36,6 @@ void take_rows_of_parts(const RunInputs& runs, std::size_t first_part, const Map
 }
 
 }  // namespace
-
-Recipe read_recipe(Tool& tool, const Site& site) {
-  const std::optional<std::string> file = recipe_file(site);
-  const std::string shipped = "hazard/" + site.hazard.recipe + ".toml";
-  if (file) tool.read_also("recipe", *file);
-  Recipe recipe = file ? parse_recipe(read_file(*file), *file)
-                       : parse_recipe(std::string(shipped_data(shipped)), "share/" + shipped);
-  if (!site.hazard.split.empty()) recipe.side = site.hazard.split == "b";
-  return recipe;
-}
 
 HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<HazardClass>& classes,
                                 const Recipe& recipe, double cell_size_m, std::uint64_t most_rows) {

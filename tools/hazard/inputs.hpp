@@ -11,9 +11,6 @@
 
 namespace talus {
 
-/// The recipe of [hazard], with its split. Throws InputError (parse_recipe).
-[[nodiscard]] Recipe read_recipe(Tool& tool, const Site& site);
-
 /// All that the runs give, once they are read; rows as long as they are few enough.
 struct HazardInputs {
   HazardSources sources;

@@ -22,16 +22,6 @@ std::string joined(const std::vector<std::string>& notes) {
   return out;
 }
 
-VectorStyle class_style(const Recipe& recipe) {
-  VectorStyle style{SymbolKind::polygon, "code", {}, 0.2};
-  for (auto c = recipe.classes.rbegin(); c != recipe.classes.rend(); ++c)
-    style.classes.push_back({std::to_string(c->code),
-                             c->label,
-                             {c->rgb[0], c->rgb[1], c->rgb[2], 180},
-                             c->is_hatched ? "b_diagonal" : "solid"});
-  return style;
-}
-
 using Value = FieldValue;
 constexpr FieldType words = FieldType::text;
 
@@ -62,7 +52,7 @@ VectorLayer class_layer(const std::string& name, const std::string& description,
                     GeometryType::multi_polygon,
                     vector_fields(class_fields()),
                     {},
-                    vector_qml(class_style(recipe))};
+                    vector_qml(class_style(recipe, 0.2))};
   for (auto c = recipe.classes.rbegin(); c != recipe.classes.rend(); ++c) {
     std::vector<std::uint32_t> cells;
     for (std::size_t i = 0; i < codes.size(); ++i)

@@ -7,10 +7,12 @@
 
 #include "base/memory.hpp"
 #include "base/text.hpp"
+#include "post/hazard/risk.hpp"
 #include "setup/section_state_gdal.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
+#include "tools/frame/hazard_recipe.hpp"
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/tool.hpp"
 #include "tools/hazard/inputs.hpp"
@@ -51,9 +53,9 @@ void declare(Tool& tool, Options& o) {
 std::string short_hash(const std::string& sha256) { return sha256.substr(0, 12); }
 
 std::string recipe_words(const Recipe& recipe) {
-  return "recipe: " + recipe.name + ", " + recipe.edition + ", split " +
-         (recipe.side == 0 ? "a" : "b") + ", mark " + recipe.mark + ", sha256 " +
-         short_hash(recipe.sha256);
+  const std::string split = recipe.side == 0 ? ", split a" : ", split b";
+  return "recipe: " + recipe.name + ", " + recipe.edition + (recipe.has_sides ? split : "") +
+         ", mark " + mark_words(recipe) + ", sha256 " + short_hash(recipe.sha256);
 }
 
 std::string frequency_words(const HazardSources& sources) {
@@ -91,7 +93,7 @@ std::vector<std::string> notes_of(const Site& site, const HazardSources& sources
   return notes;
 }
 
-MapTags tags_of(Tool& tool, const Site& site, RunInputs& runs, const HazardSources& sources,
+MapTags tags_of(Tool& tool, RunInputs& runs, const HazardSources& sources,
                 const std::string& remark) {
   MapTags tags = talus::tags_of(runs.members, runs.left_out);
   std::vector<std::string> ids;
@@ -106,11 +108,11 @@ MapTags tags_of(Tool& tool, const Site& site, RunInputs& runs, const HazardSourc
   const Recipe& recipe = sources.recipe;
   tags.emplace_back("RECIPE", recipe.name);
   tags.emplace_back("RECIPE_EDITION", recipe.edition);
-  tags.emplace_back("RECIPE_SOURCE", recipe.source);
-  tags.emplace_back("RECIPE_MARK", recipe.mark);
+  tags.emplace_back("RECIPE_SOURCE", source_words(recipe));
+  tags.emplace_back("RECIPE_MARK", mark_words(recipe));
   tags.emplace_back("RECIPE_SHA256", recipe.sha256);
-  tags.emplace_back("SPLIT", recipe.side == 0 ? "a" : "b");
-  tags.emplace_back("MODE", site.hazard.mode);
+  if (recipe.has_sides) tags.emplace_back("SPLIT", recipe.side == 0 ? "a" : "b");
+  tags.emplace_back("MODE", is_localized(sources) ? "localized" : "diffuse");
   tags.emplace_back("FREQUENCIES", frequency_words(sources));
   const double elsewhere = largest_rate_elsewhere(sources.classes);
   if (!std::isnan(elsewhere))
@@ -170,9 +172,9 @@ void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
         "bounds, and no class is certain");
     return;
   }
-  if (rate * periods.back() < 1) return;
+  if (periods.empty() || rate * periods.back() < 1) return;
   tool.warn("places that no run reached may be reached once in " + text(1 / rate, 3) +
-            " years, which is within the " + text(periods.back()) +
+            " years, which is within the " + period_name(periods.back()) +
             " years of the recipe: more runs are needed to call them free");
 }
 
@@ -208,6 +210,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   const Site& site = site_options.load();
   const std::vector<HazardClass> classes = hazard_classes(site);
   const Recipe recipe = read_recipe(tool, site);
+  check_exposure(site, recipe, classes);
   const Trn& trn = runs.trn();
   HazardInputs inputs = read_hazard_inputs(runs, classes, recipe, o.cell_size_m, o.most_rows());
   const std::vector<MapLayer> layers = read_hazard_layers(runs, inputs, o.most_rows());
@@ -215,16 +218,19 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   if (inputs.n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
   runs.warn_of_ends();
   const std::string why =
-      "no frequency is given: classes, return periods and frequencies are not written; give "
-      "[hazard.class.NAME] frequency_per_a, events with observed_a, or failure_probability with "
-      "in_years in " +
-      site.file;
+      classes.empty()
+          ? "no frequency is given: classes, return periods and frequencies are not written; give "
+            "[hazard.class.NAME] frequency_per_a, events with observed_a, or failure_probability "
+            "with in_years in " +
+                site.file
+          : "recipe " + recipe.name +
+                " is of risk: cells have no class, objects have one (talus-trace)";
   if (classes.empty())
     tool.warn(why);
   else
     warn_of_elsewhere(tool, sources);
   const std::string remark = runs.remark();
-  const MapTags tags = tags_of(tool, site, runs, sources, remark);
+  const MapTags tags = tags_of(tool, runs, sources, remark);
   const std::vector<std::string> notes = notes_of(site, sources);
   const PassageGrid& grid = inputs.map.grid;
   const MapFrame frame = map_frame(runs, grid, o.pages, layers[0].cell);
@@ -239,6 +245,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   for (const auto& [key, value] : tags) result["tags"][key] = value;
   std::string summary =
       std::to_string(layers.size()) + " maps of " + run_words(sources) + " in " + o.folder;
+  result["notes"] = notes;
   if (const MapLayer* of_class = layer_named(layers, "class")) {
     std::vector<VectorLayer> polygons =
         hazard_polygons(*of_class, *certainty, grid, trn.origin, recipe, notes);
@@ -246,7 +253,6 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
     write_geopackage(tool.stage((fs::path(o.folder) / "hazard.gpkg").string()), trn.crs_wkt,
                      polygons, tags);
     result["classes"] = class_areas(*of_class, *certainty, recipe, grid.cell_size);
-    result["notes"] = notes;
     Json rates = Json::array();
     for (const HazardRuns& of : sources.classes) rates.push_back(rate_json(of.kind));
     result["frequencies"] = rates;
@@ -255,6 +261,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   } else {
     result["classes"] = nullptr;
     result["why_no_classes"] = why;
+    if (!classes.empty()) summary += "\n" + why;
   }
   add_faults(result, faults_of(runs.members, runs.left_out));
   tool.metric("passages", static_cast<double>(inputs.n_rows), "1");

@@ -204,13 +204,15 @@ void add_case_maps(QgisProject& project, const std::string& file, const ResultFo
     }
 }
 
-// "ke_T300", "return_period_300kJ" and others by their names.
+// "ke_T300", "return_period_300kJ", "return_period_0.25m3" and others by their names.
 std::string hazard_words(const std::string& name) {
   if (name.starts_with("ke_T"))
     return "Kinetic energy of the return period " + name.substr(4) + " a [kJ]";
   if (name.starts_with("return_period_")) {
-    const std::string energy = name.substr(14, name.size() - 16);
-    return "Return period of " + (energy == "0" ? "any block" : energy + " kJ and more") + " [a]";
+    const std::string limit = name.substr(14, name.size() - 16),
+                      unit = name.substr(name.size() - 2);
+    return "Return period of " + (limit == "0" ? "any block" : limit + " " + unit + " and more") +
+           " [a]";
   }
   std::string words = layer_words(name);
   if (!words.empty()) words[0] = static_cast<char>(std::toupper(words[0]));

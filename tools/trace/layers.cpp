@@ -61,6 +61,13 @@ VectorStyle p_style(SymbolKind kind, double size_mm) {
 struct ObjectRow {
   const RecordObject& object;
   const TracedObject& traced;
+  const Recipe& recipe;
+  [[nodiscard]] Value risk(double Rate::*bound) const {
+    return traced.risk ? traced.risk->individual.*bound : std::nan("");
+  }
+  [[nodiscard]] std::string of_class(std::string RecipeClass::*field) const {
+    return traced.risk ? recipe.classes[traced.risk->kind].*field : std::string();
+  }
 };
 const std::vector<Field<ObjectRow>>& object_fields() {
   using Row = const ObjectRow&;
@@ -110,23 +117,44 @@ const std::vector<Field<ObjectRow>>& object_fields() {
       {"return_period_lo_a", "a", "Return period, lower bound",
        [](Row r) -> Value { return period(r.traced.rate_high); }},
       {"return_period_hi_a", "a", "Return period, upper bound",
-       [](Row r) -> Value { return period(r.traced.rate_low); }}};
+       [](Row r) -> Value { return period(r.traced.rate_low); }},
+      {"risk_per_a", "1/a", "Annual individual risk", [](Row r) { return r.risk(&Rate::value); }},
+      {"risk_lo_per_a", "1/a", "Annual individual risk, lower bound",
+       [](Row r) { return r.risk(&Rate::low); }},
+      {"risk_hi_per_a", "1/a", "Annual individual risk, upper bound",
+       [](Row r) { return r.risk(&Rate::high); }},
+      {"deaths_per_a", "1/a", "Expected deaths",
+       [](Row r) -> Value { return r.traced.risk ? r.traced.risk->deaths : std::nan(""); }},
+      {"class", "", "Class of risk", [](Row r) -> Value { return r.of_class(&RecipeClass::name); },
+       words},
+      {"code", "", "Code",
+       [](Row r) -> Value {
+         return r.traced.risk ? r.recipe.classes[r.traced.risk->kind].code : 0;
+       },
+       whole},
+      {"label", "", "Label", [](Row r) -> Value { return r.of_class(&RecipeClass::label); }, words},
+      {"recipe", "", "Recipe",
+       [](Row r) -> Value { return r.traced.risk ? r.recipe.name : std::string(); }, words}};
   return fields;
 }
 
 VectorLayer object_layer(const TraceSums& sums, const std::vector<TracedObject>& objects,
-                         const Vec2& origin) {
+                         const Vec2& origin, const Recipe& recipe) {
   VectorLayer layer{
       "objects",
       "endangered objects and what comes to them",
       GeometryType::multi_polygon,
       vector_fields(object_fields()),
       {},
-      vector_qml({SymbolKind::polygon, "", {{"", "", {200, 30, 30, 120}}}, 0.6, "\"object\""})};
+      vector_qml(
+          is_of_risk(recipe)
+              ? class_style(recipe, 0.6, "\"object\"")
+              : VectorStyle{
+                    SymbolKind::polygon, "", {{"", "", {200, 30, 30, 120}}}, 0.6, "\"object\""})};
   for (std::size_t o = 0; o < objects.size(); ++o) {
     VectorFeature f;
     f.polygons = area_on_map(sums.objects[o], origin);
-    f.values = values_of(object_fields(), {sums.objects[o], objects[o]});
+    f.values = values_of(object_fields(), {sums.objects[o], objects[o], recipe});
     layer.features.push_back(std::move(f));
   }
   return layer;
@@ -210,9 +238,10 @@ VectorLayer link_layer(const TraceSums& sums, const std::vector<SourceLink>& lin
 
 std::vector<VectorLayer> trace_layers(const TraceSums& sums,
                                       const std::vector<TracedObject>& objects,
-                                      const std::vector<SourceLink>& links, const Trn& trn) {
+                                      const std::vector<SourceLink>& links, const Trn& trn,
+                                      const Recipe& recipe) {
   const Vec2 origin = trn.origin.head<2>();
-  return {object_layer(sums, objects, origin), link_layer(sums, links, trn),
+  return {object_layer(sums, objects, origin, recipe), link_layer(sums, links, trn),
           source_cell_layer(sums, links, origin)};
 }
 

@@ -15,6 +15,7 @@
 #include "setup/site_places_gdal.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
+#include "tools/frame/hazard_recipe.hpp"
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/object_files.hpp"
 #include "tools/frame/site_options.hpp"
@@ -135,18 +136,26 @@ Traced trace(Tool& tool, const Site& site, RunInputs& runs, const Options& o,
   return out;
 }
 
-// Events a year at an object, as talus-hazard counts them.
-void put_rate(const Traced& traced, int object, TracedObject& to) {
+// Events a year at an object, as talus-hazard counts them; by a recipe of risk what they bring to
+// those who are there, by the intensity at the first touch.
+void put_rate(const Traced& traced, const Site& site, const Recipe& recipe, int object,
+              TracedObject& to) {
   std::vector<EventRow> rows;
   for (const TraceHit& hit : traced.sums.hits)
-    if (hit.object == object)
-      rows.push_back({0, hit.run, hit.block, static_cast<float>(hit.energy / 1e3), 0, hit.weight});
+    if (hit.object == object) {
+      const auto energy = static_cast<float>(hit.energy / 1e3);
+      const bool by_volume = recipe.by == IntensityBy::block_volume;
+      rows.push_back({0, hit.run, hit.block, energy,
+                      by_volume ? static_cast<float>(hit.volume) : energy, hit.weight});
+    }
   sort_events(rows);
-  HazardRates rates(traced.classes);
-  const Rate rate = rates.above(rows, {})[0];
-  to.rate = rate.value;
-  to.rate_low = rate.low;
-  to.rate_high = rate.high;
+  HazardRates at(traced.classes);
+  const std::vector<Rate> rates = at.above(rows, recipe.breaks);
+  to.rate = rates[0].value;
+  to.rate_low = rates[0].low;
+  to.rate_high = rates[0].high;
+  if (is_of_risk(recipe))
+    to.risk = risk_of(recipe, site.objects[static_cast<std::size_t>(object)], rates);
 }
 
 Json sources_json(const Traced& traced, int object, const std::vector<SourceLink>& links,
@@ -167,7 +176,19 @@ Json sources_json(const Traced& traced, int object, const std::vector<SourceLink
   return out;
 }
 
-Json object_json(const RecordObject& object, const TracedObject& traced, bool has_rate) {
+Json risk_json(const ObjectRisk& risk, const RecipeClass& of) {
+  return {{"individual_per_a",
+           {risk.individual.value, number_or_null(risk.individual.low),
+            number_or_null(risk.individual.high)}},
+          {"deaths_per_a", risk.deaths},
+          {"class", of.name},
+          {"code", of.code},
+          {"label", of.label},
+          {"certain", risk.is_certain}};
+}
+
+Json object_json(const RecordObject& object, const TracedObject& traced, const Recipe& recipe,
+                 bool has_rate) {
   const ObjectTrace& t = traced.trace;
   Json out = {
       {"name", object.name},
@@ -194,6 +215,7 @@ Json object_json(const RecordObject& object, const TracedObject& traced, bool ha
   if (has_rate)
     out["frequency_per_a"] = {number_or_null(traced.rate), number_or_null(traced.rate_low),
                               number_or_null(traced.rate_high)};
+  if (traced.risk) out["risk"] = risk_json(*traced.risk, recipe.classes[traced.risk->kind]);
   return out;
 }
 
@@ -223,8 +245,8 @@ Json conservation(const Traced& traced, const std::vector<SourceLink>& links) {
           {"n_hits_and_none", static_cast<double>(sums.hits.size()) + n_none}};
 }
 
-std::string summary_of(const std::string& name, const TracedObject& o, bool has_rate, int n,
-                       bool rocks_alone) {
+std::string summary_of(const std::string& name, const TracedObject& o, const Recipe& recipe,
+                       bool has_rate, int n, bool rocks_alone) {
   const ObjectTrace& t = o.trace;
   const Interval& interval = rocks_alone ? t.weight_share_interval : t.run_share_interval;
   std::string out = name + ": ";
@@ -233,6 +255,13 @@ std::string summary_of(const std::string& name, const TracedObject& o, bool has_
   if (!std::isnan(interval.high))
     out += " (95 %: " + text(interval.low, 3) + " - " + text(interval.high, 3) + ")";
   if (has_rate && o.rate > 0) out += ", once in " + text(1 / o.rate, 3) + " years";
+  if (o.risk) {
+    const Rate& risk = o.risk->individual;
+    out += ", annual individual risk " + text(risk.value, 2);
+    if (!std::isnan(risk.high)) out += " (" + text(risk.low, 2) + " - " + text(risk.high, 2) + ")";
+    out += ": " + recipe.classes[o.risk->kind].label;
+    if (!o.risk->is_certain) out += " (another class at a bound)";
+  }
   if (t.n_hits == 0) return out;
   out += ", " + counted(t.n_hits, "block") + ", up to " + grouped_text(t.energy.largest, 3) + " kJ";
   return out + "; half of them from " + std::to_string(t.n_sources[0]) + " of " +
@@ -243,6 +272,8 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   const Site& site = site_options.load();
   if (!o.rasters.empty()) check_object_files(site);
   const std::vector<HazardClass> classes = hazard_classes(site);
+  const Recipe recipe = read_recipe(tool, site);
+  check_exposure(site, recipe, classes);
   const Traced traced = trace(tool, site, runs, o, classes);
   const TraceSums& sums = traced.sums;
   const Trn& trn = runs.trn();
@@ -255,18 +286,18 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   std::string summary;
   const bool rocks_alone = !runs.members.empty() && runs.members.front().info.independent;
   for (int i = 0; i < static_cast<int>(sums.objects.size()); ++i) {
-    TracedObject object{object_trace(sums, i, basis, links), no_value, no_value, no_value};
-    if (!classes.empty()) put_rate(traced, i, object);
+    TracedObject object{object_trace(sums, i, basis, links), no_value, no_value, no_value, {}};
+    if (!classes.empty()) put_rate(traced, site, recipe, i, object);
     const RecordObject& of = sums.objects[static_cast<std::size_t>(i)];
     if (object.trace.method != "recorded")
       tool.warn("object " + of.name + " was not watched by " +
                 (object.trace.method == "both" ? "some of the runs" : "the runs") +
                 ": its hits are counted by the cells that it lies in, none too few and some too "
                 "many, with the largest energy over these cells");
-    list.push_back(object_json(of, object, !classes.empty()));
+    list.push_back(object_json(of, object, recipe, !classes.empty()));
     list.back()["sources"] = sources_json(traced, i, links, trn.origin);
     summary += (i > 0 ? "\n" : "") +
-               summary_of(of.name, object, !classes.empty(), sums.n_runs, rocks_alone);
+               summary_of(of.name, object, recipe, !classes.empty(), sums.n_runs, rocks_alone);
     objects.push_back(std::move(object));
   }
   MapTags tags = tags_of(runs.members, runs.left_out);
@@ -274,7 +305,12 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   for (const RunMember& member : runs.members) ids.push_back(member.info.run_id);
   tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", run_set_id(std::move(ids))}});
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
-  std::vector<VectorLayer> layers = trace_layers(sums, objects, links, trn);
+  if (is_of_risk(recipe)) {
+    tags.emplace_back("RECIPE", recipe.name + ", " + recipe.edition);
+    tags.emplace_back("RECIPE_SOURCE", source_words(recipe));
+    tags.emplace_back("RECIPE_SHA256", recipe.sha256);
+  }
+  std::vector<VectorLayer> layers = trace_layers(sums, objects, links, trn, recipe);
   mark_layers(layers, remark);
   write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
   if (!o.csv.empty()) tool.write_text(o.csv, link_csv(sums, links, trn.origin));

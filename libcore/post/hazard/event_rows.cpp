@@ -28,6 +28,7 @@ std::vector<bool> is_in_company(const std::vector<MapRow>& rows, double alone_s)
 
 float intensity_of(const MapRow& row, const RunBlocks& blocks, IntensityBy by) {
   switch (by) {
+    case IntensityBy::reach:
     case IntensityBy::total_energy:
       return row.largest.total_energy / 1e3F;
     case IntensityBy::translational_energy:

@@ -1,5 +1,6 @@
 #include "post/hazard/frequency.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -51,32 +52,34 @@ void check_pair(const Where& where, const char* one, double value, const char* o
                    std::string("give both ") + one + " and " + other);
 }
 
+// The key of [rockfall.*] that says how often; null where none does.
+const char* frequency_key(const RockfallSettings& section) {
+  if (is_given(section.frequency_per_a)) return "frequency_per_a";
+  return is_given(section.frequency_per_m2_a) ? "frequency_per_m2_a" : nullptr;
+}
+
+// Sources that say themselves how often rocks come.
+bool any_source_says(const Site& site) {
+  return std::any_of(site.rockfalls.begin(), site.rockfalls.end(),
+                     [](const RockfallSettings& section) { return frequency_key(section); });
+}
+
 HazardClass class_of(const Site& site, const HazardClassSettings& s) {
   const Where where = where_of_class(site, s);
   check_pair(where, "events", s.events, "observed_a", s.observed_a);
   check_pair(where, "failure_probability", s.failure_probability, "in_years", s.in_years);
-  const int n = is_given(s.frequency_per_a) + is_given(s.events) + is_given(s.failure_probability) +
-                s.by_weights;
-  if (n != 1)
+  const int n = is_given(s.frequency_per_a) + is_given(s.events) + is_given(s.failure_probability);
+  if (n > 1 || (n == 0 && !any_source_says(site)))
     throw InputError(where, n == 0 ? "has no frequency" : "has more than one frequency",
-                     "give one of frequency_per_a, events with observed_a, failure_probability "
-                     "with in_years, or by_weights");
-  const bool is_failure = is_given(s.failure_probability),
-             localized = site.hazard.mode == "localized";
-  if (is_failure != localized)
-    throw InputError(where,
-                     is_failure ? "has a failure_probability, and mode of [hazard] is diffuse"
-                                : "has a frequency, and mode of [hazard] is localized",
-                     "one mass that may fail once is mode = \"localized\" with "
-                     "failure_probability and in_years; sources that fail again and again are "
-                     "mode = \"diffuse\" with a frequency");
+                     "give one of frequency_per_a, events with observed_a, or failure_probability "
+                     "with in_years; or none of them, and frequency_per_a to [rockfall.*]");
   HazardClass out;
   out.name = s.name;
-  if (is_failure) {
+  if (is_given(s.failure_probability)) {
     out.kind = FrequencyKind::of_failure;
     out.probability = s.failure_probability;
     out.years = s.in_years;
-  } else if (s.by_weights) {
+  } else if (n == 0) {
     out.kind = FrequencyKind::of_weights;
   } else if (is_given(s.events)) {
     out.frequency = rate_of_events(s.events, s.observed_a);
@@ -84,12 +87,6 @@ HazardClass class_of(const Site& site, const HazardClassSettings& s) {
     out.frequency = {s.frequency_per_a, s.frequency_per_a, s.frequency_per_a};
   }
   return out;
-}
-
-// The key of [rockfall.*] that says how often; null where none does.
-const char* frequency_key(const RockfallSettings& section) {
-  if (is_given(section.frequency_per_a)) return "frequency_per_a";
-  return is_given(section.frequency_per_m2_a) ? "frequency_per_m2_a" : nullptr;
 }
 
 // One class by weights among others may be that of the release points; the runs tell.
@@ -128,6 +125,15 @@ std::vector<HazardClass> hazard_classes(const Site& site) {
   std::vector<HazardClass> classes;
   for (const HazardClassSettings& section : site.hazard_classes) {
     classes.push_back(class_of(site, section));
+    const auto fails_once = [](const HazardClass& kind) {
+      return kind.kind == FrequencyKind::of_failure;
+    };
+    if (fails_once(classes.back()) != fails_once(classes.front()))
+      throw InputError(where_of_class(site, section),
+                       std::string(fails_once(classes.back()) ? "may fail once" : "fails again") +
+                           ", class " + classes.front().name + " does not",
+                       "one map is of masses that may fail once (failure_probability), or of "
+                       "sources that fail again and again (a frequency)");
     if (classes.back().years != classes.front().years)
       throw InputError(where_of_class(site, section),
                        "is of a failure within " + text(section.in_years) + " years, class " +

@@ -42,9 +42,10 @@ struct HazardClass {
   double probability = 0, years = 0;  ///< of_failure: within so many years [a]
 };
 
-/// The classes of a site, none where it has none. Throws InputError for one with no frequency, with
-/// several, or of another mode than [hazard]; for failures within different numbers of years; and
-/// where release points and all classes have frequencies.
+/// The classes of a site, none where it has none. One that says nothing takes the frequencies of
+/// [rockfall.*]. Throws InputError where there are none either, for a class with several, for
+/// failures beside frequencies or within different numbers of years, and where release points and
+/// all classes have frequencies.
 [[nodiscard]] std::vector<HazardClass> hazard_classes(const Site& site);
 
 /// The class of number `index`; "all", without a frequency, where there are none.
@@ -58,7 +59,7 @@ struct HazardClass {
 
 /// What to do where a class and its sources both have a frequency.
 inline constexpr const char* two_frequencies_hint =
-    "by_weights = true in the class counts each source by its own frequency; or take the frequency "
+    "without one of its own, the class counts each source by its frequency; or take the frequency "
     "out of [rockfall.*]: that of the class is then of all its sources together";
 
 /// "V1: 0.0233 a year (90 % within 0.0072 - 0.0471)", "V1: 0.28 rocks a year"

@@ -93,20 +93,21 @@ std::vector<MapLayer> empty_layers(const HazardSources& sources,
       for (MapBand& made : layers.back().bands) made.overview = OverviewValue::smallest;
     }
     for (const double period : recipe.return_periods) {
-      const std::string name = "ke_T" + text(period);
+      const std::string years = period_name(period), name = "ke_T" + years;
       add_bounded(start(name), name, "kJ",
-                  "largest kinetic energy with spin that comes at least once in " + text(period) +
+                  "largest kinetic energy with spin that comes at least once in " + years +
                       " years; nodata: nothing comes so often",
                   "that at the bound of the frequency; nodata: nothing, or not bounded");
     }
   }
+  if (is_of_risk(recipe)) return layers;
   MapLayer& intensity = start("intensity");
   intensity.is_codes = true;
   for (const double period : recipe.return_periods)
-    intensity.bands.push_back(
-        band("intensity_T" + text(period), "1",
-             "reached at least once in " + text(period) + " years: 0 none, then from 1 the weakest",
-             cells.size()));
+    intensity.bands.push_back(band("intensity_T" + period_name(period), "1",
+                                   "reached at least once in " + period_name(period) +
+                                       " years: 0 none, then from 1 the weakest",
+                                   cells.size()));
   MapLayer& classes = start("class");
   classes.is_codes = true;
   classes.bands.push_back(
@@ -204,7 +205,8 @@ std::vector<MapLayer> hazard_layers(const HazardSources& sources,
       next += 2 + n_limits;
       for (const Rate& energy : energies) put(layers[next++], 0, c, energy);
     }
-    put_class(recipe, rates, c, layers[next], layers[next + 1], layers[next + 2]);
+    if (!is_of_risk(recipe))
+      put_class(recipe, rates, c, layers[next], layers[next + 1], layers[next + 2]);
   }
   return layers;
 }
@@ -238,9 +240,11 @@ std::string capital(std::string words) {
   return words;
 }
 
+// Of a legend; a recipe of risk has no periods of its own.
 std::vector<double> longer_than(const std::vector<double>& periods) {
-  std::vector<double> all = periods;
-  for (const double factor : {3.0, 10.0}) all.push_back(periods.back() * factor);
+  std::vector<double> all = periods.empty() ? std::vector<double>{30, 100, 300} : periods;
+  const double last = all.back();
+  for (const double factor : {3.0, 10.0}) all.push_back(last * factor);
   return all;
 }
 
@@ -263,6 +267,16 @@ std::vector<StyleClass> stepped_classes(const std::vector<double>& limits, const
   }
   classes.push_back({infinity, colour(limits.size()), "above " + lower + unit});
   return classes;
+}
+
+VectorStyle class_style(const Recipe& recipe, double outline_mm, const std::string& label) {
+  VectorStyle style{SymbolKind::polygon, "code", {}, outline_mm, label};
+  for (auto c = recipe.classes.rbegin(); c != recipe.classes.rend(); ++c)
+    style.classes.push_back({std::to_string(c->code),
+                             c->label,
+                             {c->rgb[0], c->rgb[1], c->rgb[2], 180},
+                             c->is_hatched ? "b_diagonal" : "solid"});
+  return style;
 }
 
 RasterStyle hazard_style(const MapLayer& layer, const Recipe& recipe, const std::string& remark,
@@ -290,7 +304,7 @@ RasterStyle hazard_style(const MapLayer& layer, const Recipe& recipe, const std:
     shown = &layer.bands.back();
     style.classes = intensity_colours(recipe);
     style.title = shown->name;
-    style.heading = "Intensity within " + text(recipe.return_periods.back()) + " years";
+    style.heading = "Intensity within " + period_name(recipe.return_periods.back()) + " years";
     style.legend = "Reached at least once in that time";
     return style;
   }

@@ -26,7 +26,7 @@ struct HazardSources {
 ///
 /// event_exceed always. With frequencies: event_frequency, passage_frequency, return_period_* and
 /// ke_T*; of a single failure instead probability. Then intensity, class and class_certain, of
-/// codes.
+/// codes, but not by a recipe of risk.
 [[nodiscard]] std::vector<MapLayer> hazard_layers(const HazardSources& sources,
                                                   const std::vector<EventRow>& rows);
 
@@ -34,6 +34,10 @@ struct HazardSources {
 [[nodiscard]] RasterStyle hazard_style(const MapLayer& layer, const Recipe& recipe,
                                        const std::string& remark,
                                        const std::vector<std::string>& notes);
+
+/// Symbols of polygons with a class, by field `code`, the worst first.
+[[nodiscard]] VectorStyle class_style(const Recipe& recipe, double outline_mm,
+                                      const std::string& label = "");
 
 /// Classes with ascending limits; `is_deep_low`: small values are the bad ones.
 [[nodiscard]] std::vector<StyleClass> stepped_classes(const std::vector<double>& limits,

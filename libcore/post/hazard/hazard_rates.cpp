@@ -67,8 +67,7 @@ void check_run(const HazardClass& kind, const RunMember& run, const RunMember& f
                      two_frequencies_hint);
   if (kind.kind == FrequencyKind::of_weights && !run.info.weights_are_frequencies)
     throw InputError({where_of(run), 0, item},
-                     "the class is by_weights, and the weights of the run's blocks are no "
-                     "frequencies",
+                     "the class has no frequency, and the weights of the run's blocks are none",
                      "give frequency_per_a or frequency_per_m2_a to [rockfall.*] and run "
                      "talus-blocks and talus-dda again, or give the class a frequency");
 }

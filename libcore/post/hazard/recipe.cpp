@@ -1,8 +1,37 @@
 #include "post/hazard/recipe.hpp"
 
+#include <cmath>
+
 #include "base/text.hpp"
 
 namespace talus {
+namespace {
+
+std::string list_of_items(const RecipeSource& source) {
+  std::string out;
+  for (const std::string& item : source.of) out += (out.empty() ? "" : ", ") + item;
+  return out;
+}
+
+}  // namespace
+
+std::string mark_words(const Recipe& recipe) {
+  std::string out = recipe.sources[0].mark;
+  for (const RecipeSource& source : recipe.sources)
+    if (source.mark != recipe.sources[0].mark)
+      out += "; " + list_of_items(source) + " " + source.mark;
+  return out;
+}
+
+std::string source_words(const Recipe& recipe) {
+  std::string out;
+  for (const RecipeSource& source : recipe.sources)
+    out += (out.empty() ? "" : "; ") + list_of_items(source) + ": " + source.document + ", " +
+           source.page + " (" + source.mark + ")";
+  return out;
+}
+
+std::string period_name(double years) { return text(years < 10 ? years : std::round(years)); }
 
 std::string break_name(const Recipe& recipe, double value) {
   return text(value) + (recipe.by == IntensityBy::block_volume ? "m3" : "kJ");
@@ -11,6 +40,7 @@ std::string break_name(const Recipe& recipe, double value) {
 std::string intensity_words(const Recipe& recipe, std::size_t i) {
   const std::string unit = recipe.by == IntensityBy::block_volume ? " m3" : " kJ";
   const std::string name = recipe.intensities[i];
+  if (recipe.breaks.empty()) return name;
   if (i == 0) return name + ", up to " + text(recipe.breaks[0]) + unit;
   if (i == recipe.breaks.size()) return name + ", above " + text(recipe.breaks.back()) + unit;
   return name + ", " + text(recipe.breaks[i - 1]) + " - " + text(recipe.breaks[i]) + unit;

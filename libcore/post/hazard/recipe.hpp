@@ -1,7 +1,8 @@
 // libcore/post/hazard/recipe.hpp: public
 // How an authority makes hazard classes: numbers that change from place to place, so they are data.
 // in:    a file as those of share/hazard (TOML)
-// out:   intensities, return periods, the matrix of classes, the rule for masses, colours
+// out:   intensities, return periods and the matrix of classes, or limits of risk; the rule for
+//        masses, colours; where each number stands
 #pragma once
 
 #include <array>
@@ -27,32 +28,57 @@ struct MatrixCell {
   int number = 0;                      ///< that the authority gives to the cell; 0: none
 };
 
-enum class IntensityBy { total_energy, translational_energy, block_volume };
+/// reach: any block that comes is as bad as another.
+enum class IntensityBy { reach, total_energy, translational_energy, block_volume };
+
+/// Where numbers of a recipe stand, and how sure they are.
+struct RecipeSource {
+  std::vector<std::string> of;  ///< keys and sections of the recipe
+  std::string document, page;
+  std::string
+      mark;  ///< v read there, s read in what cites it, m from memory, o chosen by the writer
+};
 
 struct Recipe {
-  std::string name, edition, source, mark;
-  std::string sha256;  ///< of the file's text
-  IntensityBy by = IntensityBy::total_energy;
-  std::vector<double> breaks;            ///< ascending [kJ or m3]
+  std::string name, edition;
+  std::vector<RecipeSource> sources;  ///< of all that has numbers
+  std::string sha256;                 ///< of the file's text
+  IntensityBy by = IntensityBy::reach;
+  std::vector<double> breaks;            ///< ascending [kJ or m3]; none by reach
   std::vector<std::string> intensities;  ///< from the weakest                  (n_breaks + 1)
-  std::vector<double> return_periods;    ///< ascending [a]                     (n_periods)
+  std::vector<double> return_periods;    ///< ascending; none of a recipe of risk [a] (n_periods)
   std::vector<std::vector<MatrixCell>> matrix;  ///< by intensity, then period
   int side = 0;                                 ///< of cells with two classes: 0 a, 1 b
+  bool has_sides = false;                       ///< whether there are such cells
   int beyond = -1;         ///< class of what is reached more rarely than all periods; -1: none
   double mass_volume = 0;  ///< released volume above which blocks are a mass; 0: no rule [m3]
   double alone_s = 3;      ///< a block is alone with no other in the cell within so long [s]
   int mass_intensity = 0;  ///< that a cell reached by a mass has at least, from 0
+  /// Of a recipe of risk: what a year may bring the one who is most at risk, ascending [1/a].
+  std::vector<double> risk_limits;
+  /// Indices into `classes`: below the first limit, from each on                   (n_limits + 1)
+  std::vector<std::size_t> risk_classes;
   std::vector<RecipeClass> classes;  ///< by code
 };
+/// Whether classes are of the risk at objects (post/hazard/risk.hpp), not of cells.
+[[nodiscard]] inline bool is_of_risk(const Recipe& recipe) { return !recipe.risk_classes.empty(); }
 
 /// Reads a recipe. Throws InputError with the line for what is missing, does not fit together, or
 /// is unknown: holes of the matrix, one whose classes fall with the intensity or rise with the
-/// return period, classes that are not described, breaks that do not ascend, values out of range.
+/// return period, classes that are not described, not used or look alike, breaks that do not
+/// ascend or are in other units, numbers without a source.
 [[nodiscard]] Recipe parse_recipe(const std::string& text, const std::string& path);
 
+/// "v; class o": the mark of the first source, and what has another one.
+[[nodiscard]] std::string mark_words(const Recipe& recipe);
+/// "matrix: Ordinance 7, page 3 (v); class: ours (o)".
+[[nodiscard]] std::string source_words(const Recipe& recipe);
+
+/// "300", to a year from ten years on: what stands in the names of bands.
+[[nodiscard]] std::string period_name(double years);
 /// "300kJ", "0.25m3": what stands in the names of bands.
 [[nodiscard]] std::string break_name(const Recipe& recipe, double value);
-/// "weak, up to 30 kJ", of intensity i.
+/// "weak, up to 30 kJ", "reached", of intensity i.
 [[nodiscard]] std::string intensity_words(const Recipe& recipe, std::size_t i);
 
 inline constexpr int no_class = 255;  ///< in rasters

@@ -18,24 +18,18 @@ class RecipeReader {
 
   Recipe read() {
     check_keys(root_, "",
-               {"name", "edition", "source", "mark", "intensity", "return_period_a", "matrix",
-                "numbers", "split", "beyond", "mass", "class"});
-    for (const auto& [key, field] : {std::pair{"name", &recipe_.name},
-                                     {"edition", &recipe_.edition},
-                                     {"source", &recipe_.source},
-                                     {"mark", &recipe_.mark}})
-      *field = word(root_, key, key);
+               {"name", "edition", "source", "intensity", "return_period_a", "probability",
+                "in_years", "matrix", "numbers", "split", "beyond", "risk", "mass", "class"});
+    recipe_.name = word(root_, "name", "name");
+    recipe_.edition = word(root_, "edition", "edition");
     read_intensity();
-    recipe_.return_periods = numbers(root_, "return_period_a", "return_period_a");
     read_classes();
-    read_matrix();
-    if (root_.contains("numbers")) read_numbers();
-    const std::string side = root_.contains("split") ? word(root_, "split", "split") : "a";
-    if (side != "a" && side != "b")
-      refuse(root_.get("split"), "split", "is \"" + side + "\", expected a or b");
-    recipe_.side = side == "b";
-    if (root_.contains("beyond")) read_beyond();
-    if (root_.contains("mass")) read_mass();
+    if (root_.contains("risk"))
+      read_risk();
+    else
+      read_classes_of_cells();
+    check_classes_are_used();
+    read_sources();
     return recipe_;
   }
 
@@ -100,7 +94,155 @@ class RecipeReader {
     return *node.as_table();
   }
 
+  // What is an open key of one way to write a recipe, and means nothing in the other.
+  void refuse_beside(const char* other, const std::vector<const char*>& keys) const {
+    for (const char* key : keys)
+      if (root_.contains(key))
+        refuse(root_.get(key), key, std::string("means nothing beside ") + other,
+               std::string("take ") + key + " out, or " + other);
+  }
+
+  void read_classes_of_cells() {
+    read_periods();
+    read_matrix();
+    if (root_.contains("numbers")) read_numbers();
+    const std::string side = root_.contains("split") ? word(root_, "split", "split") : "a";
+    if (side != "a" && side != "b")
+      refuse(root_.get("split"), "split", "is \"" + side + "\", expected a or b");
+    if (root_.contains("split") && !recipe_.has_sides)
+      refuse(root_.get("split"), "split", "chooses a side, and no cell of the matrix has two",
+             "take split out, or write a cell as \"CLASS|CLASS\"");
+    recipe_.side = side == "b";
+    if (root_.contains("beyond")) read_beyond();
+    if (root_.contains("mass")) read_mass();
+  }
+
+  // The rate of events at which one comes within `years` with the probability p is
+  // -ln(1 - p) / years.
+  void read_periods() {
+    if (!root_.contains("probability")) {
+      refuse_beside("return_period_a", {"in_years"});
+      recipe_.return_periods = numbers(root_, "return_period_a", "return_period_a");
+      if (recipe_.return_periods.back() < 1)
+        refuse(root_.get("return_period_a"), "return_period_a",
+               "has no period of a year or more: these look like probabilities",
+               "write probability = [0.01, 0.001] with in_years = 1");
+    } else {
+      refuse_beside("probability", {"return_period_a"});
+      const double years = number(needed(root_, "in_years", "in_years"), "in_years");
+      if (!(years > 0)) refuse(root_.get("in_years"), "in_years", "is not above 0");
+      const toml::node& node = *root_.get("probability");
+      for (const toml::node& entry : list(node, "probability", 0)) {
+        const double p = number(entry, "probability");
+        if (!(p > 0 && p < 1))
+          refuse(&entry, "probability", "is " + text(p) + ", expected above 0 and below 1",
+                 "10 % is 0.1");
+        recipe_.return_periods.push_back(-years / std::log1p(-p));
+        if (recipe_.return_periods.size() > 1 &&
+            !(recipe_.return_periods.back() > recipe_.return_periods.rbegin()[1]))
+          refuse(&entry, "probability", "does not fall from the first one on",
+                 "write what comes most often first");
+      }
+    }
+    const std::vector<double>& periods = recipe_.return_periods;
+    for (std::size_t t = 1; t < periods.size(); ++t)
+      if (period_name(periods[t]) == period_name(periods[t - 1]))
+        refuse(root_.get(root_.contains("probability") ? "probability" : "return_period_a"),
+               "return_period_a", "has " + period_name(periods[t]) + " years twice");
+  }
+
+  void read_risk() {
+    refuse_beside("risk", {"return_period_a", "probability", "in_years", "matrix", "numbers",
+                           "split", "beyond", "mass"});
+    const toml::table& table = section(root_, "risk", "risk");
+    check_keys(table, "risk.", {"limits_per_a", "classes"});
+    if (recipe_.by == IntensityBy::translational_energy)
+      refuse(root_["intensity"]["by"].node(), "intensity.by",
+             "is translational_energy_kj, and hits of objects have their energy with spin alone",
+             "write total_energy_kj or block_volume_m3, or leave [intensity] out");
+    recipe_.risk_limits = numbers(table, "limits_per_a", "risk.limits_per_a");
+    if (recipe_.risk_limits.back() >= 1)
+      refuse(table.get("limits_per_a"), "risk.limits_per_a",
+             "has " + text(recipe_.risk_limits.back()) + ", a probability of death is below 1",
+             "one in 10,000 a year is 1e-4");
+    const toml::node& names = needed(table, "classes", "risk.classes");
+    for (const toml::node& entry : list(names, "risk.classes", recipe_.risk_limits.size() + 1)) {
+      if (!entry.is_string()) refuse(&entry, "risk.classes", "is not a list of texts");
+      const int own = class_named(&entry, entry.as_string()->get(), "risk.classes");
+      if (own < 0)
+        refuse(&entry, "risk.classes", "has \"none\", and each object has a class",
+               "describe a class of the risk that is tolerated");
+      if (!recipe_.risk_classes.empty() &&
+          code_of(own) <= recipe_.classes[recipe_.risk_classes.back()].code)
+        refuse(&entry, "risk.classes",
+               "has \"" + name_of(own) + "\" behind \"" +
+                   recipe_.classes[recipe_.risk_classes.back()].name +
+                   "\", whose code is not lower",
+               "classes go from the lowest risk to the highest");
+      recipe_.risk_classes.push_back(static_cast<std::size_t>(own));
+    }
+  }
+
+  void check_classes_are_used() const {
+    std::set<int> used(recipe_.risk_classes.begin(), recipe_.risk_classes.end());
+    used.insert(recipe_.beyond);
+    for (const auto& row : recipe_.matrix)
+      for (const MatrixCell& cell : row) used.insert(cell.of_side.begin(), cell.of_side.end());
+    for (std::size_t i = 0; i < recipe_.classes.size(); ++i) {
+      const RecipeClass& own = recipe_.classes[i];
+      const std::string item = "class." + own.name;
+      const toml::node* node = root_["class"][own.name].node();
+      if (!used.contains(static_cast<int>(i)))
+        refuse(node, item, "is given to nothing", "name it in the matrix, or take it out");
+      for (std::size_t k = 0; k < i; ++k)
+        if (recipe_.classes[k].rgb == own.rgb && recipe_.classes[k].is_hatched == own.is_hatched)
+          refuse(node, item, "looks like class " + recipe_.classes[k].name + " on the map",
+                 "give it another rgb, or hatched = true");
+    }
+  }
+
+  // Every number of the recipe stands somewhere.
+  void read_sources() {
+    static const std::vector<std::string> items = {
+        "return_period_a", "probability", "matrix", "intensity", "risk", "mass", "class"};
+    const toml::node& node = needed(root_, "source", "source");
+    if (!node.is_array() || !node.as_array()->is_array_of_tables())
+      refuse(&node, "source", "is not a list of sections",
+             "write [[source]] with of, document, page and mark");
+    std::set<std::string> said;
+    for (const toml::node& entry : *node.as_array()) {
+      const toml::table& table = *entry.as_table();
+      check_keys(table, "source.", {"of", "document", "page", "mark"});
+      RecipeSource source;
+      for (const toml::node& of : list(needed(table, "of", "source.of"), "source.of", 0)) {
+        const std::string item = of.value_or(std::string());
+        if (std::find(items.begin(), items.end(), item) == items.end() || !root_.contains(item))
+          refuse(&of, "source.of",
+                 "has \"" + item + "\", which is no part of this recipe that has numbers");
+        if (!said.insert(item).second) refuse(&of, "source.of", "has \"" + item + "\" twice");
+        source.of.push_back(item);
+      }
+      source.document = word(table, "document", "source.document");
+      source.page = word(table, "page", "source.page");
+      source.mark = word(table, "mark", "source.mark");
+      if (source.mark.size() != 1 || std::string("vsmo").find(source.mark) == std::string::npos)
+        refuse(table.get("mark"), "source.mark", "is \"" + source.mark + "\"",
+               "v: read in the document, s: read in another that cites it, m: from memory, o: "
+               "chosen by you");
+      recipe_.sources.push_back(std::move(source));
+    }
+    for (const std::string& item : items)
+      if (root_.contains(item) && !said.contains(item))
+        refuse(root_.get(item), item, "has no source",
+               "name it in `of` of a [[source]]; what you chose yourself has mark = \"o\"");
+  }
+
+  // What is left out is by reach alone.
   void read_intensity() {
+    if (!root_.contains("intensity")) {
+      recipe_.intensities = {"reached"};
+      return;
+    }
     const toml::table& table = section(root_, "intensity", "intensity");
     check_keys(table, "intensity.", {"by", "breaks", "names"});
     const std::string by = word(table, "by", "intensity.by");
@@ -115,6 +257,7 @@ class RecipeReader {
              "is \"" + by +
                  "\", expected total_energy_kj, translational_energy_kj or block_volume_m3");
     recipe_.breaks = numbers(table, "breaks", "intensity.breaks");
+    check_unit(*table.get("breaks"));
     const toml::node& names = needed(table, "names", "intensity.names");
     for (const toml::node& entry : list(names, "intensity.names", recipe_.breaks.size() + 1)) {
       if (!entry.is_string() || entry.as_string()->get().empty())
@@ -125,6 +268,17 @@ class RecipeReader {
         refuse(&entry, "intensity.names", "has \"" + name + "\" twice");
       recipe_.intensities.push_back(name);
     }
+  }
+
+  // Nothing weak or small begins there: the numbers are of another unit.
+  void check_unit(const toml::node& breaks) const {
+    constexpr double most_kj = 10000, most_m3 = 1000;
+    const double least = recipe_.breaks[0];
+    if (recipe_.by == IntensityBy::block_volume ? least < most_m3 : least < most_kj) return;
+    refuse(&breaks, "intensity.breaks",
+           "begins at " + break_name(recipe_, least) + ", above all that is weak",
+           recipe_.by == IntensityBy::block_volume ? "volumes are in m3: 1 dm3 is 0.001"
+                                                   : "energies are in kJ: 30000 J are 30");
   }
 
   void read_classes() {
@@ -144,7 +298,8 @@ class RecipeReader {
       const toml::array& rgb = list(needed(of, "rgb", item + ".rgb"), item + ".rgb", 3);
       for (std::size_t k = 0; k < 3; ++k) {
         const double part = number(rgb[k], item + ".rgb");
-        if (!(part >= 0 && part <= 255)) refuse(&rgb, item + ".rgb", "is not within 0 to 255");
+        if (!(part >= 0 && part <= 255) || part != std::floor(part))
+          refuse(&rgb, item + ".rgb", "has " + text(part) + ", expected whole numbers, 0 to 255");
         out.rgb[k] = static_cast<std::uint8_t>(part);
       }
       if (of.contains("hatched") && !of["hatched"].is_boolean())
@@ -220,6 +375,7 @@ class RecipeReader {
         const std::size_t bar = words.find('|');
         const std::string a = words.substr(0, bar),
                           b = bar == std::string::npos ? a : words.substr(bar + 1);
+        recipe_.has_sides = recipe_.has_sides || a != b;
         cells.push_back({{class_named(&entry, a, item), class_named(&entry, b, item)}, 0});
         check_order(entry, item, cells);
       }

@@ -22,7 +22,6 @@ cat >>wall/site.toml <<'END'
 line = [[650020, 5200100], [650140, 5200100]]
 width_m = 6
 [hazard.class.rocks]
-by_weights = true
 END
 sed -i -e 's/^# frequency_per_a = 0.5/frequency_per_a = 0.5/' -e 's/^duration_s = 120/duration_s = 30/' \
   -e 's/^rocks = 1/release_spacing_m = 12\n&/' \

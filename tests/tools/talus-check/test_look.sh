@@ -144,6 +144,9 @@ expect 1 look
 says "holes.toml"
 cp "$source_dir/share/hazard/switzerland_ti.toml" holes.toml
 expect 0 look
+sed -i 's/holes.toml/new_zealand_christchurch/' site.toml
+expect 1 look
+says 'is of risk, and the site'
 mv no_recipe.toml site.toml
 expect 1 look --set solver.duration_s=0.001
 says "less than a time step"

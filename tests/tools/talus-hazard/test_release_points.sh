@@ -22,7 +22,7 @@ rocks_of() {
   expect 0 talus-hazard "$name/site.toml" "$name"/run_?.h5 --trn slope.tif -o "$name/hazard" --no-db
 }
 name=class && rocks_of class 1 '[hazard.class.V1]' 'frequency_per_a = 0.28'
-name=points && rocks_of points 1 'frequency_per_a = 0.28' '[hazard.class.V1]' 'by_weights = true'
+name=points && rocks_of points 1 'frequency_per_a = 0.28' '[hazard.class.V1]'
 for file in class/hazard/*.tif; do
   gdalinfo -checksum "$file" | grep Checksum >whole
   gdalinfo -checksum "points/${file#class/}" | grep Checksum | cmp - whole || fail "$file is another one by release points"
@@ -32,7 +32,7 @@ sed 's/^rocks = .*/&\nfrequency_per_a = 0.28/' class/site.toml >both.toml
 expect 1 talus-check both.toml --trn slope.tif --bed slope.tif --blocks class/blocks.h5 --probe-s 0 --no-db
 says '[rockfall.cliff] has frequency_per_a'
 # a point that sheds a rock each year is a frequency too
-name=yearly && rocks_of yearly 1 'frequency_per_a = 28' '[hazard.class.V1]' 'by_weights = true'
+name=yearly && rocks_of yearly 1 'frequency_per_a = 28' '[hazard.class.V1]'
 
 # where every rock passes, 0.28 a year whatever the sample
 name=more && rocks_of more 4 '[hazard.class.V1]' 'frequency_per_a = 0.28'

@@ -5,7 +5,7 @@ run-probe . 12 blocks=3 independent=1 objects=watched
 run-probe points 12 blocks=3 independent=1 weight=0.01 objects=watched
 cp site.toml plain.toml
 printf '\n[hazard.class.V1]\nfrequency_per_a = 0.03\n' >>site.toml
-printf '\n[hazard.class.V1]\nby_weights = true\n' >>points/site.toml
+printf '\n[hazard.class.V1]\n[rockfall.cliff]\nfrequency_per_a = 0.03\n' >>points/site.toml
 expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o class --json class.json
 expect 0 talus-hazard points/site.toml points/run_*.h5 --trn points/slope.tif -o weights --json weights.json
 # same_maps FOLDER FOLDER: all values; their tags name other runs
@@ -51,9 +51,9 @@ value=$(gdallocationinfo -valonly -b 1 together/event_frequency.tif 10 10)
 refused() { words=$1; shift; expect 1 "$@"; says "$words"; nothing_left both/class.tif both.gpkg; }
 refused 'hazard.class.V1: the blocks of the run have frequencies, and the class has one too' \
   talus-hazard site.toml points/run_*.h5 --trn points/slope.tif -o both
-says 'by_weights = true in the class'
+says 'without one of its own, the class counts each source by its frequency'
 refused 'have frequencies, and the class has one too' talus-trace site.toml points/run_*.h5 --trn points/slope.tif -o both.gpkg
-sed 's/^frequency_per_a = .*/by_weights = true/' site.toml >way_out.toml
+{ sed '/^frequency_per_a = /d' site.toml; printf '[rockfall.cliff]\nfrequency_per_a = 0.03\n'; } >way_out.toml
 expect 0 talus-hazard way_out.toml points/run_*.h5 --trn points/slope.tif -o way_out
 { cat site.toml; printf '[rockfall.cliff]\nfrequency_per_a = 0.01\n'; } >both.toml
 refused '[rockfall.cliff] has frequency_per_a' talus-hazard both.toml run_*.h5 --trn slope.tif -o both

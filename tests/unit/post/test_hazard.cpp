@@ -4,6 +4,7 @@
 
 #include "base/read_file.hpp"
 #include "post/hazard/hazard_maps.hpp"
+#include "post/hazard/risk.hpp"
 #include "run_maker.hpp"
 
 namespace {
@@ -11,8 +12,8 @@ namespace {
 using namespace talus;           // NOLINT: a test
 using namespace talus::testing;  // NOLINT: a test
 
-std::string shipped() {
-  return read_file(std::string(TALUS_SOURCE_DIR) + "/share/hazard/switzerland_ti.toml");
+std::string shipped(const std::string& name = "switzerland_ti") {
+  return read_file(std::string(TALUS_SOURCE_DIR) + "/share/hazard/" + name + ".toml");
 }
 
 Recipe swiss(const std::string& side = "a") {
@@ -89,9 +90,10 @@ std::string refusal_of_runs(const HazardClass& kind, const std::vector<RunMember
 
 EventRow row(int run, float energy) { return {7, run, 0, energy, energy, 1}; }
 
-std::string class_of_periods(const Recipe& recipe, double any, double medium, double strong) {
-  const auto rate = [](double period) { return period > 0 ? 1 / period : 0; };
-  const std::vector<double> rates{rate(any), rate(medium), rate(strong)};
+// By the return periods of reaching the cell and of each break; 0: never.
+std::string class_of_periods(const Recipe& recipe, const std::vector<double>& periods) {
+  std::vector<double> rates;
+  for (const double period : periods) rates.push_back(period > 0 ? 1 / period : 0);
   const int code = class_of(recipe, rates).code;
   for (const RecipeClass& c : recipe.classes)
     if (c.code == code) return c.name;
@@ -135,17 +137,134 @@ TEST(Hazard, OfThreeVolumeClassesIsTheSumOfFrequencyTimesReach) {
 
 TEST(Hazard, ClassesAreThoseOfTheSwissMatrix) {
   const Recipe a = swiss(), b = swiss("b");
-  EXPECT_EQ(class_of_periods(a, 29, 400, 0), "blue");
-  EXPECT_EQ(class_of_periods(a, 31, 400, 0), "yellow");
-  EXPECT_EQ(class_of_periods(a, 99, 299, 0), "yellow");
-  EXPECT_EQ(class_of_periods(a, 50, 50, 301), "blue");
-  EXPECT_EQ(class_of_periods(a, 299, 299, 299), "red");
-  EXPECT_EQ(class_of_periods(a, 301, 301, 301), "residual");
-  EXPECT_EQ(class_of_periods(a, 20, 29, 500), "blue");
-  EXPECT_EQ(class_of_periods(b, 20, 29, 500), "red");
-  EXPECT_EQ(class_of_periods(a, 20, 90, 250), "red");
-  EXPECT_EQ(class_of_periods(a, 0, 0, 0), "none");
-  EXPECT_EQ(class_of_periods(a, 30, 0, 0), "blue");  // the period itself belongs to the class
+  EXPECT_EQ(class_of_periods(a, {29, 400, 0}), "blue");
+  EXPECT_EQ(class_of_periods(a, {31, 400, 0}), "yellow");
+  EXPECT_EQ(class_of_periods(a, {99, 299, 0}), "yellow");
+  EXPECT_EQ(class_of_periods(a, {50, 50, 301}), "blue");
+  EXPECT_EQ(class_of_periods(a, {299, 299, 299}), "red");
+  EXPECT_EQ(class_of_periods(a, {301, 301, 301}), "residual");
+  EXPECT_EQ(class_of_periods(a, {20, 29, 500}), "blue");
+  EXPECT_EQ(class_of_periods(b, {20, 29, 500}), "red");
+  EXPECT_EQ(class_of_periods(a, {20, 90, 250}), "red");
+  EXPECT_EQ(class_of_periods(a, {0, 0, 0}), "none");
+  EXPECT_EQ(class_of_periods(a, {30, 0, 0}), "blue");  // the period itself belongs to the class
+}
+
+// Whatever its energy: TEK17 counts any rock.
+TEST(Hazard, ClassesOfNorwayAreByTheProbabilityOfReachAlone) {
+  const Recipe recipe = parse_recipe(shipped("norway_tek17"), "n.toml");
+  EXPECT_EQ(class_of_periods(recipe, {99}), "above_S1");
+  EXPECT_EQ(class_of_periods(recipe, {100}), "above_S1");
+  EXPECT_EQ(class_of_periods(recipe, {101}), "above_S2");
+  EXPECT_EQ(class_of_periods(recipe, {1000}), "above_S2");
+  EXPECT_EQ(class_of_periods(recipe, {4999}), "above_S3");
+  EXPECT_EQ(class_of_periods(recipe, {5001}), "none");
+  EXPECT_EQ(intensity_words(recipe, 0), "reached");
+  EXPECT_EQ(mark_words(recipe), "v; class o");
+}
+
+// 10 % in 50 years: -50 / ln 0.9 = 474.56 years; 0.5 %: -50 / ln 0.995 = 9975.
+TEST(Hazard, ProbabilitiesInYearsAreReturnPeriods) {
+  const Recipe recipe = parse_recipe(shipped("british_columbia"), "b.toml");
+  ASSERT_EQ(recipe.return_periods.size(), 2u);
+  EXPECT_NEAR(recipe.return_periods[0], 474.56, 0.005);
+  EXPECT_NEAR(recipe.return_periods[1], 9975, 0.5);
+  EXPECT_EQ(period_name(recipe.return_periods[0]), "475");
+  EXPECT_EQ(class_of_periods(recipe, {474}), "above_permit");
+  EXPECT_EQ(class_of_periods(recipe, {475}), "above_subdivision");
+  EXPECT_EQ(class_of_periods(recipe, {9974}), "above_subdivision");
+  EXPECT_EQ(class_of_periods(recipe, {9976}), "none");
+  HazardSources sources{{runs_of(0.1, 0, 10)}, recipe, true};
+  for (const MapLayer& layer : hazard_layers(sources, {row(0, 1)}))
+    EXPECT_EQ(layer.name.find('.'), std::string::npos) << layer.name;
+}
+
+TEST(Hazard, ClassesByVolumeAreThoseOfTheirMatrix) {
+  const Recipe recipe = parse_recipe(
+      "name = 'volumes'\nedition = '1'\nreturn_period_a = [100]\n"
+      "matrix = [['low'], ['low'], ['high']]\n"
+      "[[source]]\nof = ['return_period_a', 'matrix', 'intensity', 'class']\n"
+      "document = 'a test'\npage = '1'\nmark = 'o'\n"
+      "[intensity]\nby = 'block_volume_m3'\nbreaks = [0.25, 1]\nnames = ['a', 'b', 'c']\n"
+      "[class.low]\ncode = 1\nrgb = [1, 1, 1]\nlabel = 'low'\n"
+      "[class.high]\ncode = 2\nrgb = [2, 2, 2]\nlabel = 'high'\n",
+      "v.toml");
+  EXPECT_EQ(class_of_periods(recipe, {20, 60, 90}), "high");
+  EXPECT_EQ(class_of_periods(recipe, {20, 60, 110}), "low");
+  EXPECT_EQ(class_of_periods(recipe, {110, 0, 0}), "none");
+  RunBlocks blocks;
+  blocks.volume = {0.5};
+  std::vector<MapRow> rows(1);
+  rows[0].largest.total_energy = 9e6F;
+  EXPECT_EQ(event_rows(rows, blocks, recipe, {}, 0)[0].intensity, 0.5F);
+}
+
+// Half of the time there; 0.006, 0.003 and 0.001 hits a year of the three intensities:
+// 0.5 (0.006 0.05 + 0.003 0.3 + 0.001 1) = 0.0011, of which 1 - exp(-0.0011) is the chance.
+TEST(Hazard, RiskIsPresenceTimesHitsTimesVulnerability) {
+  Recipe recipe = parse_recipe(shipped("new_zealand_christchurch"), "z.toml");
+  ASSERT_TRUE(is_of_risk(recipe));
+  ObjectSettings object;
+  object.presence = 0.5;
+  object.persons_per_day = 4;
+  object.vulnerability = {0.05, 0.3, 1};
+  const std::vector<Rate> rates{{0.01, 0.005, 0.02}, {0.004, 0.002, 0.008}, {0.001, 0.0005, 0.002}};
+  const ObjectRisk risk = risk_of(recipe, object, rates);
+  EXPECT_NEAR(risk.individual.value, 0.00109939522, 1e-11);
+  EXPECT_NEAR(risk.individual.low, 0.00054984877, 1e-11);
+  EXPECT_NEAR(risk.individual.high, 0.00219758177, 1e-11);
+  EXPECT_NEAR(risk.deaths, 0.0044, 1e-15);
+  EXPECT_EQ(recipe.classes[risk.kind].name, "intolerable");
+  EXPECT_TRUE(risk.is_certain);
+  object.vulnerability = {0.5};  // one hit in 5,000 years: 0.5 0.5 / 5000 = 5e-5
+  const ObjectRisk rare = risk_of(recipe, object, std::vector<Rate>{{2e-4, 1e-4, 6e-4}});
+  EXPECT_NEAR(rare.individual.value, 4.999875e-5, 1e-10);
+  EXPECT_EQ(recipe.classes[rare.kind].name, "below");
+  EXPECT_FALSE(rare.is_certain);                   // 1.5e-4 at the upper bound
+  const double exact = -std::log1p(-1e-4) / 0.25;  // "one in 10,000 or more" is intolerable
+  EXPECT_EQ(
+      recipe.classes[risk_of(recipe, object, std::vector<Rate>{{exact * (1 + 1e-9), 0, 1}}).kind]
+          .name,
+      "intolerable");
+  HazardSources sources{{runs_of(0.1, 0, 10)}, recipe, true};
+  for (const MapLayer& layer : hazard_layers(sources, {row(0, 1)}))
+    EXPECT_TRUE(layer.name.find("class") == std::string::npos && layer.name != "intensity");
+}
+
+TEST(Hazard, RiskNeedsToKnowWhoIsThere) {
+  const Recipe recipe = parse_recipe(shipped("new_zealand_christchurch"), "z.toml");
+  const auto said = [&](const std::string& text, const Recipe& by) {
+    try {
+      const Site site = parse_site(text, "s.toml");
+      check_exposure(site, by, hazard_classes(site));
+    } catch (const InputError& error) {
+      return std::string(error.what()) + " | " + error.hint();
+    }
+    return std::string("accepted");
+  };
+  const auto expect = [&](const std::string& text, const std::string& words) {
+    const std::string answer = said(text, recipe);
+    EXPECT_NE(answer.find(words), std::string::npos) << answer;
+    EXPECT_EQ(said(text, swiss()), "accepted");
+  };
+  const std::string rate = "[hazard.class.V1]\nfrequency_per_a = 1\n",
+                    house = "[object.house]\nposition_m = [0, 0]\nradius_m = 5\n",
+                    rest = "presence = 0.7\npersons_per_day = 4\n";
+  expect(rate, "is of risk, and the site has no object");
+  expect(house + rest + "vulnerability = [0.5]\n", "add [hazard.class.NAME]");
+  expect(rate + house, "s.toml:3: object.house");
+  expect(rate + house, "the object has no presence");
+  expect(rate + house + rest, "no vulnerability | give the probability of death");
+  expect(rate + house + "presence = 1\nvulnerability = [0.5]\n", "no persons_per_day");
+  expect(rate + house + rest + "vulnerability = [0.5, 1]\n",
+         "vulnerability has 2 numbers, recipe New Zealand");
+  EXPECT_EQ(said(rate + house + rest + "vulnerability = [0.5]\n", recipe), "accepted");
+  Recipe by_energy = recipe;
+  by_energy.breaks = {30};
+  by_energy.intensities = {"weak", "strong"};
+  EXPECT_NE(said(rate + house + rest + "vulnerability = [0.5, 0.1]\n", by_energy)
+                .find("falls with the intensity"),
+            std::string::npos);
 }
 
 TEST(Hazard, EnergiesOfReturnPeriodsAreCumulatedFromAbove) {
@@ -300,13 +419,13 @@ TEST(Hazard, OfSingleRocksAsksOneQuestionOnce) {
   EXPECT_EQ(refusal_of_runs(asked, members_of(3, 28, 0.01, true)), "accepted");
   const std::string both = refusal_of_runs(given, members_of(3, 28, 0.01, true));
   EXPECT_NE(both.find("run_0.h5: hazard.class.V1"), std::string::npos) << both;
-  EXPECT_NE(both.find("by_weights = true"), std::string::npos) << both;
+  EXPECT_NE(both.find("without one of its own"), std::string::npos) << both;
   HazardClass failure = given;
   failure.kind = FrequencyKind::of_failure;
   EXPECT_NE(refusal_of_runs(failure, members_of(3, 28, 0.01, true)), "accepted");
   // once a year at each point is a frequency, and pieces of blocks have weights that are none
   EXPECT_EQ(refusal_of_runs(asked, members_of(3, 28, 1, true)), "accepted");
-  EXPECT_NE(refusal_of_runs(asked, members_of(3, 28, 0.5, false)).find("are no frequencies"),
+  EXPECT_NE(refusal_of_runs(asked, members_of(3, 28, 0.5, false)).find("blocks are none"),
             std::string::npos);
   std::vector<RunMember> mixed = members_of(3, 28, 1, false);
   mixed[1].info.independent = false;
@@ -322,11 +441,10 @@ TEST(Hazard, OfSingleRocksAsksOneQuestionOnce) {
                             "[rockfall.cliff]\nfrequency_per_m2_a = 0.01\n")
                 .find("[rockfall.cliff] has frequency_per_m2_a"),
             std::string::npos);
-  EXPECT_EQ(refusal_of_site("[hazard.class.V1]\nby_weights = true\n" + release), "accepted");
-  EXPECT_EQ(refusal_of_site("[hazard.class.V1]\nby_weights = true\n"
-                            "[hazard.class.V5]\nfrequency_per_a = 0.28\n" +
-                            release),
-            "accepted");  // which runs are of which release the runs say
+  EXPECT_EQ(refusal_of_site("[hazard.class.V1]\n" + release), "accepted");
+  EXPECT_EQ(
+      refusal_of_site("[hazard.class.V1]\n[hazard.class.V5]\nfrequency_per_a = 0.28\n" + release),
+      "accepted");  // which runs are of which release the runs say
 }
 
 // A case that counts three times as much does so in the share of runs and in that of rocks.
@@ -412,10 +530,9 @@ TEST(Hazard, FrequenciesOfCountedEventsAreJeffreys) {
 
 TEST(Hazard, SectionsOfTheSiteSayEachClassOnce) {
   const Site site = parse_site(
-      "[hazard]\nsplit = \"b\"\n[hazard.class.V1]\nevents = 3\nobserved_a = 150\n"
+      "[hazard.class.V1]\nevents = 3\nobserved_a = 150\n"
       "[hazard.class.V5]\nfrequency_per_a = 0.004\n",
       "s.toml");
-  EXPECT_EQ(site.hazard.split, "b");
   const std::vector<HazardClass> classes = hazard_classes(site);
   ASSERT_EQ(classes.size(), 2u);
   EXPECT_EQ(classes[0].name, "V1");
@@ -423,26 +540,21 @@ TEST(Hazard, SectionsOfTheSiteSayEachClassOnce) {
   EXPECT_EQ(classes[1].frequency.low, 0.004);
   Site changed = site;
   override_value(changed, "hazard.class.V5.frequency_per_a", "0.01");
-  override_value(changed, "hazard.split", "a");
   EXPECT_EQ(changed.hazard_classes[1].frequency_per_a, 0.01);
-  EXPECT_EQ(changed.hazard.split, "a");
   EXPECT_TRUE(hazard_classes(parse_site("[hazard]\n", "s.toml")).empty());
 
   EXPECT_NE(refusal_of_site("[hazard.class.V1]\n").find("has no frequency"), std::string::npos);
   EXPECT_NE(refusal_of_site("[hazard.class.V1]\nevents = 3\n").find("events without observed_a"),
             std::string::npos);
-  EXPECT_NE(refusal_of_site("[hazard.class.V1]\nfrequency_per_a = 1\nby_weights = true\n")
+  EXPECT_NE(refusal_of_site("[hazard.class.V1]\nfrequency_per_a = 1\nevents = 2\nobserved_a = 9\n")
                 .find("more than one frequency"),
             std::string::npos);
-  EXPECT_NE(refusal_of_site("[hazard.class.V1]\nfailure_probability = 0.1\nin_years = 50\n")
-                .find("mode of [hazard] is diffuse"),
+  const std::string once = "failure_probability = 0.1\nin_years = 50\n";
+  EXPECT_EQ(refusal_of_site("[hazard.class.A]\n" + once), "accepted");
+  EXPECT_NE(refusal_of_site("[hazard.class.A]\n" + once + "[hazard.class.B]\nfrequency_per_a = 1\n")
+                .find("hazard.class.B: fails again, class A does not"),
             std::string::npos);
-  EXPECT_NE(
-      refusal_of_site("[hazard]\nmode = \"localized\"\n[hazard.class.V1]\nfrequency_per_a = 1\n")
-          .find("mode of [hazard] is localized"),
-      std::string::npos);
-  EXPECT_NE(refusal_of_site("[hazard]\nmode = \"localized\"\n"
-                            "[hazard.class.A]\nfailure_probability = 0.1\nin_years = 50\n"
+  EXPECT_NE(refusal_of_site("[hazard.class.A]\n" + once +
                             "[hazard.class.B]\nfailure_probability = 0.1\nin_years = 30\n")
                 .find("within 30 years"),
             std::string::npos);
@@ -473,6 +585,11 @@ TEST(Recipe, HolesAreRefusedWithTheirPlace) {
   expect("intensity = \"strong\"", "intensity = \"mighty\"", "none of intensity.names");
   expect("split = \"a\"", "split = \"c\"", "expected a or b");
   expect("mark = \"v\"", "makr = \"v\"", "is not a key of a recipe");
+  expect("mark = \"v\"", "mark = \"x\"", "v: read in the document");
+  expect("\"matrix\", \"class\"]", "\"class\"]", "matrix: has no source");
+  expect("of = [\"mass\"]", "of = [\"risk\"]", "which is no part of this recipe");
+  expect("of = [\"mass\"]", "of = [\"class\"]", "has \"class\" twice");
+  expect("page = ", "pgae = ", "known: of, document, page, mark");
   expect("label = \"low hazard\"", "", "class.yellow.label");
 }
 
@@ -501,6 +618,57 @@ TEST(Recipe, UpsideDownIsRefused) {
   expect("\"weak\", \"medium\"", "\"weak\", \"weak\"", "has \"weak\" twice");
   expect("return_period_a = [30, 100, 300]", "return_period_a = [-30, 100, 300]",
          "does not ascend from above 0");
+}
+
+// Numbers of another unit, names that lead nowhere, colours that say nothing.
+TEST(Recipe, WhatMakesNoSenseIsRefused) {
+  const auto expect_of = [](const std::string& name, const std::string& from, const std::string& to,
+                            const std::string& words) {
+    const std::string said = refusal_of_recipe(replaced(shipped(name), from, to));
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_NE(said.find("r.toml:"), std::string::npos) << said;
+  };
+  const auto swiss = [&](const std::string& from, const std::string& to, const std::string& words) {
+    expect_of("switzerland_ti", from, to, words);
+  };
+  swiss("breaks = [30, 300]", "breaks = [30000, 300000]", "energies are in kJ: 30000 J are 30");
+  swiss("\"total_energy_kj\"\nbreaks = [30, 300]", "\"block_volume_m3\"\nbreaks = [1000, 2000]",
+        "volumes are in m3");
+  swiss("return_period_a = [30, 100, 300]", "return_period_a = [0, 100, 300]", "from above 0");
+  swiss("return_period_a = [30, 100, 300]", "return_period_a = [0.001, 0.01, 0.1]",
+        "write probability");
+  swiss("return_period_a = [30, 100, 300]", "return_period_a = [99.6, 100.4, 300]",
+        "has 100 years twice");
+  swiss("return_period_a = [30, 100, 300]",
+        "return_period_a = [30, 100, 300]\nprobability = [0.1]\nin_years = 50",
+        "return_period_a: means nothing beside probability");
+  swiss("rgb = [255, 93, 81]", "rgb = [255, 93]", "has 2 entries, expected 3");
+  swiss("rgb = [255, 93, 81]", "rgb = [1.0, 0.4, 0.3]", "expected whole numbers");
+  swiss("rgb = [255, 93, 81]", "rgb = [300, 0, 0]", "has 300");
+  swiss("rgb = [255, 93, 81]", "rgb = \"red\"", "is not a list");
+  swiss("rgb = [255, 93, 81]", "rgb = [85, 142, 213]", "looks like class blue");
+  swiss("hatched = true", "", "looks like class residual");
+  swiss("beyond = \"residual\"", "", "class.residual: is given to nothing");
+  const auto bc = [&](const std::string& from, const std::string& to, const std::string& words) {
+    expect_of("british_columbia", from, to, words);
+  };
+  bc("[0.1, 0.005]", "[10, 0.5]", "10 % is 0.1");
+  bc("[0.1, 0.005]", "[0.005, 0.1]", "what comes most often first");
+  bc("in_years = 50", "in_years = 0", "is not above 0");
+  bc("in_years = 50\n", "", "in_years: is missing");
+  bc("in_years = 50", "in_years = 50\nsplit = \"b\"", "no cell of the matrix has two");
+  const auto nz = [&](const std::string& from, const std::string& to, const std::string& words) {
+    expect_of("new_zealand_christchurch", from, to, words);
+  };
+  nz("[1e-4]", "[10000]", "one in 10,000 a year is 1e-4");
+  nz("[1e-4]", "[1e-4, 1e-5]", "does not ascend");
+  nz("[1e-4]", "[1e-5, 1e-4]", "has 2 entries, expected 3");
+  nz("[\"below\", \"intolerable\"]", "[\"intolerable\", \"below\"]", "whose code is not lower");
+  nz("[\"below\", \"intolerable\"]", "[\"none\", \"intolerable\"]", "each object has a class");
+  nz("edition", "return_period_a = [30]\nedition", "means nothing beside risk");
+  nz("[risk]",
+     "[intensity]\nby = \"translational_energy_kj\"\nbreaks = [30]\nnames = [\"a\", \"b\"]\n[risk]",
+     "energy with spin alone");
 }
 
 TEST(Recipe, SmoothingTakesTheMostOfTheNeighbours) {

@@ -1,0 +1,36 @@
+// libcore/post/hazard/risk.hpp: public
+// What a year may bring those who are at an object.
+// in:    rates of hits of the object by intensity; who is there, of [object.*]; a recipe of risk
+// out:   the annual probability of death of the one most at risk with its interval, expected deaths
+//        a year, the class
+//
+// Hits come at random (Poisson). One that finds the person there kills with the vulnerability of
+// its intensity: the annual risk is 1 - exp(-presence (sum over intensities of rate times
+// vulnerability)). Vulnerabilities do not fall with the intensity, so the bounds of the risk are
+// those at the bounds of the rates above each break.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "post/hazard/frequency.hpp"
+#include "post/hazard/recipe.hpp"
+
+namespace talus {
+
+/// Throws InputError where a recipe of risk finds no object, no frequency, or an object without
+/// presence, vulnerability and persons_per_day that fit the recipe; other recipes need none.
+void check_exposure(const Site& site, const Recipe& recipe,
+                    const std::vector<HazardClass>& classes);
+
+struct ObjectRisk {
+  Rate individual;          ///< a year, of the one most at risk [-]
+  double deaths = 0;        ///< expected of all who are there [1/a]
+  std::size_t kind = 0;     ///< index into Recipe::classes
+  bool is_certain = false;  ///< the same class at both bounds
+};
+/// `rates`: of HazardRates::above() the breaks of the recipe.                 (n_breaks + 1)
+[[nodiscard]] ObjectRisk risk_of(const Recipe& recipe, const ObjectSettings& object,
+                                 std::span<const Rate> rates);
+
+}  // namespace talus
