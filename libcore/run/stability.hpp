@@ -1,0 +1,58 @@
+// libcore/run/stability.hpp: public
+// Factor of safety by strength reduction: what tan(friction), cohesion and tensile strength of all
+// joints and grounds may be divided by before blocks move.
+// in:    a Scene at rest; water in its joints stays as it is at the start
+// out:   the factor of the blocks that go first, of the mass, and of each block
+// refs:  Matsui and San 1992 (strength reduction); docs/tools/talus-stability.md
+//
+// A block moves when it is farther from where it was in the last quarter of a short run than in the
+// quarter before, and accelerates by more than 5e-4 of gravity: what settles onto its
+// contacts slows down.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace talus {
+
+struct StabilitySettings {
+  double duration = 1;             ///< of a run [s]
+  double resolution = 0.01;        ///< of a factor, between a run that holds and one that moves [-]
+  double least = 0.05, most = 20;  ///< factors tried [-]
+};
+
+/// A run with the strength divided by `factor`.
+struct ReducedRun {
+  double factor = 1;
+  std::vector<bool> moves;  ///< (n_blocks)
+  double moved_share = 0;   ///< of the mass [-]
+};
+
+/// A factor between those of two runs.
+struct SafetyFactor {
+  double holds = 0;  ///< largest factor tried that what it is asked of outlasts; 0: none
+  double moves = 0;  ///< smallest that it does not; infinity: none
+  [[nodiscard]] double value() const { return (holds + moves) / 2; }
+};
+
+struct Stability {
+  SafetyFactor first;  ///< of the blocks that go first: more than 1 % of the mass
+  SafetyFactor mass;   ///< of half of the mass
+  std::vector<double>
+      of_block;  ///< smallest factor tried at which it moves; infinity: none (n_blocks)
+  std::vector<ReducedRun> runs;  ///< by factor
+};
+
+/// The scene with its strength divided by `factor`, blocks at rest and water that does not drain.
+[[nodiscard]] Scene with_strength_reduced(Scene scene, double factor);
+
+[[nodiscard]] ReducedRun run_reduced(const Scene& scene, double factor,
+                                     const StabilitySettings& settings);
+
+/// `said`, where given, hears of each run.
+[[nodiscard]] Stability find_stability(const Scene& scene, const StabilitySettings& settings,
+                                       const std::function<void(const ReducedRun&)>& said = {});
+
+}  // namespace talus

@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "base/units.hpp"
+#include "run/stability.hpp"
+#include "scene/joint_water.hpp"
+#include "verify/cases/cases.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+constexpr double water_weight = 1e4;  // [N/m3]
+
+Scene box_on_slope(double dip_deg, double friction_deg, double cohesion = 0) {
+  GroundClass ground = ground_of(friction_deg);
+  ground.cohesion = cohesion;
+  const SlopeFrame frame = slope_frame(dip_deg, 20);
+  return scene_of(plane_trn(frame, 1, 30), ground,
+                  {body_of(box_in(frame, Vec3::Zero(), Vec3(-3, -2, 0), Vec3(3, 2, 1.5)))}, {});
+}
+
+// tan(phi) / tan(dip), and with cohesion c A / (W sin(dip)) on top.
+TEST(Stability, ABlockOnAPlaneHasItsFactor) {
+  for (const double friction : {25.0, 40.0}) {
+    const double dip = 33 * degree, weight = 2500 * 10 * 24 * 1.5;
+    for (const double cohesion : {0.0, 8e3}) {
+      const Stability found = find_stability(box_on_slope(33, friction, cohesion), {});
+      const double exact =
+          std::tan(friction * degree) / std::tan(dip) + cohesion * 24 / (weight * std::sin(dip));
+      EXPECT_NEAR(found.mass.value() / exact, 1, 0.01) << friction << " " << cohesion;
+      EXPECT_LE(found.mass.moves - found.mass.holds, 0.01);
+      EXPECT_EQ(found.first.moves, found.mass.moves);
+      EXPECT_EQ(found.of_block[0], found.mass.moves);
+    }
+  }
+}
+
+// The head of a level of water below the mass takes its uplift off the normal force.
+TEST(Stability, WaterLowersIt) {
+  const double dip = 33 * degree, weight = 2500 * 10 * 24 * 1.5;
+  for (const double depth : {1.0, 0.5}) {
+    Scene scene = box_on_slope(33, 40);
+    scene.ground.trn.elevation = plane_trn(slope_frame(33, 20), 1, 30).elevation;
+    JointWater water;
+    water.unit_weight = water_weight;
+    water.surface = scene.ground.trn.elevation;
+    for (double& z : water.surface) z += depth;
+    add_joint_water(water, scene);
+    scene.drained_at = 1e-6;  // not while the factor is looked for
+    const double uplift = water_weight * depth * 24;
+    const double exact =
+        (weight * std::cos(dip) - uplift) * std::tan(40 * degree) / (weight * std::sin(dip));
+    EXPECT_NEAR(find_stability(scene, {}).mass.value() / exact, 1, 0.01) << depth;
+  }
+}
+
+TEST(Stability, HardlyDependsOnDurationAndStep) {
+  Scene scene = box_on_slope(33, 40, 4e3);
+  const double value = find_stability(scene, {}).mass.value();
+  StabilitySettings longer;
+  longer.duration = 2;
+  EXPECT_NEAR(find_stability(scene, longer).mass.value(), value, 0.01);
+  scene.settings.dt /= 2;
+  EXPECT_NEAR(find_stability(scene, {}).mass.value(), value, 0.01);
+}
+
+// Two blocks apart on one slope, one with less friction on its own part of it: it goes first, the
+// other one, the larger, is the mass.
+TEST(Stability, SaysWhichBlocksGoFirst) {
+  const SlopeFrame frame = slope_frame(30, 0);
+  Scene scene = scene_of(plane_trn(frame, 1, 30), ground_of(40),
+                         {body_of(box_in(frame, Vec3(0, -10, 0), Vec3(-1, -1, 0), Vec3(1, 1, 1))),
+                          body_of(box_in(frame, Vec3(0, 10, 0), Vec3(-3, -2, 0), Vec3(3, 2, 1.5)))},
+                         {});
+  scene.ground.classes.push_back(ground_of(30));
+  const Trn& trn = scene.ground.trn;
+  for (int row = 0; row + 1 < trn.n_rows; ++row)
+    for (int col = 0; col + 1 < trn.n_cols; ++col)
+      scene.ground.cell_class.push_back(node_point(trn, row, col).y() < 0 ? 1 : 0);
+  const Stability found = find_stability(scene, {});
+  EXPECT_NEAR(found.first.value(), 1, 0.01);
+  EXPECT_NEAR(found.mass.value(), std::tan(40 * degree) / std::tan(30 * degree), 0.02);
+  EXPECT_LT(found.of_block[0], found.of_block[1]);
+}
+
+// What falls into a gap and stops there does not move; what has no strength in its way has no
+// factor.
+TEST(Stability, WhatSettlesDoesNotMove) {
+  const Scene gap = scene_of(plane_trn(slope_frame(0, 0), 1, 10), ground_of(30),
+                             {body_of(box(Vec3(-1, -1, 0.02), Vec3(1, 1, 1.02)))}, {});
+  const Stability found = find_stability(gap, {});
+  EXPECT_EQ(found.mass.holds, 16);
+  EXPECT_TRUE(std::isinf(found.mass.moves));
+  const Stability smooth = find_stability(box_on_slope(30, 0), {});
+  EXPECT_EQ(smooth.mass.holds, 0);
+}
+
+}  // namespace
