@@ -15,8 +15,12 @@ struct ObservedPoint {
   Vec2 place = Vec2::Zero();  ///< local x, y [m]
   /// Of a boulder its volume [m3], of a scar its height above the ground [m]; NaN: not known.
   double size = std::numeric_limits<double>::quiet_NaN();
+  /// Of a boulder, where it started, local x, y [m]; NaN: not known. In an event of all or none.
+  Vec2 start = Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
   std::string date;  ///< as the layer has it, of dates YYYY-MM-DD; empty: not known
 };
+
+[[nodiscard]] inline bool has_start(const ObservedPoint& point) { return point.start.allFinite(); }
 
 /// What one event, or one test, left.
 struct ObservedEvent {

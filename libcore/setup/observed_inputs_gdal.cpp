@@ -55,24 +55,57 @@ struct Reader {
                           "it where that is not known");
   }
 
+  // Map coordinates; NaN: not known.
+  static Vec3 start_of(const std::string& x, const std::string& y, const Where& where) {
+    Vec3 start = Vec3::Constant(not_given);
+    if ((x.empty() && y.empty()) || (parse_double(x, start.x()) && parse_double(y, start.y())))
+      return start;
+    throw InputError(where, "starts at x \"" + x + "\" and y \"" + y + "\", expected two numbers",
+                     "start_x_m and start_y_m are map coordinates in the system of the site file");
+  }
+
+  // Distances from own starts and from a common one do not go together.
+  void add_starts(const std::vector<Vec3>& starts, std::vector<ObservedPoint>& boulders) const {
+    const auto n = std::count_if(starts.begin(), starts.end(),
+                                 [](const Vec3& start) { return !std::isnan(start.x()); });
+    if (n == 0) return;
+    if (n < std::ssize(starts))
+      throw InputError({resolved(site, section.boulders_file)},
+                       "has starts of " + std::to_string(n) + " of " +
+                           counted(std::ssize(starts), "boulder") + ", expected all or none",
+                       "give start_x_m and start_y_m of all, or make two sections of them");
+    const std::vector<Vec3> local =
+        local_points(log, site, trn, starts, "observed." + section.name, "boulders_file");
+    for (std::size_t i = 0; i < local.size(); ++i) boulders[i].start = local[i].head<2>();
+  }
+
   [[nodiscard]] std::vector<ObservedPoint> points(const SitePlace& place,
                                                   const SizeField& field) const {
     std::vector<ObservedPoint> out;
     if (place.file.empty()) return out;
     const VectorShapes found = local_shapes(log, site, trn, place);
+    std::vector<Vec3> starts;
     std::size_t n_off = 0;
     for (std::size_t i = 0; i < found.shapes.size(); ++i) {
       const Where where{resolved(site, place.file), 0,
                         "layer " + found.layer + ", point " + std::to_string(i + 1)};
       const std::vector<std::string>& words = found.attributes[i];
-      ObservedPoint point{found.shapes[i][0].head<2>(), size_of(words[0], field, where), words[1]};
+      ObservedPoint point;
+      point.place = found.shapes[i][0].head<2>();
+      point.size = size_of(words[0], field, where);
+      point.date = words[1];
       std::replace(point.date.begin(), point.date.end(), '/', '-');  // GDAL's 2019/05/03
-      if (is_on_terrain(point.place))
+      const Vec3 start =
+          words.size() > 2 ? start_of(words[2], words[3], where) : Vec3::Constant(not_given);
+      if (is_on_terrain(point.place)) {
         out.push_back(point);
-      else
+        starts.push_back(start);
+      } else {
         ++n_off;
+      }
     }
     if (out.empty()) refuse_outside(place, found.shapes[0][0].head<2>());
+    add_starts(starts, out);
     if (n_off > 0)
       log.warn(place.layer + " of [" + place.section + "]: " + std::to_string(n_off) + " of " +
                counted(static_cast<std::int64_t>(found.shapes.size()), "point") +

@@ -129,7 +129,7 @@ SitePlace boulders_of(const ObservedSettings& observed) {
           observed.boulders_file,
           {},
           {},
-          {"volume_m3", "date"}};
+          {"volume_m3", "date", "start_x_m", "start_y_m"}};
 }
 
 SitePlace scars_of(const ObservedSettings& observed) {

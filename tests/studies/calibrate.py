@@ -9,8 +9,7 @@ both by a Sobol design, the same of both sites, so a run of one has the values o
 `make calibrate` lets talus-batch compute the runs and judges them.
 
 Left out are: each boulder; each half of the boulders, every other one; and each site, whose set is judged
-by the boulders of the other. Run-outs are measured from the mean start, at Tschamut too, where starts are
-known and lie metres apart: that costs sharpness, of observed and computed run-outs alike.
+by the boulders of the other.
 """
 import argparse
 import csv
@@ -19,6 +18,8 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+
+import numpy as np
 
 import field
 
@@ -40,7 +41,7 @@ def observed(folder, **layers):
     for name, points in layers.items():
         with open(folder / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
             rows = csv.writer(file)
-            rows.writerow(["x", "y"])
+            rows.writerow(["x", "y", "start_x_m", "start_y_m"])
             rows.writerows(points)
     return "".join(f'[observed.{name}]\nboulders_file = "{name}.csv"\n' for name in layers)
 
@@ -51,7 +52,7 @@ def calibrated(slope, tools, n_runs):
     folder = tools.folder / name
     folder.mkdir(exist_ok=True)
     text = slope.text.replace("[output]\npassages = false\n", "[output]\n") + uncertainty(GROUNDS[name])
-    ends = slope.starts + slope.seen
+    ends = np.hstack([slope.starts + slope.seen, slope.starts])
     (folder / "site.toml").write_text(text + observed(folder, all=ends))
     (folder / "halves.toml").write_text(text + observed(folder, first=ends[::2], second=ends[1::2]))
     (folder / "Makefile").write_text(f"include {pipelines}/site.mk\n")

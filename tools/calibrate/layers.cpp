@@ -78,9 +78,10 @@ Json boulders_json(const BoulderScore& score, const Vec3& origin) {
         {{"p", observed_levels[k]}, {"needed", points_needed(observed_levels[k])}});
   }
   for (const double runout : score.computed_percentiles) curve.push_back(number_or_null(runout));
-  const Vec2 start = score.axis.origin + origin.head<2>();
+  const Vec2 start = score.axis.start + origin.head<2>();
   return {{"n", score.rows.size()},
           {"start_m", {start.x(), start.y()}},
+          {"own_starts", score.axis.has_starts},
           {"along", {score.axis.along.x(), score.axis.along.y()}},
           {"mean_runout_m", json_of(score.mean)},
           {"runout_m", levels},

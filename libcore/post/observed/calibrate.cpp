@@ -74,12 +74,12 @@ Implausibility by_boulders(const ObservedEvent& observed, const Computed& comput
   const RunoutAxis axis = runout_axis(computed, observed.boulders);
   std::vector<WeightedValue> seen_runout, seen_across, runout, across;
   for (const ObservedPoint& boulder : observed.boulders) {
-    const AlongAcross at = along_and_across(axis, boulder.place);
+    const AlongAcross at = along_and_across(axis, boulder);
     seen_runout.push_back({at.runout, 1});
     seen_across.push_back({at.across, 1});
   }
   for (const ComputedBlock& block : of_run(computed.blocks, run)) {
-    const AlongAcross at = along_and_across(axis, block.end);
+    const AlongAcross at = along_and_across(axis, block);
     runout.push_back({at.runout, block.weight});
     across.push_back({at.across, block.weight});
   }
@@ -210,9 +210,9 @@ struct Calibrator {
     if (layer.kind == ObservedKind::boulders) {
       const RunoutAxis axis = runout_axis(computed, event.boulders);
       const double runout =
-          along_and_across(axis, event.boulders[static_cast<std::size_t>(point)].place).runout;
+          along_and_across(axis, event.boulders[static_cast<std::size_t>(point)]).runout;
       for (const ComputedBlock& block : computed.blocks)
-        count(block.run, block.weight, along_and_across(axis, block.end).runout <= runout);
+        count(block.run, block.weight, along_and_across(axis, block).runout <= runout);
     } else {
       const auto s = static_cast<std::size_t>(point);
       for (const ScarPass& pass : computed.passes[static_cast<std::size_t>(layer.event)][s])

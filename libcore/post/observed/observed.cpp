@@ -205,16 +205,29 @@ void finish(Computed& computed) {
 // --- along and across ----------------------------------------------------------------------------
 
 RunoutAxis runout_axis(const Computed& computed, std::span<const ObservedPoint> boulders) {
-  RunoutAxis axis{computed.start, Vec2::UnitX()};
+  RunoutAxis axis{!boulders.empty() && has_start(boulders.front()), computed.start, Vec2::UnitX()};
   Vec2 along = Vec2::Zero();
-  for (const ObservedPoint& boulder : boulders) along += boulder.place - axis.origin;
+  for (const ObservedPoint& boulder : boulders)
+    along += boulder.place - (axis.has_starts ? boulder.start : axis.start);
   if (along.norm() > 0) axis.along = along.normalized();
   return axis;
 }
 
-AlongAcross along_and_across(const RunoutAxis& axis, const Vec2& place) {
-  const Vec2 way = place - axis.origin;
-  return {way.norm(), way.dot(Vec2(-axis.along.y(), axis.along.x()))};
+namespace {
+
+AlongAcross displaced(const RunoutAxis& axis, const Vec2& own_start, const Vec2& end) {
+  const Vec2 displacement = end - (axis.has_starts ? own_start : axis.start);
+  return {displacement.norm(), displacement.dot(Vec2(-axis.along.y(), axis.along.x()))};
+}
+
+}  // namespace
+
+AlongAcross along_and_across(const RunoutAxis& axis, const ObservedPoint& boulder) {
+  return displaced(axis, boulder.start, boulder.place);
+}
+
+AlongAcross along_and_across(const RunoutAxis& axis, const ComputedBlock& block) {
+  return displaced(axis, block.start, block.end);
 }
 
 double area_between(std::span<const WeightedValue> a, std::span<const WeightedValue> b) {
@@ -304,7 +317,7 @@ BoulderScore score_boulders(const ObservedEvent& event, const Computed& computed
   Values runout, across, seen_runout, seen_across;
   std::vector<AlongAcross> at;  // of the computed blocks
   for (const ComputedBlock& block : computed.blocks) {
-    at.push_back(along_and_across(score.axis, block.end));
+    at.push_back(along_and_across(score.axis, block));
     runout.push_back({at.back().runout, block.weight});
     across.push_back({at.back().across, block.weight});
   }
@@ -312,7 +325,7 @@ BoulderScore score_boulders(const ObservedEvent& event, const Computed& computed
   double sum = 0;
   for (const ObservedPoint& point : event.boulders) {
     BoulderRow row{
-        event.name, point,     along_and_across(score.axis, point.place),
+        event.name, point,     along_and_across(score.axis, point),
         {},         nan_value, is_reached(computed, cell_at(computed.grid, point.place))};
     row.percentile = share_of(basis, computed.blocks, [&](const ComputedBlock& block) {
       return at[static_cast<std::size_t>(&block - computed.blocks.data())].runout <= row.at.runout;

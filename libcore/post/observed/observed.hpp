@@ -3,9 +3,9 @@
 // in:    observed boulders, scars and outlines; the runs one by one
 // out:   run-out along and across the path, shares inside, heights, each with an interval
 //
-// Starts of observed boulders are not known. So observed and computed places are both measured from
-// the mean start of the computed blocks: the run-out is the distance from there in plan, `across`
-// the distance from the line in the mean direction of the observed boulders, positive to its left.
+// The run-out is the displacement in plan from the start, `across` its part across the mean
+// direction of the observed boulders, positive to the left. Where starts of the boulders are known,
+// each has its own, and each computed block too; else all start at the blocks' mean start.
 #pragma once
 
 #include <array>
@@ -63,8 +63,9 @@ void finish(Computed& computed);
 // --- along and across ----------------------------------------------------------------------------
 
 struct RunoutAxis {
-  Vec2 origin = Vec2::Zero();  ///< mean start of the computed blocks, local [m]
-  Vec2 along = Vec2::UnitX();  ///< mean direction of the observed boulders from there
+  bool has_starts = false;     ///< each block and boulder has its own
+  Vec2 start = Vec2::Zero();   ///< mean of the computed blocks, else of all [m]
+  Vec2 along = Vec2::UnitX();  ///< mean direction of the observed boulders
 };
 [[nodiscard]] RunoutAxis runout_axis(const Computed& computed,
                                      std::span<const ObservedPoint> boulders);
@@ -72,7 +73,8 @@ struct RunoutAxis {
 struct AlongAcross {
   double runout = 0, across = 0;  ///< [m]
 };
-[[nodiscard]] AlongAcross along_and_across(const RunoutAxis& axis, const Vec2& place);
+[[nodiscard]] AlongAcross along_and_across(const RunoutAxis& axis, const ObservedPoint& boulder);
+[[nodiscard]] AlongAcross along_and_across(const RunoutAxis& axis, const ComputedBlock& block);
 
 /// Area between the distribution functions of two samples (first Wasserstein distance), in the unit
 /// of the values. Both ascend by value.

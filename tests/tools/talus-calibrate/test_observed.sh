@@ -80,7 +80,19 @@ bad scars.geojson "$(point 250031,350017 '')" 'has no height_m'
 bad boulders.geojson "$(point 250031,350017 '"volume_m3":"large"')" 'volume_m3 is large, expected 1e-06 to 1e+06'
 bad boulders.geojson "$(point 350016,250043 '')" 'observed_boulders of [observed.may] lies outside of the known terrain'
 bad outline.geojson "$(area '[260040,350013],[260060,350013],[260060,350030],[260040,350013]')" 'observed_outlines of [observed.may] lies outside'
+bad boulders.geojson "$(point 250043.5,350016 '"start_x_m":250011,"start_y_m":350010'),$(point 250044.5,350017 '')" \
+  'has starts of 1 of 2 boulders, expected all or none'
+bad boulders.geojson "$(point 250043.5,350016 '"start_x_m":250011')" 'starts at x "250011" and y "", expected two numbers'
 cp boulders.geojson kept
+collection boulders.geojson 31254 "$(point 250043.5,350011 '"start_x_m":250011,"start_y_m":350010')"
+expect 0 calibrate site.toml
+python3 - <<'PY' || fail 'with its own start a displacement is another one'
+import json, math
+b = json.load(open('calibrate.json'))['events'][0]['boulders']
+assert b['own_starts'] and abs(b['points'][0]['runout_m'] - math.hypot(32.5, 1)) < 1e-6
+# all boxes of a run slide as far, from their own starts
+assert abs(b['mean_runout_m']['computed'] - 36 * math.cos(math.pi / 6) * 1.055) < 1e-3 and b['across_m']['computed'] < 1
+PY
 collection boulders.geojson 31254 "$(point 250043.5,350016 ''),$(point 250143.5,350016 '')"
 expect 0 calibrate site.toml
 says '1 of 2 points lie outside of the known terrain and are left out'

@@ -13,7 +13,8 @@ using namespace talus;  // NOLINT: a test
 ObservedEvent boulders_at(const std::vector<Vec2>& places) {
   ObservedEvent event;
   event.name = "spring";
-  for (const Vec2& place : places) event.boulders.push_back({place, std::nan(""), ""});
+  for (const Vec2& place : places)
+    event.boulders.push_back({place, std::nan(""), Vec2::Constant(std::nan("")), ""});
   return event;
 }
 
@@ -73,7 +74,9 @@ TEST(Calibrate, ImplausibilityOfAScatterIsThatOfANormalDistribution) {
 // A scar below one of three blocks has the rank 2 of 4.
 TEST(Calibrate, ImplausibilityOfScarsIsThatOfEvenRanks) {
   ObservedEvent event;
-  event.scars = {{Vec2(5, 0), 1.5, ""}, {Vec2(9, 0), 1, ""}};
+  event.scars.resize(2);
+  event.scars[0].size = 1.5;
+  event.scars[1].size = 1;
   Computed computed = one_run({{10, 0}, {10, 0}, {10, 0}});
   computed.passes = {{{{0, 0, 1, 1}, {0, 1, 1, 2}, {0, 2, 1, 3}}, {}}};
   const double deviation = std::sqrt(15 / (12 * 16.0));

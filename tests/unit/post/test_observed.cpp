@@ -11,6 +11,8 @@ namespace {
 using namespace talus;           // NOLINT: a test
 using namespace talus::testing;  // NOLINT: a test
 
+const Vec2 unknown = Vec2::Constant(std::nan(""));  // start
+
 // One block a run, which goes from (0, 0) as far as `runout` says along x, `across` to its left.
 Computed computed_of(const std::vector<double>& runout, const std::vector<double>& across = {}) {
   Computed computed;
@@ -35,7 +37,7 @@ std::vector<double> upto(int n) {
 ObservedEvent boulders_at(const std::vector<Vec2>& places) {
   ObservedEvent event;
   event.name = "event";
-  for (const Vec2& place : places) event.boulders.push_back({place, std::nan(""), ""});
+  for (const Vec2& place : places) event.boulders.push_back({place, std::nan(""), unknown, ""});
   return event;
 }
 
@@ -53,11 +55,34 @@ TEST(Observed, AlongIsTheMeanDirectionOfTheBouldersFromTheMeanStart) {
                      {0, 1, 1, Vec2(4, 8), Vec2(9, 9), 1, true, false}};
   finish(computed);
   const RunoutAxis axis = runout_axis(computed, boulders_at({{1, 12}, {1, 22}}).boulders);
-  EXPECT_EQ(axis.origin, Vec2(1, 2));
+  EXPECT_EQ(axis.start, Vec2(1, 2));
   EXPECT_EQ(axis.along, Vec2(0, 1));
-  const AlongAcross at = along_and_across(axis, Vec2(-2, 6));  // 4 ahead, 3 to the left
+  const AlongAcross at =
+      along_and_across(axis, ObservedPoint{Vec2(-2, 6), 1, unknown, ""});  // 4 ahead, 3 to the left
   EXPECT_DOUBLE_EQ(at.runout, 5);
   EXPECT_DOUBLE_EQ(at.across, 3);
+}
+
+// As tests/studies/field.py measures: what scatters is the displacement, not the start.
+TEST(Observed, WhereStartsAreKnownEachDisplacementHasItsOwn) {
+  Computed computed;
+  computed.blocks = {{0, 0, 1, Vec2(0, 0), Vec2(10, 1), 1, true, false},
+                     {1, 0, 1, Vec2(0, 40), Vec2(10, 39), 1, true, false}};
+  finish(computed);
+  ObservedEvent event;
+  event.name = "event";
+  event.boulders = {{Vec2(8, 2), std::nan(""), Vec2(0, 0), ""},
+                    {Vec2(8, 38), std::nan(""), Vec2(0, 40), ""}};
+  const ShareBasis basis = share_basis(clusters_of_runs({1, 1}, 1));
+  const BoulderScore own = *score_of(event, 0, computed, basis).boulders;
+  EXPECT_TRUE(own.axis.has_starts);
+  EXPECT_EQ(own.axis.along, Vec2(1, 0));
+  EXPECT_NEAR(own.mean.observed, std::hypot(8, 2), 1e-12);
+  EXPECT_NEAR(own.mean.computed, std::hypot(10, 1), 1e-12);
+  EXPECT_NEAR(own.across.observed, 2, 1e-12);
+  EXPECT_NEAR(own.across.computed, 1, 1e-12);
+  for (ObservedPoint& boulder : event.boulders) boulder.start = unknown;
+  EXPECT_NEAR(score_of(event, 0, computed, basis).boulders->across.computed, 19, 1e-12);
 }
 
 TEST(Observed, AreaBetweenDistributionsIsTheMeanShift) {
@@ -244,7 +269,7 @@ TEST(Observed, OfAMassWhatMovedCountsAndOfRocksAll) {
 TEST(Observed, ScarsStandAmongTheHeightsThatPassedTheirCell) {
   ObservedEvent event;
   event.name = "event";
-  event.scars = {{Vec2(7, 47), 1.5, "2019"}, {Vec2(48, 2), 1, ""}};
+  event.scars = {{Vec2(7, 47), 1.5, unknown, "2019"}, {Vec2(48, 2), 1, unknown, ""}};
   Computed computed;
   std::vector<Passage> passages = {passage(0, 1, 1), passage(1, 1, 2), passage(2, 1, 3),
                                    passage(1, 2, 1)};
