@@ -190,9 +190,10 @@ def landxml(path, surfaces, unit='<Metric linearUnit="meter"/>', system=''):
 # --- the user ------------------------------------------------------------------------------------
 
 def call(command):
-    """(exit code, what it printed, what it said): a command line, or its words."""
+    """(exit code, what it printed, what it said), long lines not parted: a command line, or its words."""
     done = subprocess.run(command, shell=isinstance(command, str), capture_output=True, check=False)
-    return done.returncode, done.stdout.decode('utf-8', 'replace'), done.stderr.decode('utf-8', 'replace')
+    printed, said = (text.decode('utf-8', 'replace').replace(';\n  ', '; ') for text in (done.stdout, done.stderr))
+    return done.returncode, printed, said
 
 
 def hint_in(said):

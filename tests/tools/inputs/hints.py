@@ -859,14 +859,14 @@ def joints_in_utf16(_plane):
     return SOURCE.format(keys=AREA + FLAT).replace('[joints.rear]', measured)
 
 
-@site_row(DDA, 'the raster is in', 'gdalwarp', ', 0 % of the mass moved')
+@site_row(DDA, 'the raster is in', 'gdalwarp', '; 0 % of the mass moved')
 def classes_in_other_system(_plane):
     raster('here.tif', np.full((40, 40), 1), (X0, Y0 + SIDE), 5, kind=gdal.GDT_Byte)
     gdal.Warp('classes.tif', 'here.tif', dstSRS='EPSG:25833', dstNodata=255)
     return grounds('classes.tif')
 
 
-@site_row(DDA, 'rotated', 'gdalwarp', ', 0 % of the mass moved')
+@site_row(DDA, 'rotated', 'gdalwarp', '; 0 % of the mass moved')
 def classes_rotated(_plane):
     raster('classes.tif', np.full((10, 10), 0), None, None, place=(X0, 3, 1, Y0 + 60, 1, -3), kind=gdal.GDT_Byte)
     return grounds('classes.tif')
