@@ -228,8 +228,10 @@ void set_runout(const ReportData& data, Json& out) {
   if (!data.rocks_alone) return;
   const std::size_t n_cells = n_release_cells(data);
   if (n_cells >= least_clusters) out["many_cells"] = n_cells;
+  const Json all = value_at(data.runout, {"spread_over_events"});
+  if (!all.is_object()) return;
   Json spread = Json::object();
-  for (const auto& [name, values] : value_at(data.runout, {"spread_over_events"}).items())
+  for (const auto& [name, values] : all.items())
     if (name != "H_cm_over_L_cm") spread[name] = values;
   out["runout"]["spread_over_events"] = spread;
 }

@@ -52,6 +52,7 @@ inline void add_body(Scene& scene, const std::vector<Vec3>& vertices, const Vec3
     radius = std::max(radius, vertex.norm());
   }
   shapes.vertex_begin.push_back(static_cast<int>(shapes.vertices.size()));
+  shapes.part_begin.push_back(static_cast<int>(shapes.face_begin.size()) - 1);
   shapes.radius.push_back(radius);
 }
 
@@ -60,6 +61,15 @@ inline void add_box(Scene& scene, const Vec3& box) {
   for (const double x : {-0.5, 0.5})
     for (const double y : {-0.5, 0.5})
       for (const double z : {-0.5, 0.5}) vertices.push_back(Vec3(x, y, z).cwiseProduct(box));
+  talus::Shapes& shapes = scene.blocks.shapes;
+  for (const double side : {-0.5, 0.5})
+    for (int axis = 0; axis < 3; ++axis) {
+      talus::ShapeFace& face = shapes.faces.emplace_back();
+      face.normal = 2 * side * Vec3::Unit(axis);
+      face.offset = box[axis] / 2;
+    }
+  shapes.face_begin.push_back(static_cast<int>(shapes.faces.size()));
+  shapes.wall_begin.push_back(0);
   add_body(scene, vertices, box);
 }
 
