@@ -34,10 +34,12 @@ expect() {
   fi
 }
 
+# whole_lines FILE: with lines that were parted behind a semicolon as they were
+whole_lines() { sed -e ':next' -e '/;$/{N' -e 's/;\n  /; /' -e 't next' -e '}' "$1"; }
 # says TEXT: standard error of the last command holds TEXT
-says() { grep -qF -- "$1" err || { sed 's/^/  err: /' err >&2; fail "standard error does not say: $1"; }; }
+says() { whole_lines err | grep -qF -- "$1" || { sed 's/^/  err: /' err >&2; fail "standard error does not say: $1"; }; }
 # prints TEXT: standard output of the last command holds TEXT
-prints() { grep -qF -- "$1" out || { sed 's/^/  out: /' out >&2; fail "standard output does not say: $1"; }; }
+prints() { whole_lines out | grep -qF -- "$1" || { sed 's/^/  out: /' out >&2; fail "standard output does not say: $1"; }; }
 # nothing_left PATTERN...: no such file, and no temporary one
 nothing_left() {
   for name in "$@"; do [ ! -e "$name" ] || fail "$name was left behind"; done

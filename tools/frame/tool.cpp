@@ -96,6 +96,7 @@ struct Tool::Impl {
   std::vector<std::pair<std::string, Json>> reports;  // staged paths
   std::vector<std::function<void()>> at_end;
   std::string summary;
+  bool is_listing = false;  // the summary: its lines stay as they are
   bool registered = false;  // to be recorded; record.id is 0 while it has no row
   bool is_late = false;     // the registry was locked once: it is not waited for again
   ProgressLine progress_line;
@@ -292,7 +293,7 @@ struct Tool::Impl {
       add_doubts(doubts, result);
       std::cout << json_text(result, 2) << '\n';
     } else if (!options.json && !options.quiet && !summary.empty()) {
-      std::cout << labelled(printable(summary)) << '\n';
+      std::cout << (is_listing ? printable(summary) : labelled(printable(summary))) << '\n';
     }
     if (!std::cout.flush()) throw InputError({"standard output"}, "cannot be written");
   }
@@ -530,6 +531,11 @@ void Tool::check(const std::string& name, double value, double limit, bool pass,
                  const std::string& hint) {
   impl_->record.checks.push_back({name, value, limit, pass});
   impl_->check_hints.push_back(hint);
+}
+
+void Tool::listing(Json result, const std::string& lines) {
+  this->result(std::move(result), lines);
+  impl_->is_listing = true;
 }
 
 void Tool::result(Json result, const std::string& summary) {

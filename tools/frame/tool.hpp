@@ -137,6 +137,8 @@ class Tool : public InputLog {
              const std::string& hint = "");
   /// What --json prints; without --json `summary` goes to stdout, not with -q.
   void result(Json result, const std::string& summary);
+  /// The same of lines that stay as they are, however long.
+  void listing(Json result, const std::string& lines);
   [[nodiscard]] bool overwrite() const;
   [[nodiscard]] double memory_mb() const;      ///< as given; 0: what is free
   [[nodiscard]] bool is_recorded() const;      ///< not with --no-db

@@ -209,12 +209,12 @@ void show_ancestry(talus::Tool& tool, const std::string& db, const std::string& 
                             "name the registry that stands beside the output with --db");
   ancestry.text.pop_back();
   if (!prov) {
-    tool.result(std::move(node), ancestry.text);
+    tool.listing(std::move(node), ancestry.text);
     return;
   }
   Json document = prov_of(db, ancestry.shown);
   const std::string text = talus::json_text(document, 2);
-  tool.result(std::move(document), text);
+  tool.listing(std::move(document), text);
 }
 
 // --- summary and merging
@@ -273,7 +273,7 @@ void show_summary(talus::Tool& tool, const std::string& db) {
     tools.push_back(as_json(name, outcomes));
   }
   lines += "\n" + summary_line("all", all);
-  tool.result({{"tools", tools}, {"all", as_json("all", all)}}, lines);
+  tool.listing({{"tools", tools}, {"all", as_json("all", all)}}, lines);
 }
 
 void merge(talus::Tool& tool, const std::vector<std::string>& files, const std::string& out) {
@@ -285,13 +285,13 @@ void merge(talus::Tool& tool, const std::vector<std::string>& files, const std::
   const talus::RegistryMerge done = talus::merge_runs(out, files);
   for (const std::string& why : done.left_out)
     tool.warn(why + "; its runs are left out, whatever they wrote is in place");
-  tool.result({{"n_added", done.n_added},
-               {"n_completed", done.n_completed},
-               {"n_known", done.n_known},
-               {"left_out", done.left_out}},
-              out + ": " + talus::counted(done.n_added, "run") + " added, " +
-                  std::to_string(done.n_completed) + " completed, " + std::to_string(done.n_known) +
-                  " were there");
+  tool.listing({{"n_added", done.n_added},
+                {"n_completed", done.n_completed},
+                {"n_known", done.n_known},
+                {"left_out", done.left_out}},
+               out + ": " + talus::counted(done.n_added, "run") + " added, " +
+                   std::to_string(done.n_completed) + " completed, " +
+                   std::to_string(done.n_known) + " were there");
 }
 
 // What was taken over is removed.
@@ -303,8 +303,8 @@ void adopt_late(talus::Tool& tool, const std::string& db, const std::vector<std:
     n += talus::adopt_runs(db, file);
     if (talus::is_late_registry(file)) std::filesystem::remove(file);
   }
-  tool.result({{"n_adopted", n}},
-              std::to_string(n) + (n == 1 ? " run" : " runs") + " entered in " + db);
+  tool.listing({{"n_adopted", n}},
+               std::to_string(n) + (n == 1 ? " run" : " runs") + " entered in " + db);
 }
 
 }  // namespace
@@ -361,10 +361,10 @@ int main(int argc, char** argv) {
         runs.push_back(run_as_json(run));
         lines += "\n" + one_line(run);
       }
-      tool.result(report, lines);
+      tool.listing(report, lines);
     } else if (show->parsed()) {
       const talus::RunRecord run = talus::read_run(db, id);
-      tool.result(details_as_json(run), as_text(run));
+      tool.listing(details_as_json(run), as_text(run));
     } else {
       if (db_option->count() == 0) db = registry_near(file, db);
       show_ancestry(tool, db, file, prov);
