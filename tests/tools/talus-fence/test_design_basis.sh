@@ -10,15 +10,15 @@ prints 'not judged: first touches of a standing fence are no design values'
 # with the runs without it the line is judged by their crossings
 expect 0 talus-fence touches/site.toml touches/run_*.h5 --without open/run_*.h5 --trn touches/slope.tif -o o.gpkg --json o.json
 prints 'design by 80 crossings of its line in 80 runs without the fence, largest energy'
-cp out o.out
+whole_lines out >o.out
 # too few arrivals: not judged, with what the largest of them ask for
 expect 0 talus-fence open/site.toml open/run_1.h5 open/run_2.h5 --trn open/slope.tif -o f.gpkg --json f.json
 prints 'not judged: too few arrivals, 2 of the 59 that the code needs; by the largest of them it needs'
-cp out f.out
+whole_lines out >f.out
 # ten times the rock: no class is large enough
 expect 0 talus-fence open/site.toml open/run_*.h5 --trn open/slope.tif -o n.gpkg --json n.json --design-block-m3 10
 prints '(no ETAG class: above the largest, 4,500 kJ; a net is no option)'
-cp out n.out
+whole_lines out >n.out
 ogrinfo -q -al o.gpkg fences >o.layer
 ogrinfo -q -al f.gpkg fences >f.layer
 ogrinfo -q -al n.gpkg fences >n.layer
