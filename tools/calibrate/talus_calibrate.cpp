@@ -2,9 +2,7 @@
 // Runs beside what was observed, and the values that this does not contradict. Page:
 // docs/tools/talus-calibrate.md
 #include <algorithm>
-#include <limits>
 
-#include "post/reduce.hpp"
 #include "setup/observed_inputs_gdal.hpp"
 #include "setup/section_state_gdal.hpp"
 #include "tools/calibrate/layers.hpp"
@@ -49,20 +47,9 @@ Computed read_all(RunInputs& runs, const std::vector<ObservedEvent>& events,
     add_blocks(computed, run, index, RunInputs::rest_speed_m_s);
     if (member.part.empty()) add_passages(computed, events, run, index, run.passages);
   });
-  for (const PartInput& part : runs.parts()) {
-    std::vector<std::vector<Passage>> rows(part.member.size());
-    for_each_strip(part.file, 1, {}, std::numeric_limits<std::uint64_t>::max(),
-                   [&](const auto& by_run) {
-                     for (std::size_t r = 0; r < by_run.size(); ++r)
-                       rows[r].insert(rows[r].end(), by_run[r].begin(), by_run[r].end());
-                   });
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      if (part.member[r] < 0) continue;
-      RunFile run = run_of(part.file.part, static_cast<int>(r));
-      run.run_weight = runs.members[part.member[r]].run_weight;
-      add_passages(computed, events, run, part.member[r], rows[r]);
-    }
-  }
+  runs.read_parts([&](const RunFile& run, const std::vector<Passage>& passages, int index) {
+    add_passages(computed, events, run, index, passages);
+  });
   computed.is_event_a_run =
       std::any_of(runs.members.begin(), runs.members.end(),
                   [](const RunMember& run) { return !run.info.independent || run.draws_for_all; });

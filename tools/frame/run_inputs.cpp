@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -9,6 +10,7 @@
 #include "base/text.hpp"
 #include "io/trn_digest.hpp"
 #include "post/deposit.hpp"
+#include "post/reduce.hpp"
 #include "site/site.hpp"
 #include "tools/frame/tool.hpp"
 
@@ -315,6 +317,24 @@ std::string RunInputs::run_set() const {
   std::vector<std::string> ids;
   for (std::size_t i = 0; i < n_first_; ++i) ids.push_back(members[i].info.run_id);
   return run_set_id(std::move(ids));
+}
+
+void RunInputs::read_parts(
+    const std::function<void(const RunFile&, const std::vector<Passage>&, int)>& take) const {
+  for (const PartInput& part : parts_) {
+    std::vector<std::vector<Passage>> rows(part.member.size());
+    for_each_strip(part.file, 1, {}, std::numeric_limits<std::uint64_t>::max(),
+                   [&](const auto& by_run) {
+                     for (std::size_t r = 0; r < by_run.size(); ++r)
+                       rows[r].insert(rows[r].end(), by_run[r].begin(), by_run[r].end());
+                   });
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (part.member[r] < 0) continue;
+      RunFile run = run_of(part.file.part, static_cast<int>(r));
+      run.run_weight = members[part.member[r]].run_weight;
+      take(run, rows[r], part.member[r]);
+    }
+  }
 }
 
 std::string RunInputs::remark() const {

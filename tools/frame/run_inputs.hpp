@@ -85,6 +85,11 @@ class RunInputs {
   /// Those among the files read so far.
   [[nodiscard]] const std::vector<PartInput>& parts() const { return parts_; }
 
+  /// Hands over the runs of parts with all their passages, and their places in `members`; those of
+  /// one part are held together.
+  void read_parts(
+      const std::function<void(const RunFile&, const std::vector<Passage>&, int)>& take) const;
+
   /// Digest of the ids of the runs named by RUN.h5..., for the tag RUN_SET (run_set_id).
   [[nodiscard]] std::string run_set() const;
 

@@ -2,13 +2,11 @@
 // How surely runs say that blocks reach the places of a site. Page: docs/tools/talus-places.md
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "post/fence/fence_runs.hpp"
 #include "post/places.hpp"
-#include "post/reduce.hpp"
 #include "setup/section_state_gdal.hpp"
 #include "setup/site_places_gdal.hpp"
 #include "setup/site_shapes_gdal.hpp"
@@ -84,20 +82,9 @@ Reached read_all(Tool& tool, const Site& site, RunInputs& inputs) {
         static_cast<void>(find_line(run, line, where_of(inputs.members[index]), site.file));
     if (inputs.members[index].part.empty()) add_run(all, run, run.passages, index);
   });
-  for (const PartInput& part : inputs.parts()) {
-    std::vector<std::vector<Passage>> rows(part.member.size());
-    for_each_strip(part.file, 1, {}, std::numeric_limits<std::uint64_t>::max(),
-                   [&](const auto& by_run) {
-                     for (std::size_t r = 0; r < by_run.size(); ++r)
-                       rows[r].insert(rows[r].end(), by_run[r].begin(), by_run[r].end());
-                   });
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      if (part.member[r] < 0) continue;
-      RunFile run = run_of(part.file.part, static_cast<int>(r));
-      run.run_weight = inputs.members[part.member[r]].run_weight;
-      add_run(all, run, rows[r], part.member[r]);
-    }
-  }
+  inputs.read_parts([&](const RunFile& run, const std::vector<Passage>& passages, int index) {
+    add_run(all, run, passages, index);
+  });
   for (std::vector<BlockWeight>& blocks : all.blocks)
     std::stable_sort(blocks.begin(), blocks.end(),
                      [](const BlockWeight& a, const BlockWeight& b) { return a.run < b.run; });
