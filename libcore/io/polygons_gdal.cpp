@@ -106,15 +106,14 @@ std::vector<std::vector<std::vector<Vec2>>> buffer_of(const std::vector<Vec2>& l
 }
 
 std::vector<Ring> rim_of(const std::vector<Ring>& footprints, double gap) {
-  OGRMultiPolygon pieces;
-  for (const Ring& footprint : footprints) {
-    const OGRPolygon piece = polygon_of(footprint);
-    pieces.addGeometry(&piece);
-  }
   constexpr double seen = 0.02;
   constexpr int quadrant = 4;  // pieces of a round corner, which the way back takes off again
   using Shape = std::unique_ptr<OGRGeometry>;
-  const Shape wide(pieces.Buffer(gap / 2, quadrant));
+  OGRMultiPolygon pieces;  // each on its own: together their time would grow with its square
+  for (const Ring& footprint : footprints)
+    if (const Shape piece(polygon_of(footprint).Buffer(gap / 2, quadrant)); piece)
+      pieces.addGeometry(piece.get());
+  const Shape wide(pieces.UnionCascaded());
   const Shape narrow(wide ? wide->Buffer(-gap / 2, quadrant) : nullptr);
   const Shape rim(narrow ? narrow->SimplifyPreserveTopology(seen) : nullptr);
   std::vector<Ring> rings;
