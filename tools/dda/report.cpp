@@ -86,7 +86,7 @@ std::string fence_summary(const Json& report, const RunFile& file) {
   const Json& panels = report["fences"];
   if (panels.empty()) return "";
   const std::string hits =
-      ", " + counted(report["n_fence_hits"].get<std::int64_t>(), "hit") + " on fences, ";
+      "; " + counted(report["n_fence_hits"].get<std::int64_t>(), "hit") + " on fences, ";
   std::set<int> rocks;  // that broke a panel
   std::int64_t n_broken = 0;
   for (const PanelRow& row : file.panels)
@@ -123,10 +123,10 @@ std::string tree_summary(const Json& report, const RunFile& file) {
   if (!report.contains("trees")) return "";
   const Json& trees = report["trees"];
   if (file.info.independent)
-    return ", " + counted(trees["n_stems_hit"].get<std::int64_t>(), "hit") + " on the " +
+    return "; " + counted(trees["n_stems_hit"].get<std::int64_t>(), "hit") + " on the " +
            counted(trees["n_stems"].get<std::int64_t>(), "stem") + " that each rock met, " +
            trees["n_stems_broken"].dump() + " of them broken";
-  return ", " + trees["n_stems_hit"].dump() + " of " +
+  return "; " + trees["n_stems_hit"].dump() + " of " +
          counted(trees["n_stems"].get<std::int64_t>(), "stem") + " hit, " +
          trees["n_stems_broken"].dump() + " broken";
 }
