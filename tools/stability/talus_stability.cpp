@@ -114,7 +114,8 @@ std::string summary_of(const Stability& found, double rise) {
   const std::vector<int> first = first_blocks(found);
   std::string words = "factor of safety of the mass " + text_of(found.mass) +
                       ", of the blocks that go first " + text_of(found.first);
-  if (rise != 0) words = "water " + text(rise, 3) + " m higher: " + words;
+  if (rise != 0)
+    words = "water " + text(std::abs(rise), 3) + (rise > 0 ? " m higher: " : " m lower: ") + words;
   if (first.empty()) return words;
   constexpr std::size_t most_named = 8;
   std::vector<std::string> names;
