@@ -32,6 +32,6 @@ needs talus-dda crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
 needs talus-stability cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
 needs talus-verify cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
 needs talus-blocks cairo crypto gdal glib-2.0 gmp gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
-needs talus-check cairo crypto gdal glib-2.0 gmp gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-check cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
 needs talus-source crypto gdal gmp hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
 exit 0
