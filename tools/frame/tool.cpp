@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -53,6 +54,18 @@ void occupy_standard_files() {
   for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number)
     if (fcntl(number, F_GETFD) == -1 && open(stand_ins[number], O_RDWR) < 0)
       static_cast<void>(open("/dev/null", O_RDWR));
+}
+
+// A process that runs out of its stack ends by a signal, without a message. Threads get as much as
+// the limit says. The sample sites need less than 320 kB.
+void check_stack() {
+  constexpr rlim_t kilobyte = 1024, needed = 1024 * kilobyte;
+  rlimit stack{};
+  if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= needed) return;
+  throw InputError({"stack of this process"},
+                   "limited to " + std::to_string(stack.rlim_cur / kilobyte) +
+                       " kB, expected at least " + std::to_string(needed / kilobyte) + " kB",
+                   "ulimit -s 8192, in a new shell if this one refuses");
 }
 
 // Thrown while words are parsed, before it is asked whether all that is needed is there.
@@ -635,6 +648,7 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
       if (!std::cout.flush()) throw InputError({"standard output"}, "cannot be written");
       return static_cast<int>(done);
     }
+    check_stack();
     impl.begin(argc, argv);
     return impl.work_and_commit(body);
   });
