@@ -1,3 +1,4 @@
+// Parses text files of columns: delimiter, line of names, remarks, quoted words.
 #include "base/column_text.hpp"
 
 #include <algorithm>
@@ -117,7 +118,7 @@ std::string_view take_line(std::string_view& rest) {
   return line;
 }
 
-// The last line before the first values, and where it stands.
+// The last line before the first values, with its line number.
 struct LineBefore {
   std::string_view words;
   int line = 0;
@@ -155,7 +156,7 @@ void drop_last_delimiters(ColumnText& columns) {
     if (ends_empty(row) && (!has_names || row.size() == columns.names.size() + 1)) row.pop_back();
 }
 
-// What stands before a remark behind it: a sign between blanks begins one, PT#5 is a word.
+// The line without a remark at its end: # between blanks begins a remark, PT#5 is a word.
 std::string_view before_remark(std::string_view line) {
   const std::size_t at = line.find(" #");
   const bool is_remark = at != line.npos && (at + 2 == line.size() || line[at + 2] == ' ');

@@ -1,3 +1,4 @@
+// Parses comma-separated values: quotes, remarks, short rows.
 #include "base/csv.hpp"
 
 #include <algorithm>

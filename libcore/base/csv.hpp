@@ -9,7 +9,7 @@
 namespace talus {
 
 struct CsvTable {
-  std::string file;  ///< what messages name
+  std::string file;  ///< path as messages name it
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> rows;  ///< as long as `names`
   std::vector<int> line;                       ///< of each row, from 1
@@ -20,10 +20,9 @@ struct CsvTable {
   [[nodiscard]] double number(std::size_t row, const std::string& name) const;
 };
 
-/// Values with a comma stand in double quotes; a double quote in them is doubled; blanks around a
-/// value are none of it. Throws InputError
-/// with the line for a row of another length, an open quote, or a table without a row; with
-/// `fill_short_rows` a row that ends early has empty values.
+/// Values with a comma are in double quotes; a double quote in them is doubled; blanks around a
+/// value are not part of it. Throws InputError with the line for a row of another length, an open
+/// quote, or a table without a row; with `fill_short_rows` a row that ends early has empty values.
 [[nodiscard]] CsvTable parse_csv(const std::string& text, const std::string& file,
                                  bool fill_short_rows = false);
 /// Throws InputError when the file cannot be read, or as parse_csv().

@@ -1,3 +1,4 @@
+// Sentences, groups and totals of doubts about an input.
 #include "base/doubt.hpp"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ std::string subject_of(const DoubtGroup& group) {
   return counted(group.n, first.what) + ", the first" + place_of(first);
 }
 
-// Of one kind, state and way out, each with a place.
+// The same kind, state and hint; both have a place.
 bool is_alike(const Doubt& a, const Doubt& b) {
   return !a.what.empty() && a.what == b.what && a.state == b.state && a.hint == b.hint &&
          !a.at.empty() && !b.at.empty();

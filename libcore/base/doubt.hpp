@@ -1,6 +1,6 @@
 // libcore/base/doubt.hpp: public
-// What a user should look at in an input: where, what was found, what was expected, a way out. A
-// finding that ends the work (InputError) is the same data.
+// A finding about an input that the user should check: where, what was found, what was expected,
+// and a remedy. A finding that ends the work (InputError) is the same data.
 #pragma once
 
 #include <cstdint>
@@ -31,12 +31,12 @@ struct Doubt {
   std::string what{};      ///< its kind, "spot height", or the key of a site file that changes it
   std::string found{};     ///< a sentence, without place; empty: the height at the place says it
   std::string expected{};  ///< "1040 to 1060 m"
-  std::string hint{};      ///< a way out
+  std::string hint{};      ///< remedy
   DoubtState state = DoubtState::in_doubt;
-  std::int64_t n = 1;              ///< of its kind that it stands for
+  std::int64_t n = 1;              ///< number of findings of this kind that it represents
   std::int64_t feature = -1;       ///< of its source
   std::vector<Vec3> at{};          ///< on the map [m]: a point, two corners, or nowhere; z: NaN too
-  double value = none;             ///< what `found` says, as a number
+  double value = none;             ///< `found` as a number
   double low = none, high = none;  ///< the same of `expected`
 };
 
@@ -55,17 +55,17 @@ struct DoubtGroup {
   std::int64_t n;
 };
 
-/// In the order of their first ones. Doubts without a kind stay by themselves.
+/// In the order of their first doubts. A doubt without a kind is a group of its own.
 [[nodiscard]] std::vector<DoubtGroup> groups_of(const std::vector<Doubt>& doubts);
 /// "map.gpkg: 3 spot heights, the first at 0 m, x 650000, y 5200100: ..."
 [[nodiscard]] std::string sentence_on(const DoubtGroup& group);
 
-/// Takes what would be refused.
+/// Marks doubts that would refuse the input as accepted.
 void accept(std::vector<Doubt>& doubts);
 /// Subjects of up to 20 that were accepted, and how many more there are. Empty: none.
 [[nodiscard]] std::string accepted_places(const std::vector<Doubt>& doubts);
 
-/// What ends the work, as one: a sentence a group, the hint of the first. None: in doubt.
+/// All doubts that end the work as one: a sentence a group, the hint of the first. None: in doubt.
 [[nodiscard]] Doubt refusal_of(const std::vector<Doubt>& doubts);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// Texts of errors and failed assertions.
 #include "base/error.hpp"
 
 #include <cstdio>

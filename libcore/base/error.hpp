@@ -1,7 +1,7 @@
 // libcore/base/error.hpp: public
-// How the library says that something went wrong: unusable input throws InputError with place,
-// finding, expectation and a way out; a run that must end throws NumericsError; a broken promise
-// between our own functions asserts. The library never prints and never exits.
+// How the library reports errors: unusable input throws InputError with place, finding, expectation
+// and remedy; a run that must end throws NumericsError; a broken promise between our own functions
+// asserts. The library never prints and never exits.
 #pragma once
 
 #include <stdexcept>
@@ -14,7 +14,7 @@ namespace talus {
 /// The input cannot be used (exit code 1).
 class InputError : public std::runtime_error {
  public:
-  /// `finding` says what was found and what was expected; `hint` says a way out (may be empty).
+  /// `finding` says what was found and what was expected; `hint` is a remedy (may be empty).
   InputError(const Where& where, const std::string& finding, std::string hint = {});
   explicit InputError(Doubt doubt);
   [[nodiscard]] const Doubt& doubt() const { return doubt_; }
@@ -30,7 +30,7 @@ class NumericsError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The user interrupted; what could be kept has been kept (exit code 130).
+/// The user interrupted; results that could be kept have been kept (exit code 130).
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("interrupted") {}

@@ -1,3 +1,4 @@
+// Lists of the fields of a result, from which layers, tables and titles are made.
 #include "base/fields.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Takes apart file names of a command line: virtual files of GDAL, sidecar files, one spelling.
 #include "base/file_paths.hpp"
 
 #include <cctype>

@@ -16,11 +16,11 @@ namespace talus {
 /// NETCDF:"scene.nc":z. Any other path as it is.
 [[nodiscard]] std::string file_behind(const std::string& path);
 
-/// The file that a name of a source stands for: "map.gpkg" of "map.gpkg|layername=a", "map.zip" of
+/// The file of a source's name: "map.gpkg" of "map.gpkg|layername=a", "map.zip" of
 /// "/vsizip/map.zip/a.shp".
 [[nodiscard]] std::string file_of(const std::string& source);
 
-/// What follows the file in the name of a source, as it is written; empty: nothing.
+/// The rest of a source's name after the file, as it is written; may be empty.
 [[nodiscard]] std::string part_named(const std::string& source);
 
 /// Absolute and without links, as far as it exists; a virtual path as it is.
@@ -36,8 +36,8 @@ namespace talus {
 /// "." for a name alone.
 [[nodiscard]] std::filesystem::path folder_of(const std::filesystem::path& path);
 
-/// Files that a format keeps beside the named one, whether or not they are there: of a Shapefile
-/// its index, attributes, CRS and encoding; of others none.
+/// Files that a format keeps beside the named one, whether or not they exist: of a Shapefile its
+/// index, attributes, CRS and encoding; of other formats none.
 [[nodiscard]] std::vector<std::string> sidecars_of(const std::string& path);
 
 }  // namespace talus

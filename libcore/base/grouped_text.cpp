@@ -1,3 +1,4 @@
+// Numbers as text for readers: digits in groups of three, no power of ten where digits can be read.
 #include "base/grouped_text.hpp"
 
 #include <cmath>

@@ -12,7 +12,7 @@ inline constexpr int shown_digits = 3;
 /// text(value, digits) without a power of ten below 1e9 and with thousands apart ("12,400").
 [[nodiscard]] std::string grouped_text(double value, int digits = shown_digits);
 
-/// The same of what something has to hold: rounded up, for values of 0 and above.
+/// The same for a required capacity: rounded up, for values of 0 and above.
 [[nodiscard]] std::string needed_text(double value, int digits = shown_digits);
 
 }  // namespace talus

@@ -1,6 +1,6 @@
 // libcore/base/hash_random.hpp: public
-// Random numbers that hang on a few whole numbers alone (a seed, a cell, an index), not on what was
-// drawn before: a place draws the same whoever asks, in whatever order. The generator is
+// Random numbers that depend only on a few whole numbers (a seed, a cell, an index), not on earlier
+// draws: a place draws the same number in whatever order places are asked. The generator is
 // splitmix64 (Steele, Lea and Flood 2014), the distributions are written out as in base/random.hpp.
 #pragma once
 

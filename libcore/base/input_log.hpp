@@ -1,6 +1,6 @@
 // libcore/base/input_log.hpp: public
-// What those who read inputs tell: which files and layers they read, what a user should know, how
-// far they are. A tool records and prints it; a test collects it; this class itself hears nothing.
+// Reports of functions that read inputs: the files and layers read, findings for the user,
+// progress. A tool records and prints them; a test collects them; this base class ignores them.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 namespace talus {
 
 enum class Severity {
-  detail,  ///< for those who ask for more
+  detail,  ///< shown on request only
   info,
   record,  ///< kept with the results and not said
 };
@@ -37,17 +37,18 @@ class InputLog {
 
   /// A file was read whose bytes count for the run's id; `role`: the option or key that names it.
   virtual void read_also(const std::string& /*role*/, const std::string& /*path*/) {}
-  /// A file whose bytes do not count, since content_read() says what was read of it. To be called
-  /// before read_also() names it.
+  /// A file whose bytes do not count, since content_read() gives a digest of its content. To be
+  /// called before read_also() names it.
   virtual void read_by_content(const std::string& /*path*/) {}
-  /// Digest of what was taken from an input whose bytes do not say all: a folder, a virtual path of
-  /// GDAL, a file that is read with others beside it. Counts for the run's id as bytes do.
+  /// Digest of the content taken from an input whose bytes do not tell all: a folder, a virtual
+  /// path of GDAL, a file that is read together with further files. Counts for the run's id as
+  /// bytes do.
   virtual void content_read(const std::string& /*role*/, const std::string& /*digest*/) {}
   virtual void layer_read(const LayerRead& /*layer*/) {}
   /// What a user should look at, kept with the results and said, a sentence a kind.
   virtual void doubts(const std::vector<Doubt>& /*found*/) {}
   virtual void note(Severity /*severity*/, const std::string& /*words*/) {}
-  /// To hand to long work; what it returns may throw to end the work.
+  /// For long work; the returned function may throw to end the work.
   [[nodiscard]] virtual ProgressFunction progress() {
     return [](double) {};
   }

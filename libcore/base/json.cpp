@@ -1,3 +1,4 @@
+// Building, comparing and looking up JSON values; their text is in json_text_json.cpp.
 #include "base/json.hpp"
 
 #include <algorithm>

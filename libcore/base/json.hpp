@@ -1,6 +1,7 @@
 // libcore/base/json.hpp: public
-// A JSON value, as tools write their results and read those of others. Members of an object keep
-// their order. The library that reads and writes the text is compiled in json_text_json.cpp alone.
+// A JSON value, as tools write their results and read those of other programs. Members of an object
+// keep their order. The library that reads and writes the text is compiled in json_text_json.cpp
+// alone.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@
 
 namespace talus {
 
-/// A text is not JSON, or a value is not what was asked for.
+/// A text is not JSON, or a value has another type than requested.
 class JsonError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -57,7 +58,7 @@ class Json {
 
   /// Throws JsonError.
   [[nodiscard]] static Json parse(const std::string& text);
-  /// null for what is not JSON.
+  /// null for text that is not JSON.
   [[nodiscard]] static Json parse_or_null(const std::string& text);
   /// As one line, or with `indent` blanks a level; bytes that are not UTF-8 are replaced.
   [[nodiscard]] std::string dump(int indent = -1) const;
@@ -108,7 +109,7 @@ class Json {
   [[nodiscard]] const Json& at(JsonInteger auto index) const {
     return item_at(static_cast<std::size_t>(index));
   }
-  /// `otherwise` where there is no such member.
+  /// `otherwise` where the member is missing.
   template <class T>
   [[nodiscard]] T value(const std::string& key, const T& otherwise) const {
     if (!contains(key)) return otherwise;

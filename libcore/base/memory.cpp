@@ -1,3 +1,4 @@
+// Finds how much memory is free on the machine and in its control groups, and refuses larger work.
 #include "base/memory.hpp"
 
 #include <sys/resource.h>
@@ -36,7 +37,7 @@ double number_behind(const std::string& path, const std::string& key) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// The only number of a file; infinite for "max" and where there is no such file.
+// The only number of a file; infinite for "max" and where the file is missing.
 double lone_number(const std::string& path) {
   std::ifstream file(path);
   double number = 0;
@@ -62,7 +63,7 @@ double free_on_machine(const std::string& root) {
   return 1024 * (available + (std::isnan(swap) ? 0 : swap));
 }
 
-// What a control group leaves: pages of files that are not in use can be had back.
+// Memory that a control group leaves: pages of files that are not in use count as free.
 double left_in_group(const std::string& folder, const char* limit, const char* used) {
   const double most = lone_number(folder + limit);
   if (!(most < 1e18)) return unlimited;  // version 1 says nearly 2^63 for none

@@ -1,7 +1,7 @@
 // libcore/base/memory.hpp: public
-// Memory is asked for before it is taken: work that can need much says how much, and is refused
-// where the machine, or who runs the tool (--memory-mb), does not have so much. A refusal is worth
-// more than a process that the system ends without a word.
+// Memory is requested before it is used: work that may need much states how much, and is refused
+// where the machine or the limit of the user (--memory-mb) does not allow it. A refusal is better
+// than a process that the system kills without a message.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace talus {
 
-/// Sets the most that this process may take from now on [bytes], beyond what it has taken already.
-/// 0: what is free on this machine, as without a call.
+/// Sets how much more memory this process may take from now on [bytes]. 0: as much as is free on
+/// this machine, as without a call.
 void limit_memory(double bytes);
 
-/// Throws InputError when `bytes` more are not to be had: "`where`: `what` need about 4,000 MB of
-/// memory, expected at most 1,000 MB". `what` in the plural, `way_out` says how to need less. Less
-/// than a megabyte is not looked at, so that it may be asked often.
+/// Throws InputError when `bytes` more are not available: "`where`: `what` need about 4,000 MB of
+/// memory, expected at most 1,000 MB". `what` is a plural, `way_out` says how to need less. Less
+/// than a megabyte is not checked, so that frequent calls are cheap.
 void require_memory(double bytes, const Where& where, const std::string& what,
                     const std::string& way_out);
 

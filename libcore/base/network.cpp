@@ -1,3 +1,4 @@
+// Whether this process may contact other machines; off unless --allow-network sets it.
 #include "base/network.hpp"
 
 namespace talus {

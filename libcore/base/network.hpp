@@ -1,6 +1,6 @@
 // libcore/base/network.hpp: public
-// Whether this process may reach out to other machines, and read files that inputs do not name
-// openly. It may not, unless who runs it says so (--allow-network).
+// Whether this process may contact other machines, and read files that inputs do not name openly.
+// It may not, unless the user allows it (--allow-network).
 #pragma once
 
 namespace talus {

@@ -1,3 +1,4 @@
+// Percentiles of a list of values.
 #include "base/percentile.hpp"
 
 #include <algorithm>

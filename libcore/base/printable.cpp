@@ -1,3 +1,4 @@
+// Escapes control, direction and invalid characters of foreign text.
 #include "base/printable.hpp"
 
 #include <cstdint>

@@ -7,12 +7,12 @@
 
 namespace talus {
 
-/// Control characters but line feeds and tabs, characters that turn the direction of text or break
-/// lines unseen, and bytes that are no UTF-8 stand as \x1b or \u202e; all else as it is.
-/// printable(printable(t)) is printable(t).
+/// Control characters except line feeds and tabs, characters that turn the direction of text or
+/// break lines unseen, and bytes that are not UTF-8 are written as \x1b or \u202e; all else is
+/// kept. printable(printable(t)) is printable(t).
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// The same for JSON and TOML: what stands in their texts becomes \u001b, which means the same.
+/// The same for JSON and TOML: such a character in a text becomes \u001b, which means the same.
 [[nodiscard]] std::string printable_json(std::string_view json);
 
 }  // namespace talus

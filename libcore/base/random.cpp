@@ -1,3 +1,4 @@
+// Seeded random numbers and distributions that are the same on every machine and compiler.
 #include "base/random.hpp"
 
 #include <cmath>

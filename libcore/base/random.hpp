@@ -12,7 +12,7 @@ namespace talus {
 /// A stream of random numbers. Streams with different names or seeds are independent.
 class Random {
  public:
-  /// `stream` names what the numbers are for, so that adding one use does not shift another.
+  /// `stream` names the use of the numbers, so that adding one use does not shift another.
   explicit Random(std::uint64_t seed, std::string_view stream = {});
   double uniform();                         ///< in [0, 1), 53 bits
   double uniform(double low, double high);  ///< in [low, high)

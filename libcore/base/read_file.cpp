@@ -1,3 +1,4 @@
+// Reads whole files, with a limit of memory for endless ones.
 #include "base/read_file.hpp"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 namespace talus {
 
 /// The bytes of a file. Throws InputError with `hint` when it cannot be read to its end, and when
-/// it goes on for longer than there is memory.
+/// it is longer than the memory allows.
 [[nodiscard]] std::string read_file(const std::string& path, const std::string& hint = "");
 
 /// The first bytes of a file, at most n; none where it cannot be read.

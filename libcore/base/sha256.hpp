@@ -1,5 +1,5 @@
 // libcore/base/sha256.hpp: public
-// SHA-256 of bytes and files (FIPS 180-4), by libcrypto: what ties an output to its inputs.
+// SHA-256 of bytes and files (FIPS 180-4), by libcrypto: it ties an output to its inputs.
 #pragma once
 
 #include <cstddef>

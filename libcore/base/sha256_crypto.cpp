@@ -15,11 +15,11 @@ namespace talus {
 void Sha256::Free::operator()(EVP_MD_CTX* state) const { EVP_MD_CTX_free(state); }
 
 Sha256::Sha256() : state_(EVP_MD_CTX_new()) {
-  // A tool reads what it is given and no settings of the machine.
+  // A tool depends on its inputs and not on settings of the machine.
   static const int ready = OPENSSL_init_crypto(OPENSSL_INIT_NO_LOAD_CONFIG, nullptr);
   static_cast<void>(ready);
   if (!state_ || EVP_DigestInit_ex(state_.get(), EVP_sha256(), nullptr) != 1)
-    throw std::bad_alloc();  // there is no other reason
+    throw std::bad_alloc();  // the only reason to fail
 }
 
 void Sha256::add(const void* bytes, std::size_t n_bytes) {

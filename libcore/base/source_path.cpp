@@ -1,3 +1,4 @@
+// Takes apart the name of a source: file, archive member, layer, subset.
 #include "base/source_path.hpp"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ void take_part(const std::string& part, const std::string& name, SourcePath& pat
   else if (key.rfind("option:", 0) == 0)
     throw InputError({name}, "asks for the option " + part + " of a driver, which is not passed on",
                      "take it out of the name");
-  // A type of geometry says what is looked for anyway.
+  // A type of geometry is accepted and ignored: the caller knows which one it reads.
 }
 
 // The longest beginning of `path` that is a file with an archive's name.

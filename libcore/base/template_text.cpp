@@ -1,3 +1,4 @@
+// Fills marks {{name}} of a text template and keeps or leaves out its parts.
 #include "base/template_text.hpp"
 
 #include <set>

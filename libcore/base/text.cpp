@@ -1,3 +1,4 @@
+// Numbers as text, the nearest known name for a misspelt one, text in XML.
 #include "base/text.hpp"
 
 #include <algorithm>

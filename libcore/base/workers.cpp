@@ -1,3 +1,4 @@
+// Threads that share the chunks of a loop: taking chunks, waiting, sleeping and waking.
 #include "base/workers.hpp"
 
 #include <cstdlib>
@@ -6,7 +7,7 @@
 namespace talus {
 namespace {
 
-constexpr int n_waits_alone = 500;    // before a thread that waits gives way to others
+constexpr int n_waits_alone = 500;    // before a waiting thread yields
 constexpr int n_waits_awake = 2'000;  // of at most a microsecond each; then it sleeps
 
 constexpr std::uint64_t chunks_of(std::uint64_t left) { return left & 0xFFFF'FFFFu; }
@@ -40,7 +41,7 @@ void Workers::run(const Loop& loop) {
   const std::uint64_t number = (left_.load(std::memory_order_relaxed) >> 32) + 1;
   left_.store(number << 32 | loop.n_chunks);
   if (n_asleep_ > 0) {
-    { const std::lock_guard lock(mutex_); }  // who is about to sleep does so first
+    { const std::lock_guard lock(mutex_); }  // a thread about to sleep does so first
     wakes_.notify_all();
   }
   while (take_chunk()) {

@@ -1,7 +1,7 @@
 // libcore/base/workers.hpp: public
-// A few threads that live as long as a computation and share the loops of one thread. What they
-// compute may not depend on who does what: each chunk writes what is its own alone, and the caller
-// adds up in the order of the chunks. Then the bits are those of one thread.
+// A few threads that live as long as a computation and share the loops of one thread. Results may
+// not depend on which thread runs a chunk: each chunk writes only its own data, and the caller adds
+// up in the order of the chunks. Then the bits are those of one thread.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +26,8 @@ class Workers {
   [[nodiscard]] int n_threads() const { return static_cast<int>(threads_.size()) + 1; }
 
   /// Calls work(chunk) for each chunk in [0, n_chunks), in this thread too, and waits for all.
-  /// Chunks are begun in ascending order, so that one may wait for what a lower one does. `work`
-  /// throws nothing and calls no other loop of the same Workers.
+  /// Chunks are begun in ascending order, so that one may wait for a lower one. `work` throws
+  /// nothing and calls no other loop of the same Workers.
   template <class Work>
   void run(std::uint32_t n_chunks, const Work& work) {
     run({[](const void* of, std::uint32_t chunk) { (*static_cast<const Work*>(of))(chunk); }, &work,
@@ -45,8 +45,8 @@ class Workers {
   void serve();
 
   Loop loop_;
-  // number of the loop, and how many of its chunks nobody has begun: in one word, so that who
-  // comes late takes nothing of another loop
+  // number of the loop, and how many of its chunks are not begun: in one word, so that a late
+  // thread takes no chunk of another loop
   alignas(64) std::atomic<std::uint64_t> left_ = 0;
   alignas(64) std::atomic<std::uint32_t> n_done_ = 0;
   alignas(64) std::atomic<int> n_asleep_ = 0;

@@ -1,3 +1,4 @@
+// Writes bytes to a new file and syncs it to the disk.
 #include "base/write_bytes.hpp"
 
 #include <fcntl.h>
@@ -15,8 +16,8 @@ namespace talus {
 
 namespace {
 
-// A new file, or a device that is there. No link is followed: under a name that others know one may
-// lead to any file of the user's.
+// A new file, or an existing device. Links are not followed: under a name that other people know, a
+// link may lead to any file of the user's.
 int open_new(const std::string& path) {
   constexpr int flags = O_WRONLY | O_CLOEXEC | O_NOFOLLOW;
   struct stat there {};

@@ -7,9 +7,10 @@
 
 namespace talus {
 
-/// Writes bytes to `path`, synced to the disk. The file is a new one: what had the name before is
-/// taken away, and a link is not followed. Throws InputError with the system's reason (disk full,
-/// file too large, no permission); what was written so far is removed. `end`: more, behind `bytes`.
+/// Writes bytes to `path`, synced to the disk. The file is a new one: an existing file of that name
+/// is removed, and a link is not followed. Throws InputError with the system's reason (disk full,
+/// file too large, no permission); a partly written file is removed. `end`: more bytes, after
+/// `bytes`.
 void write_bytes(const std::string& path, std::span<const unsigned char> bytes,
                  std::span<const unsigned char> end = {});
 
