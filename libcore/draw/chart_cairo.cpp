@@ -57,7 +57,7 @@ struct LegendPlace {
   double x = left, y = legend_top;
 };
 
-// The place of each line's entry; the last is where another one would stand.
+// The place of each line's entry; the last is that of one more entry.
 std::vector<LegendPlace> legend_places(const Chart& chart) {
   std::vector<LegendPlace> places = {{}};
   for (const ChartSeries& line : chart.series) {

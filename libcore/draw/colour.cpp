@@ -1,3 +1,4 @@
+// Colours of pictures, styles and legends: reading, mixing, text.
 #include "draw/colour.hpp"
 
 namespace talus {

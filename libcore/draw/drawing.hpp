@@ -13,7 +13,7 @@ inline constexpr double pixel_mm = 25.4 / 96;  ///< of an SVG
 
 struct Drawing {
   double width = 0, height = 0;
-  std::string title;       ///< in words, for who does not see it
+  std::string title;       ///< in words, for readers who do not see it
   double unit = pixel_mm;  ///< of all lengths of the drawing [mm]
   std::function<void(Pen&)> draw;
 };
@@ -31,12 +31,12 @@ inline constexpr double picture_dpi = 150;
 /// The strokes alone, as a group of an SVG of this size; `name`: its id or class, as an attribute.
 [[nodiscard]] std::string svg_group(const Drawing& drawing, const std::string& name);
 
-/// Calls draw() for what it returns by reference alone: sizes of words.
+/// Calls draw() on a drawing that is not kept; results come back by reference: sizes of words.
 void measure(const std::function<void(Pen&)>& draw);
 
 /// The family of letters.
 inline constexpr const char* page_font = "DejaVu Sans";
-/// Throws InputError with the way out where `family` is not installed: another one would be drawn,
+/// Throws InputError with a remedy where `family` is not installed: another family would be drawn,
 /// or none.
 void require_font(const std::string& family = page_font);
 

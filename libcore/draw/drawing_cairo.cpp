@@ -106,7 +106,7 @@ void erase_all(std::string& from, std::string_view what) {
     from.erase(at, what.size());
 }
 
-// Of what it shows: the same for the same drawing, another one for another.
+// A name from the content: equal for equal drawings, different for different ones.
 std::string name_of(const std::string& content) {
   std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a
   for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;

@@ -1,6 +1,6 @@
 // libcore/draw/pen.hpp: public
-// The one way to draw: lines, areas, pictures and words, in units of the drawing from its upper
-// left corner. drawing.hpp makes files of it.
+// The only interface to draw with: lines, areas, pictures and words, in units of the drawing from
+// its upper left corner. drawing.hpp makes files of it.
 #pragma once
 
 #include <memory>
@@ -45,9 +45,9 @@ class Pen {
 
   void lines(const PenLines& lines, const Stroke& stroke, bool is_closed = false);
   void line(const std::vector<Vec2>& points, const Stroke& stroke, bool is_closed = false);
-  void area(const PenLines& rings, const Colour& colour);  ///< what an odd number of rings is about
+  void area(const PenLines& rings, const Colour& colour);  ///< inside an odd number of rings
   void areas(const PenLines& rings,
-             const Colour& colour);                      ///< what any is about, all turning alike
+             const Colour& colour);                      ///< inside any ring; all turn alike
   void box(const PageBox& box, const Colour& colour);    ///< filled
   void frame(const PageBox& box, const Stroke& stroke);  ///< its rim
   void circles(const std::vector<Vec2>& middles, double radius, const Stroke& stroke);
@@ -68,13 +68,13 @@ class Pen {
   void words_about(const Vec2& at, const std::string& words, const Letters& letters,
                    Anchor anchor = Anchor::middle, double angle = 0);
 
-  /// What a reader is told who points at these lines or this area of an SVG.
+  /// Tooltip of these lines or this area of an SVG.
   void note(const std::string& title, const PenLines& lines, bool is_area);
 
-  /// What is drawn between these shows in the box alone.
+  /// Drawing between clip() and unclip() shows inside the box alone.
   void clip(const PageBox& box);
   void unclip();
-  /// What follows is drawn `factor` as large about `at`.
+  /// Drawing after this call is `factor` as large, about `at`.
   void shrink(const Vec2& at, double factor);
 
  private:

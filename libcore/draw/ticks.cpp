@@ -1,3 +1,4 @@
+// Round numbers for axes, scales and distances between lines.
 #include "draw/ticks.hpp"
 
 #include <array>
