@@ -1,3 +1,4 @@
+// Convex outline of points in the plane by Andrew's monotone chain.
 #include "geometry/convex_outline.hpp"
 
 #include <algorithm>

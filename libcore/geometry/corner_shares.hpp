@@ -9,7 +9,7 @@
 namespace talus {
 
 /// Area of the convex polygon of `n` corners at(i), counter-clockwise; `take(i, share)` is called
-/// with parts of what belongs to corner i: half of the two triangles that it makes with the
+/// with the parts that belong to corner i: half of each of the two triangles that it makes with the
 /// polygon's centre of area, which keeps the area and its first moment exactly. 0 without a call
 /// where there is no area.
 template <class At, class Take>

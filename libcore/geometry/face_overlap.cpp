@@ -1,3 +1,4 @@
+// The common part of two faces that lie against each other.
 #include "geometry/face_overlap.hpp"
 
 #include <Eigen/Geometry>

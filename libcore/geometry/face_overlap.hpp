@@ -18,7 +18,8 @@ struct FaceOverlap {
 };
 
 /// Overlap of polygon `one` (counter-clockwise about its unit normal) with `other`, which is
-/// projected along that normal; the other may turn either way. Planar and convex within rounding.
+/// projected along that normal; the other may turn in either sense. Planar and convex within
+/// rounding.
 [[nodiscard]] FaceOverlap face_overlap(std::span<const Vec3> one, const Vec3& normal,
                                        std::span<const Vec3> other);
 

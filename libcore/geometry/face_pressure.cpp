@@ -1,3 +1,4 @@
+// Resultant of a linear pressure on plane polygons, zero where it would be negative.
 #include "geometry/face_pressure.hpp"
 
 #include <Eigen/Geometry>

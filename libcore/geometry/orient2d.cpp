@@ -1,3 +1,4 @@
+// On which side of a line a point lies, exactly (Shewchuk's adaptive arithmetic).
 #include "geometry/orient2d.hpp"
 
 #include <array>

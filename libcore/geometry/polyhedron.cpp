@@ -1,3 +1,4 @@
+// Closed polyhedra: moments, checks, and the cutting of convex ones by a plane.
 #include "geometry/polyhedron.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -22,7 +23,7 @@ Vec3 vertex_mean(const Polyhedron& body) {
   return sum / static_cast<double>(body.vertices.size());
 }
 
-// A directed use of an edge by a face, ordered so that the uses of one edge stand together.
+// A directed use of an edge by a face, ordered so that the uses of one edge are adjacent.
 struct EdgeUse {
   int low, high, face;
   bool forward;  // the face runs from low to high
@@ -343,7 +344,7 @@ struct Clipper {
 };
 
 // The inner part of one face; also notes its edge on the plane, from where it enters to where it
-// leaves the cap (the cap runs the other way round).
+// leaves the cap (the cap runs in the opposite sense).
 void clip_face(Clipper& c, int f) {
   const auto loop = face(c.body, f);
   std::vector<int>& inner = c.inner;

@@ -13,7 +13,7 @@
 
 namespace talus {
 
-/// Polygons are counter-clockwise seen from outside; each carries what made it.
+/// Polygons are counter-clockwise seen from outside; each carries its origin.
 struct Polyhedron {
   std::vector<Vec3> vertices;      ///< [m]                                         (n_vertices)
   std::vector<int> face_begin{0};  ///< first entry of face f in `face_vertices`   (n_faces + 1)
@@ -69,7 +69,7 @@ enum class SurfaceFault {
   repeated,      ///< a face names the same vertex twice in a row
   open,          ///< an edge has one face only: a hole
   not_manifold,  ///< an edge has more than two faces
-  not_oriented,  ///< two neighbours run through their edge the same way
+  not_oriented,  ///< two neighbours run through their edge in the same sense
   flat,          ///< no volume
   inside_out,    ///< closed and oriented, but negative volume
 };

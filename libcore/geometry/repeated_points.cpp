@@ -1,3 +1,4 @@
+// Finds points of a layer that have the same place.
 #include "geometry/repeated_points.hpp"
 
 #include <array>

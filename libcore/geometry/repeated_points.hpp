@@ -1,5 +1,5 @@
 // libcore/geometry/repeated_points.hpp: public
-// Points of a layer that stand in one place.
+// Points of a layer that have the same place.
 #pragma once
 
 #include <vector>

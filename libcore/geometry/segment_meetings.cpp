@@ -1,3 +1,4 @@
+// Touches and crossings among segments of a plane map, without rounding errors.
 #include "geometry/segment_meetings.hpp"
 
 #include <algorithm>

@@ -28,9 +28,9 @@ struct SegmentMeetings {
   std::vector<SegmentCrossing> crossings;
 };
 
-/// All touches and crossings among `segments`, pairs of indices into `points`. A segment whose ends
-/// are one index stands for a lone point. Points must differ in x, y. Looks only at segments that
-/// share a cell of a uniform grid: time and memory grow with the number of segments.
+/// All touches and crossings among `segments`, pairs of indices into `points`. A segment with two
+/// equal indices is a lone point. Points must differ in x, y. Compares only segments that share a
+/// cell of a uniform grid: time and memory grow with the number of segments.
 [[nodiscard]] SegmentMeetings find_segment_meetings(
     const std::vector<Vec2>& points, const std::vector<std::array<int, 2>>& segments);
 

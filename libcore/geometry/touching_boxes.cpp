@@ -1,3 +1,4 @@
+// Which of many boxes in plan touch, without a test of each pair.
 #include "geometry/touching_boxes.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Faces as triangles: fans where the face is convex, ears cut off where it is not.
 #include "geometry/triangulate.hpp"
 
 #include <Eigen/Geometry>

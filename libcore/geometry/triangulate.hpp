@@ -13,7 +13,7 @@ namespace talus {
 /// whose outline crosses itself, is cut up somehow: the number of triangles is always n - 2.
 [[nodiscard]] std::vector<std::array<int, 3>> triangles_of_face(const Polyhedron& body, int f);
 
-/// Whether the outline of face f turns one way only.
+/// Whether the outline of face f turns in one sense only.
 [[nodiscard]] bool is_convex_face(const Polyhedron& body, int f);
 
 }  // namespace talus
