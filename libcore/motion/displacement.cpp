@@ -1,3 +1,4 @@
+// Displacement of a block's points by its 12 degrees of freedom; mass and elastic matrices.
 #include "motion/displacement.hpp"
 
 namespace talus {

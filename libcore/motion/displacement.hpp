@@ -32,7 +32,7 @@ using Mat3x12 = Eigen::Matrix<double, 3, 12>;
       .finished();
 }
 
-/// Strain rows of T^T f: what a force at `arm` does to the six strains [N m].
+/// Strain rows of T^T f: load of a force at `arm` on the six strains [N m].
 [[nodiscard]] Eigen::Matrix<double, 6, 1> strain_load(const Vec3& arm, const Vec3& force);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// Attitude of a freely spinning rigid body, by the cheapest of its exact forms.
 #include "motion/free_rotation.hpp"
 
 #include "motion/free_spin.hpp"

@@ -1,3 +1,4 @@
+// Free spin of a rigid body in closed form (elliptic functions and theta series).
 #include "motion/free_spin.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Finite rotation and free spin: power series, symmetric bodies, angular momentum.
 #include "motion/rotation.hpp"
 
 #include <algorithm>
@@ -14,9 +15,9 @@ constexpr int most_terms = 18;
 /// omega_i' = kappa_i omega_j omega_k and q' = q (0, omega) / 2. Of a rigid body |kappa| <= 1
 /// (its moments keep the triangle inequality), so that |omega| h alone says how fast it converges.
 ///
-/// The convolutions are what a flight costs. Each coefficient is kept in the orders of components
-/// that their products ask for, so that a term of all of them is four multiplications of lanes:
-/// q (0, omega) = left1 right1 + left2 right2 - left3 right3, and right3 right2 for omega'.
+/// The convolutions dominate the cost of a flight. Each coefficient is kept in the orders of
+/// components that their products need, so that a term of all of them is four multiplications of
+/// lanes: q (0, omega) = left1 right1 + left2 right2 - left3 right3, and right3 right2 for omega'.
 struct SpinSeries {
   using Lanes = Eigen::Array4d;
   Lanes q[most_terms + 1];                                                       // x, y, z, w

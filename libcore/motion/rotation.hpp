@@ -1,5 +1,5 @@
 // libcore/motion/rotation.hpp: public
-// Finite rotation, and what free spin is made of: series, symmetry, momentum.
+// Finite rotation, and the parts of free spin: series, symmetry, momentum.
 // theory 1.9 (no volume growth), 1.10 (angular momentum kept to rounding)
 #pragma once
 
@@ -23,7 +23,7 @@ namespace talus {
 }
 
 /// free_rotation() of a body with two equal moments, `axis` being the third's: it precesses
-/// steadily, about L at |L| / I_across, and about its own axis at what is left of its spin there.
+/// steadily, about L at |L| / I_across, and about its own axis at the remaining spin.
 [[nodiscard]] Quat symmetric_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia,
                                       int axis, double h);
 
