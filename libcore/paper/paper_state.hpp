@@ -1,5 +1,5 @@
 // libcore/paper/paper_state.hpp: public
-// What law paper alone asks for, and what it alone carries from step to step.
+// Numbers that only law paper needs, and its state from step to step.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ struct PaperSettings {
 };
 
 struct PaperState {
-  std::vector<Vec3> rebound;  ///< v_a of the hit under way, (28) [m/s] (n_blocks)
+  std::vector<Vec3> rebound;  ///< v_a of the current impact, (28) [m/s] (n_blocks)
 };
 
 }  // namespace talus

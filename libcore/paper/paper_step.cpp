@@ -1,3 +1,4 @@
+// Law paper: one step of an island by penalty springs and open-close iteration.
 #include "paper/paper_step.hpp"
 
 #include <algorithm>

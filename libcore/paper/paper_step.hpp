@@ -1,16 +1,16 @@
 // libcore/paper/paper_step.hpp: public
 // Law paper: penalty springs, open-close iteration, Newmark beta = 1/2, gamma = 1, for the blocks
 // of an island together. It moves the State of the engine in its place, and shares its search,
-// bonds, loads and what is booked of a step. Its own state, work and settings are in PaperLaw.
+// bonds, loads and the records of a step. Its own state, work and settings are in PaperLaw.
 // paper: Zhang et al. 2018, Fig. 4, Fig. 8, Eq. (3), (8)-(24), (28), with the slips of theory 1.1
 // mended
 //
 // The patterns are judged on states alone, as printed: when no contact switches, the step is done,
 // and the friction of a slipping contact is that of the pass before. At most six passes; the step
-// is fixed, so what has not settled by then is accepted and counted. The spin vector is carried as
-// in classic DDA, without the gyroscopic term. Not in the paper: a contact that appears already
-// overlapping (features of two blocks change places) presses nothing at first, and its overlap is
-// pressed out at 0.3 m/s: the work of k_n on it would be energy from nowhere.
+// is fixed, so a step that has not settled by then is accepted and counted. The spin vector is
+// carried as in classic DDA, without the gyroscopic term. Not in the paper: a contact that appears
+// already overlapping (features of two blocks change places) has no force at first, and its overlap
+// is removed at 0.3 m/s: the work of k_n on it would be energy from nowhere.
 #pragma once
 
 #include "paper/paper_state.hpp"
