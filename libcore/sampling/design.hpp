@@ -1,11 +1,11 @@
 // libcore/sampling/design.hpp: public
 // Which point of the unit cube a run draws its quantities from.
 // in:    a seed, the number of the point, a coordinate with its name
-// out:   a number between 0 and 1, the same in whatever order and by whomever it is asked for
+// out:   a number between 0 and 1, a pure function of these arguments
 // refs:  Sobol 1967; Joe and Kuo 2008 (directions); Owen 1995 (scrambling); McKay et al. 1979
 //
-// Nothing is kept: each number is a function of these words alone, so more runs go on where others
-// ended, and a quantity that is added at the end leaves those before it as they were.
+// No state is kept: more runs continue where earlier ones ended, and a quantity that is added at
+// the end leaves those before it as they were.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ enum class Sampling { sobol, hypercube, random };
 struct Design {
   Sampling sampling = Sampling::sobol;
   std::uint64_t seed = 1;
-  std::uint64_t n_points = 0;  ///< of a hypercube, which has no others
+  std::uint64_t n_points = 0;  ///< of a hypercube: it has exactly these points
 };
 
 /// Coordinate number `dimension` of point number `point`, both from 0, of Sobol's sequence as it

@@ -30,7 +30,7 @@ std::uint64_t scrambled(std::uint64_t bits, std::uint64_t seed, std::uint64_t wo
     const std::uint64_t bit = (bits >> (63 - k)) & 1;
     out |= (bit ^ (random.next() >> 63)) << (63 - k);
   }
-  HashRandom rest({seed, word, dimension, n_bits, bits});  // below what the sequence decides
+  HashRandom rest({seed, word, dimension, n_bits, bits});  // bits below those of the sequence
   return out | (rest.next() >> n_bits);
 }
 

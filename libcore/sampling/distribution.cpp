@@ -1,3 +1,4 @@
+// Distributions of a number and of a mean direction, as functions of a uniform number.
 #include "sampling/distribution.hpp"
 
 #include <algorithm>

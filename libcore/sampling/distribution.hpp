@@ -17,8 +17,8 @@ struct Distribution {
   double mean = 0, std = 1;               ///< normal, lognormal: of the value itself, std > 0
   double min = 0, mode = 0.5, max = 1;    ///< uniform, triangular: min < max
   std::vector<double> values, weights{};  ///< discrete: ascending; weights sum to more than 0
-  double low = -std::numeric_limits<double>::infinity();  ///< truncated to [low, high]: what is
-  double high = std::numeric_limits<double>::infinity();  ///< left is scaled up to 1
+  double low = -std::numeric_limits<double>::infinity();  ///< truncated to [low, high]:
+  double high = std::numeric_limits<double>::infinity();  ///< the rest is scaled up to 1
 };
 
 /// Probability of values up to x, before it is truncated.

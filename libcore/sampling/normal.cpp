@@ -1,3 +1,4 @@
+// The normal distribution with mean 0 and standard deviation 1, and its inverse.
 #include "sampling/normal.hpp"
 
 #include <cmath>

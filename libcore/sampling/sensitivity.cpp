@@ -1,3 +1,4 @@
+// Sensitivity indices of a result to a quantity that the runs drew.
 #include "sampling/sensitivity.hpp"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ int n_distinct(const std::vector<double>& ascending) {
   return n;
 }
 
-// Of what `n_terms` explain by chance too: the adjusted share of n values' squares.
+// The adjusted share of n values' squares: less the part that `n_terms` explain by chance.
 double adjusted(double explained, int n_terms, std::size_t n) {
   const auto rest = static_cast<double>(n) - 1 - n_terms;
   return rest < 1 ? no_value : 1 - (1 - explained) * (static_cast<double>(n) - 1) / rest;

@@ -17,11 +17,10 @@ inline constexpr int least_runs_for_sensitivity = 200;
 [[nodiscard]] double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
 
 /// First-order index: share of the variance of y that x alone explains, by the polynomial in the
-/// rank of x that fits best, of degree 8 or through all values that x has where they are fewer;
-/// less what chance would explain. 0 to 1 up to an error of about one over the root of n, also
+/// rank of x that fits best, of degree 8 or through all values of x where they are fewer; less the
+/// share that chance would explain. 0 to 1 up to an error of about one over the root of n, also
 /// below 0; NaN where one is constant. Points of a design need no order for it: neighbours in the
-/// order of x, which other methods compare, lie far apart in Sobol's points, and are no pairs by
-/// chance.
+/// order of x, which other methods compare, are far apart in Sobol's points and not random pairs.
 [[nodiscard]] double first_order_index(const std::vector<double>& x, const std::vector<double>& y);
 
 /// The same of a quantity whose values have no order: between groups of equal `group`. NaN where
