@@ -1,3 +1,4 @@
+// Finds the height of each contour from the label nearest to it.
 #include "terrain/contour_labels.hpp"
 
 #include <algorithm>

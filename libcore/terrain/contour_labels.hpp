@@ -1,5 +1,5 @@
 // libcore/terrain/contour_labels.hpp: public
-// Heights of contours from the labels that stand beside them, as in drawings without heights.
+// Heights of contours from the labels beside them, as in drawings without heights.
 // in:    lines in plan, places of labels with their heights
 // out:   a height a line; labels and lines that do not find each other
 #pragma once

@@ -1,3 +1,4 @@
+// Cleans a contour map: joins lines that meet at one height, refuses those that meet at two.
 #include "terrain/contours.hpp"
 
 #include <algorithm>
@@ -271,7 +272,7 @@ class Splitter {
   std::vector<Split> splits_;
 };
 
-// Splits segments where others meet them; false when there was nothing to split.
+// Splits segments where other segments meet them; false when there was nothing to split.
 bool split_where_lines_meet(const ContourMap& map, Network& network, HeightJudge& judge,
                             CleaningCounts& counts) {
   const SegmentMeetings meetings = find_meetings(network);

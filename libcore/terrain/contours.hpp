@@ -1,6 +1,6 @@
 // libcore/terrain/contours.hpp: public
-// A contour map as plain data, and its cleaning: what meets at one height is joined and counted,
-// what meets at two heights is refused with the place.
+// A contour map as plain data, and its cleaning: lines that meet at one height are joined and
+// counted, lines that meet at two heights are refused with the place.
 // in:    lines read by import/import_inputs_gdal
 // out:   points and segments that a constrained triangulation can take as they are
 #pragma once
@@ -27,10 +27,10 @@ struct Polylines {
   [[nodiscard]] int n_lines() const { return static_cast<int>(begin.size()) - 1; }
 };
 
-/// A ring of a boundary polygon, closed without repeating its first point. Inside a polygon is what
-/// an odd number of its rings encloses: a ring in a ring is a hole.
+/// A ring of a boundary polygon, closed without repeating its first point. A point is inside a
+/// polygon if an odd number of its rings encloses it: a ring in a ring is a hole.
 struct BoundaryRing {
-  int polygon = 0;           ///< rings of one polygon stand one after the other
+  int polygon = 0;           ///< rings of one polygon follow each other
   std::vector<Vec2> points;  ///< relative to the map's origin [m]
 };
 
@@ -75,14 +75,14 @@ struct CleanLines {
 /// 0 when there are fewer than two heights.
 [[nodiscard]] double contour_interval(const ContourMap& map);
 
-/// Takes the contours at every `every`-th height (>= 2) out of the map and returns their points:
-/// what the terrain made from the rest can be held against. The highest contours always stay.
+/// Takes the contours at every `every`-th height (>= 2) out of the map and returns their points,
+/// for comparison with the terrain made from the rest. The highest contours always stay.
 [[nodiscard]] std::vector<Vec3> hold_back_contours(int every, ContourMap& map);
 
-/// Throws InputError when the contours stand at fewer than two heights: they make no slope.
+/// Throws InputError when the contours have fewer than two heights: they make no slope.
 void check_heights(const ContourMap& map);
 
-/// Joins and counts what meets at the same height (within same_height_m). A breakline or spot
+/// Joins and counts lines that meet at the same height (within same_height_m). A breakline or spot
 /// height that meets a contour within half a contour interval takes the contour's height there.
 /// Throws InputError, with the place in map coordinates and both heights, where lines meet or
 /// points coincide at different heights.

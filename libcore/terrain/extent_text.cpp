@@ -1,3 +1,4 @@
+// The extent of a terrain as text of messages.
 #include "terrain/extent_text.hpp"
 
 #include "base/text.hpp"

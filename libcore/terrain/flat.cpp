@@ -1,3 +1,4 @@
+// Finds flat triangles of a contour map and computes heights inside them by a thin plate.
 #include "terrain/flat.hpp"
 
 #include <Eigen/Geometry>
@@ -42,7 +43,7 @@ bool is_constrained(const TriangleMesh& mesh, std::size_t t, std::size_t edge) {
   return (mesh.constrained[t] >> edge & 1) != 0;
 }
 
-// Number of the connected flat region of each triangle, -1 for others; contours divide regions.
+// Number of the connected flat region of each triangle, -1 for the rest; contours divide regions.
 std::vector<int> number_regions(const TriangleMesh& mesh, const std::vector<std::uint8_t>& flat,
                                 int& n_regions) {
   std::vector<int> region(flat.size(), -1), stack;
@@ -78,8 +79,9 @@ double rise(const TriangleMesh& mesh, std::size_t t) {
 }
 
 // Flat triangles, and the sloping ones beside a flat region that the lattice can show, across a
-// level edge that is no contour: the ground there is as little level as in the region. A triangle
-// that rises past the next contour bridges ground without contours, at the map's edge: it is kept.
+// level edge that is not a contour: the ground there is as little level as in the region. A
+// triangle that rises past the next contour bridges ground without contours, at the map's edge: it
+// is kept.
 std::vector<Part> find_parts(const TriangleMesh& mesh, const std::vector<std::uint8_t>& flat,
                              const Lattice& lattice, double interval) {
   int n_regions = 0;
@@ -168,7 +170,7 @@ PlateProblem pose_problem(const TriangleMesh& mesh, const Lattice& lattice,
   return problem;
 }
 
-// Nodes stand close along lines and ever wider apart away from them, where the surface is smooth:
+// Nodes are dense along lines and ever wider apart away from them, where the surface is smooth:
 // a node of a lattice 2^n times as wide counts up to 2^n times the full density's distance.
 bool is_wanted(std::size_t node, const Lattice& lattice, float distance) {
   const auto n_x = static_cast<std::size_t>(lattice.n_x);

@@ -40,7 +40,7 @@ struct MendingPoints {
   std::vector<Vec3> points;                ///< to be added to the triangulation [m]
   std::vector<std::array<int, 2>> border;  ///< edges to be fixed before, so that all else stays
   double spacing = 0;                      ///< of the lattice used [m]
-  int n_regions = 0;                       ///< groups of nodes solved by themselves
+  int n_regions = 0;                       ///< groups of nodes solved independently
   int n_unsolved = 0;                      ///< nodes left as they were because nothing holds them
   double largest_change = 0;               ///< of a node against the triangles [m]
 };
@@ -53,11 +53,12 @@ struct MendingPoints {
 
 /// Points with heights that mend the triangles marked `flat` (find_flat_triangles): a plate under
 /// tension through the contours, over the flat triangles and over the triangles that share with
-/// them a level edge that is no contour. The tension grows with the slope s of the ground around as
+/// them a level edge that is not a contour. The tension grows with the slope s of the ground around
+/// as
 /// (s / interval)^2: a slope dies out within the distance in which it would reach the next contour,
-/// which is not there. Heights stay strictly within half an interval of a flat triangle, and
-/// between the heights of the corners of another one, so no point passes the next contour. Leaves
-/// the mesh without neighbors and constrained, which are as large as the solution.
+/// which is missing. Heights stay strictly within half an interval of a flat triangle, and between
+/// the heights of the corners of a sloping one, so no point passes the next contour. Leaves the
+/// mesh without neighbors and constrained, which are as large as the solution.
 [[nodiscard]] MendingPoints mend_flat_triangles(TriangleMesh& mesh,
                                                 const std::vector<std::uint8_t>& flat,
                                                 const FlatMending& mending,

@@ -1,3 +1,4 @@
+// Where the nodes of a grid lie on the map: windows, alignment, memory.
 #include "terrain/grid_frame.hpp"
 
 #include <algorithm>
@@ -48,7 +49,7 @@ NodeRange nodes_covering(double low, double high, double cell_size) {
 void check_size(const GridFrame& frame, const std::string& file) {
   if (std::int64_t{frame.n_rows} * frame.n_cols > largest_n_nodes)
     refuse_size(frame.n_rows, frame.n_cols, file);
-  // An elevation each, and as much again for what is made of them or waits to be written.
+  // An elevation each, and as much again for results of them or rows that wait to be written.
   constexpr double bytes_per_node = 16;
   require_memory(bytes_per_node * frame.n_rows * frame.n_cols, {file},
                  std::to_string(frame.n_cols) + " x " + std::to_string(frame.n_rows) + " nodes",

@@ -1,5 +1,5 @@
 // libcore/terrain/grid_frame.hpp: public
-// Where the nodes of a grid lie on the map: what a raster is read into before it is local ground.
+// Where the nodes of a grid lie on the map: the frame of a raster before it becomes local ground.
 #pragma once
 
 #include <optional>
@@ -51,7 +51,7 @@ struct MapWindow {
 /// The same with one more row and column where needed, so that the nodes enclose `window`.
 [[nodiscard]] GridFrame frame_covering(const MapWindow& window, double cell_size);
 
-/// The smallest part of `frame` whose nodes enclose what of `window` lies inside the frame's
+/// The smallest part of `frame` whose nodes enclose the common area of `window` and the frame's
 /// extent; empty when they have no point in common.
 [[nodiscard]] GridFrame part_covering(const GridFrame& frame, const MapWindow& window);
 

@@ -1,3 +1,4 @@
+// Scan conversion of a TIN to a regular grid of nodes, triangle by triangle.
 #include "terrain/grid_tin.hpp"
 
 #include <limits>
@@ -6,7 +7,8 @@ namespace talus {
 namespace {
 
 constexpr double rounding = 1e-9;     // of a cell
-constexpr double inside = 1e-6;       // of a cell: a node this far from the edges is no border's
+constexpr double inside = 1e-6;       // of a cell: a node this far from the edges is not on the
+                                      // border
 constexpr double layers_apart = 0.1;  // [m]
 
 const Vec3& corner(const Tin& tin, const std::array<int, 3>& triangle, std::size_t k) {

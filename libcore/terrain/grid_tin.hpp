@@ -17,7 +17,7 @@ namespace talus {
 /// 2 or 5 times a power of ten [m]; 0 when no triangle has an area in plan.
 [[nodiscard]] double natural_cell_size(const Tin& tin);
 
-/// Nodes inside of two triangles that stand at two heights there: a surface in two layers.
+/// Nodes inside two triangles that have two heights there: a surface in two layers.
 struct TwoHeights {
   int n = 0;
   int row = 0, col = 0;     ///< of the first
@@ -30,7 +30,7 @@ struct TwoHeights {
 /// linear. The crossings of an edge are computed from the edge alone, so that the two triangles at
 /// an edge leave no gap between them, and slender triangles cannot overshoot their corners by more
 /// than rounding. A node on the border (to 1e-9 of a cell) is inside. Triangles without area in
-/// plan are left out. `two`, if given, is what was found in two layers, 0.1 m apart and more.
+/// plan are left out. `two`, if given, receives the nodes in two layers, 0.1 m apart and more.
 [[nodiscard]] std::vector<double> grid_tin(const Tin& tin, const GridFrame& frame,
                                            const ProgressFunction& progress = {},
                                            TwoHeights* two = nullptr);

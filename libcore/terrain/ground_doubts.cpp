@@ -1,3 +1,4 @@
+// Finds doubtful nodes of a terrain: level areas, rims, steps, seams, sunken ground.
 #include "terrain/ground_doubts.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// A square lattice over a triangle mesh: triangle, distance to lines and values of its nodes.
 #include "terrain/lattice.hpp"
 
 #include <algorithm>

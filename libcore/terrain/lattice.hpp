@@ -1,6 +1,6 @@
 // libcore/terrain/lattice.hpp
-// Square lattice laid over a triangle mesh: which triangle each node stands in, how far it is from
-// the lines, and values spread from the nodes that have one to those that have none.
+// Square lattice laid over a triangle mesh: the triangle of each node, its distance from the lines,
+// and values spread from the nodes that have one to those that have none.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace talus {
 
-/// Node (i, j) stands at low + spacing * (i, j) and has the number j * n_x + i.
+/// Node (i, j) is at low + spacing * (i, j) and has the number j * n_x + i.
 struct Lattice {
   Vec2 low = Vec2::Zero();    ///< place of node (0, 0) [m]
   double spacing = 1;         ///< [m]

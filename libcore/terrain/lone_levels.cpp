@@ -1,3 +1,4 @@
+// Finds areas of one value in a raster that differ much from all their neighbours.
 #include "terrain/lone_levels.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // libcore/terrain/lone_levels.hpp: public
-// Areas of one value in an elevation raster that stand far off what lies beside them: what fills
+// Areas of one value in an elevation raster that differ much from their neighbours: fillings of
 // gaps and rims where a file declares no nodata value (0, -999, 255, 9999 ...).
 // in:    rows of elevations, from the first one on
-// out:   the area that stands off most
+// out:   the area that differs most
 // method: docs/guide/limits.md, "Rasters"
 #pragma once
 
@@ -46,7 +46,7 @@ class LoneLevels {
  public:
   LoneLevels(int n_cols, double step, std::set<double> values);
   void add_row(const double* elevation);
-  /// Of the areas that stand off more than half of what is beside them, the one with most such
+  /// Of the areas that differ much from more than half of their neighbours, the one with most such
   /// neighbours.
   [[nodiscard]] std::optional<LoneLevel> worst() const;
   /// All of these areas, by their first cells.

@@ -1,3 +1,4 @@
+// Moves contours that meet at different heights apart, within the accuracy of the map.
 #include "terrain/mend_meetings.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace talus {
 namespace {
 
 constexpr int max_rounds = 40;
-constexpr double gap_share = 0.05;  // of the tolerance: what lines that met stand apart then
+constexpr double gap_share = 0.05;  // of the tolerance: distance that moved lines keep
 
 // One contour in plan. A closed one does not repeat its first point.
 struct PlanLine {
@@ -111,7 +112,7 @@ class EventFinder {
     if (meet) found_[{line_a, line_b}].push_back({along_a, along_b, place});
   }
 
-  // Share of the way along a segment, as its line goes.
+  // Position along a segment from 0 to 1, in the direction of its line.
   [[nodiscard]] double along(const std::array<int, 3>& on, double share) const {
     return on[1] + (on[2] == 1 ? 1 - share : share);
   }
@@ -274,7 +275,7 @@ int home_side(const std::vector<Part>& parts) {
 // Points of a line with where they go.
 struct Moves {
   std::vector<std::pair<int, Vec2>> points;
-  double largest = 0;  // from where the point stood in the map
+  double largest = 0;  // displacement from the place in the map
 };
 
 // Moves that bring the points of `line` that are on the wrong side of `other`, or on it, to the
@@ -316,8 +317,8 @@ enum class Outcome { moved, waits, stuck };
 
 // Moves points of one of two lines apart. It waits where another line has moved since the meetings
 // were found and nothing is left to be done, and is stuck when neither line may be moved. The line
-// with the shorter way moves, with `by_height` the lower one: a line between two others would go to
-// and fro for ever.
+// with the shorter displacement moves, with `by_height` the lower one: a line between two lines
+// would otherwise move to and fro for ever.
 Outcome move_apart(const std::vector<Event>& events, double tolerance, bool by_height, PlanLine& a,
                    PlanLine& b) {
   std::vector<double> along_a, along_b;

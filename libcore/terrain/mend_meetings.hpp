@@ -1,8 +1,8 @@
 // libcore/terrain/mend_meetings.hpp: public
-// Contours of different heights that meet because a map is drawn, generalised or put together no
-// better than it is: moved apart within its accuracy.
+// Contours of different heights that meet because a map is drawn, generalised or put together with
+// limited accuracy: moved apart within that accuracy.
 // in:    contours that meet, a tolerance
-// out:   contours that keep apart, all places with what was done
+// out:   contours that keep apart, all places with the action taken
 // method: docs/tools/talus-tin.md, "Contours that meet"
 #pragma once
 
@@ -31,7 +31,7 @@ struct Mending {
   double largest_move = 0;        ///< [m]
 };
 
-/// How well a map shows its contours [m]: what nine in ten bends of the lines stand off the chord
+/// How well a map shows its contours [m]: nine in ten bends of the lines are within it of the chord
 /// of the points beside them. Generalising to a tolerance leaves bends of about that tolerance and
 /// more. 0 where there are fewer than 30 bends to judge by.
 [[nodiscard]] double accuracy_of_lines(const Polylines& lines);

@@ -1,3 +1,4 @@
+// Finds contours and points whose heights contradict those around them.
 #include "terrain/outliers.hpp"
 
 #include <algorithm>
@@ -55,7 +56,7 @@ bool is_impossible_edge(const TriangleMesh& mesh, int a, int b) {
   return std::abs(edge.z()) > impossible_step(edge.head<2>().norm());
 }
 
-// A contour that stands off by the map's interval, and all that its surroundings say of it.
+// A contour that is off by the map's interval, and the heights of its surroundings.
 struct Candidate {
   Outlier outlier{0, Vec3::Zero(), infinity, -infinity, false};
   std::int64_t n_impossible = 0;  // edges
@@ -129,7 +130,8 @@ bool stands_off(const Candidate& candidate, double step) {
   return stands_off(count(1), count(-1), static_cast<std::int64_t>(candidate.above.size()));
 }
 
-// The last contour at the rim stands off the wrong one beside it, too, and has no other neighbour.
+// The last contour at the rim differs from the wrong one beside it, too, and has no other
+// neighbour.
 bool is_beside_culprit(const Candidate& candidate, const std::vector<int>& candidate_of,
                        const std::vector<Candidate>& candidates) {
   if (candidate.has_sound_neighbour) return false;

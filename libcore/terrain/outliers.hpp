@@ -2,7 +2,7 @@
 // Lines and points of a contour map whose heights do not go with those around them: a wrong label,
 // a missing one read as 0, a spot height in other units.
 // in:    the triangulation of a map; which line each point is of
-// out:   lines and points in doubt, with what stands around them
+// out:   lines and points in doubt, with the heights around them
 // method: docs/tools/talus-tin.md, "Heights in doubt"
 #pragma once
 
@@ -23,18 +23,18 @@ struct Outlier {
   int line = 0;
   Vec3 place = Vec3::Zero();   ///< one of its points [m]
   double low = 0, high = 0;    ///< of the contours beside it [m]
-  bool is_impossible = false;  ///< no ground stands so far off so near, see find_outliers
+  bool is_impossible = false;  ///< ground is never so far off so near, see find_outliers
 };
 
-/// Contours that stand above all contours beside them, or below them all, by more than one and a
-/// half steps. A step is `interval`, or what the contours beside leave between themselves and those
-/// beyond where that is more. "All" is four in five of the triangles' edges to contours of another
-/// height: the next piece of a broken line stands right and does not hide the fault.
+/// Contours that are above all contours beside them, or below them all, by more than one and a half
+/// steps. A step is `interval`, or the height between the contours beside and those beyond where
+/// that is more. "All" is four in five of the triangles' edges to contours of another height: the
+/// next piece of a broken line has the right height and does not hide the fault.
 ///
 /// Measured points that lie more than two steps above the highest contour beside them or below the
 /// lowest. A step is `interval`, or the difference of those two where that is more.
 ///
-/// What is found is impossible where four in five of those edges are higher than 200 m and than
+/// A finding is impossible where four in five of those edges are higher than 200 m and than
 /// five times their length: steeper than 79 degrees all around, as cells of an undeclared value in
 /// a raster (lone_levels.hpp).
 ///

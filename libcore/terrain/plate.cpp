@@ -1,3 +1,4 @@
+// Solves a thin plate under tension over the free nodes of a lattice, region by region.
 #include "terrain/plate.hpp"
 
 #include <Eigen/SparseCholesky>
@@ -135,7 +136,7 @@ std::vector<int> find_regions(const Nodes& nodes, const Unknowns& unknowns, int&
       if (v >= 0) sets.join(u, v);
     }
   }
-  // A root is the lowest of its region, so it has the region's number before others read it.
+  // A root is the lowest of its region, so it has the region's number before the rest reads it.
   std::vector<int> region(static_cast<std::size_t>(unknowns.count()));
   n_regions = 0;
   for (int u = 0; u < unknowns.count(); ++u)

@@ -31,7 +31,7 @@ struct PlateProblem {
 /// Heights of the free nodes in the order of their numbers [m].
 struct PlateSolution {
   std::vector<double> height;
-  int n_regions = 0;   ///< groups of nodes solved by themselves
+  int n_regions = 0;   ///< groups of nodes solved independently
   int n_unsolved = 0;  ///< free nodes in groups that nothing holds: their height is NaN
 };
 

@@ -1,3 +1,4 @@
+// Triangulates scattered ground points and finds those that contradict their neighbours.
 #include "terrain/point_tin.hpp"
 
 #include <algorithm>

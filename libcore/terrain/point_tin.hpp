@@ -1,7 +1,7 @@
 // libcore/terrain/point_tin.hpp: public
 // Scattered points of the ground (surveys, ground returns of a laser scanner) as triangles.
 // in:    points relative to a map's origin
-// out:   their Delaunay triangles; points that their neighbours do not bear out
+// out:   their Delaunay triangles; points that contradict their neighbours
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace talus {
 
-/// A point that stands off its neighbours, or has another height at its own place.
+/// A point that differs much from its neighbours, or has another height at its own place.
 struct PointDoubt {
   Vec3 place = Vec3::Zero();   ///< [m]
   double low = 0, high = 0;    ///< of its neighbours, or of the other points at its place [m]
@@ -27,11 +27,11 @@ struct PointMesh {
   std::vector<PointDoubt> doubts;
 };
 
-/// A point is in doubt when it stands above all its neighbours, or below them all, by more than 70
+/// A point is in doubt when it is above all its neighbours, or below them all, by more than 70
 /// degrees along every edge; it is impossible when four in five of its edges are higher than 200 m
 /// and five times their length. Points in one place (x, y) that differ by more than 0.5 m in height
-/// are impossible; laser scans rounded to centimetres leave less. Uses the points up. Throws
-/// InputError naming `source` when all stand on one line.
+/// are impossible; laser scans rounded to centimetres differ by less. Uses the points up. Throws
+/// InputError naming `source` when all are on one line.
 [[nodiscard]] PointMesh mesh_of_points(std::vector<Vec3> points, const std::string& source);
 
 /// Of the triangles' edges in plan [m].

@@ -1,3 +1,4 @@
+// Resamples elevations of one grid to the nodes of another, row by row.
 #include "terrain/resample.hpp"
 
 #include <limits>

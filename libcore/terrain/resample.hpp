@@ -5,7 +5,7 @@
 // out:   elevations on a target grid; unknown wherever an unknown source node or the outside of the
 //        source has a share in a node
 //
-// A source node stands for its cell. A target node takes the mean of the source over a square of
+// A source node represents its cell. A target node takes the mean of the source over a square of
 // the larger of the two cell sizes about it, weighted by area. Where the cell grows this averages
 // and does not sample; where it shrinks it is bilinear interpolation; on coinciding nodes of equal
 // cells it is a copy, bit for bit; and nothing jumps between the three.

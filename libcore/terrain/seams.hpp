@@ -15,12 +15,12 @@ struct Seam {
   bool between_rows = false;
   int line = 0;
   int middle = 0;     ///< column, or row, in the middle of the line
-  double step_m = 0;  ///< height that the second side stands above the first [m]
+  double step_m = 0;  ///< height of the second side above the first [m]
 };
 
-/// Lines along which the height steps by one amount beside what the slope on both sides gives: by
-/// at least 0.5 m and six times what is usual between other lines, within a quarter over four
-/// fifths of the line. Looks at 1,000 nodes of a line at most.
+/// Lines along which the height steps by one amount beyond the slope of both sides: by at least 0.5
+/// m and six times the usual step between other lines, within a quarter over four fifths of the
+/// line. Looks at 1,000 nodes of a line at most.
 [[nodiscard]] std::vector<Seam> find_seams(const Trn& trn);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// A point that slides down the ground under Coulomb friction: estimates the duration of a run.
 #include "terrain/slider.hpp"
 
 #include <algorithm>

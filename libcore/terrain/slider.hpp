@@ -1,6 +1,6 @@
 // libcore/terrain/slider.hpp: public
-// A point that slides down the ground under Coulomb friction: how long a mass will be under way,
-// before anything is computed.
+// A point that slides down the ground under Coulomb friction: how long a mass will move, before
+// anything is computed.
 // in:    a smooth terrain, friction, where it starts
 // out:   when and where it comes to rest
 #pragma once

@@ -1,3 +1,4 @@
+// Smooths the ground over features as small as a cell.
 #include "terrain/smooth.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // libcore/terrain/smooth.hpp: public
-// The ground without what is as small as a cell.
+// The ground without features as small as a cell.
 #pragma once
 
 #include "terrain/trn.hpp"

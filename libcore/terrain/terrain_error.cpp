@@ -1,3 +1,4 @@
+// Draws a terrain within the known error of its elevations.
 #include "terrain/terrain_error.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace talus {
 namespace {
 
-// Weights at whole distances from -n to n whose squares sum to 1: what they make of independent
+// Weights at whole distances from -n to n whose squares sum to 1: a weighted sum of independent
 // numbers of variance 1 has variance 1, and the correlation exp(-(d / length)^2).
 std::vector<double> kernel_of(double length) {
   const int n = std::max(1, static_cast<int>(std::ceil(2.2 * length)));

@@ -1,5 +1,5 @@
 // libcore/terrain/tin.hpp: public
-// Triangulated irregular network: what contours become before they are gridded.
+// Triangulated irregular network: the form of contours before they are gridded.
 #pragma once
 
 #include <array>

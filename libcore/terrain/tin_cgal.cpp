@@ -46,7 +46,7 @@ std::uint64_t hilbert_number(std::uint32_t x, std::uint32_t y) {
   return number;
 }
 
-// Three quarters of the points come last, three quarters of the others before them, and so on, by
+// Three quarters of the points come last, three quarters of the rest before them, and so on, by
 // chance: no map is then so regular that its insertion becomes slow (Amenta, Choi, Rote 2003).
 std::uint64_t round_of(std::size_t i) {
   std::uint64_t mixed = (i + 1) * 0x9E3779B97F4A7C15U;

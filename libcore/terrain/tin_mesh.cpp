@@ -1,3 +1,4 @@
+// From a triangulation to a TIN: cut to a boundary, unused points left out.
 #include "terrain/tin_mesh.hpp"
 
 #include <algorithm>

@@ -19,7 +19,7 @@ void check_boundary(const ContourMap& map, const std::string& source);
 /// dropped.
 void cut_to_rings(const std::vector<BoundaryRing>& rings, TriangleMesh& mesh);
 
-/// The mesh as a TIN in the map's place, without points that stand in no triangle. Uses up the
+/// The mesh as a TIN in the map's place, without points that belong to no triangle. Uses up the
 /// mesh.
 [[nodiscard]] Tin to_tin(TriangleMesh mesh, const ContourMap& map);
 

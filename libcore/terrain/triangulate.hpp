@@ -14,7 +14,7 @@
 
 namespace talus {
 
-/// Triangles counter-clockwise seen from above. Edge k of a triangle stands opposite its corner k.
+/// Triangles counter-clockwise seen from above. Edge k of a triangle is opposite its corner k.
 struct TriangleMesh {
   std::vector<Vec3> points;                   ///< [m]                                (n_points)
   std::vector<std::array<int, 3>> triangles;  ///< indices into `points`              (n_triangles)
@@ -26,7 +26,7 @@ struct TriangleMesh {
 class Triangulation {
  public:
   /// `segments` index `points` and meet only at ends (clean_lines). Throws InputError naming
-  /// `source` when all points stand on one line, or segments cross all the same.
+  /// `source` when all points are on one line, or segments cross all the same.
   Triangulation(std::vector<Vec3> points, const std::vector<std::array<int, 2>>& segments,
                 std::string source);
   ~Triangulation();
@@ -36,8 +36,8 @@ class Triangulation {
   /// Keeps edges of the triangulation as they are, whatever points are added: pairs of points.
   void fix_edges(const std::vector<std::array<int, 2>>& edges);
 
-  /// Adds points behind the others, in an order that depends on them alone. A point that stands on
-  /// another in plan is left out.
+  /// Adds points behind the existing ones, in an order that depends on them alone. A point at the
+  /// place of another in plan is left out.
   void add(const std::vector<Vec3>& points);
 
   /// Brings a mesh up to date: the points added since the last mesh go behind its own, which must

@@ -1,3 +1,4 @@
+// Counts the convex features of a terrain and checks its elevations.
 #include "terrain/trn.hpp"
 
 #include "base/text.hpp"

@@ -196,7 +196,7 @@ void check_trn(const Trn& trn, const std::string& file);
 }
 
 /// Elevation of the ground at local (x, y); NaN off the grid and where the triangle that holds the
-/// point is not ground [m]. At a node the first term stands alone: its elevation, bit for bit,
+/// point is not ground [m]. At a node the other terms vanish: its elevation, bit for bit,
 /// unless the node lies in the last row or column.
 [[nodiscard]] inline double elevation_at(const Trn& trn, double x, double y) {
   if (!contains(trn, x, y)) return std::numeric_limits<double>::quiet_NaN();

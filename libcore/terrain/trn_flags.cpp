@@ -1,3 +1,4 @@
+// Flags of the nodes of a TRN: which edges and nodes are convex.
 #include "terrain/trn_flags.hpp"
 
 #include <cstddef>
@@ -6,7 +7,7 @@
 namespace talus {
 namespace {
 
-// In what follows z points at a node and n is the distance from row to row: z[-n] is its northern,
+// Below, z points at a node and n is the distance from row to row: z[-n] is its northern,
 // z[n + 1] its south-eastern neighbour. Comparisons with NaN are false, so that an unknown
 // neighbour never makes a feature convex.
 

@@ -1,3 +1,4 @@
+// Lowest and highest elevation over any range of cells, by a pyramid of minima and maxima.
 #include "terrain/trn_pyramid.hpp"
 
 #include <algorithm>
@@ -16,9 +17,9 @@ bool holds(const ElevationRange& range, const ElevationRange& other) {
          (other.all_known || !range.all_known);
 }
 
-// Corners of the cells of `range`, one by one. Summed up in registers: `found` might be part of
-// what the elevations point to, as far as the compiler knows. One unknown elevation makes the sum
-// of all of them NaN: cheaper than a test of each.
+// Corners of the cells of `range`, one by one. Summed up in registers, since for the compiler
+// `found` might alias the elevations. One unknown elevation makes the sum of all of them NaN:
+// cheaper than a test of each.
 void include_nodes(const Trn& trn, const CellRange& range, ElevationRange& found) {
   double low = found.low, high = found.high, sum = 0;
   const double* z = trn.elevation.data() + node_index(trn, range.row_first, range.col_first);

@@ -48,9 +48,9 @@ struct TrnPyramid {
 
 /// Cells whose triangles a box may touch within one step, Eq. (5a-d) and (6).
 ///
-/// `ctol` is the largest vertex displacement in a step, >= 0 [m]. floor() stands in for INT, which
-/// would give cell 0 to a block just off the edge, and the grid's origin is subtracted. Clipped to
-/// the grid; empty when the box misses it, or when a coordinate is NaN.
+/// `ctol` is the largest vertex displacement in a step, >= 0 [m]. floor() replaces INT, which would
+/// give cell 0 to a block just off the edge, and the grid's origin is subtracted. Clipped to the
+/// grid; empty when the box misses it, or when a coordinate is NaN.
 [[nodiscard]] inline CellRange cells_near(const Trn& trn, const Vec3& box_low, const Vec3& box_high,
                                           double ctol) {
   const double last_col = trn.n_cols - 2, last_row = trn.n_rows - 2;
@@ -103,7 +103,7 @@ inline constexpr double flat_ratio = 1e-9;
   return all_nodes(trn, range, point, [flat](double height) { return height <= flat; });
 }
 
-/// How a block stands to the ground of its candidate cells.
+/// Position of a block relative to the ground of its candidate cells.
 enum class Reach {
   off_ground,  ///< the box misses the grid, or nothing is known below it: the block left the domain
   above,       ///< Eq. (7): no contact in this step

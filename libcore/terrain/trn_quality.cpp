@@ -1,3 +1,4 @@
+// Quality of a TRN: errors against better data, and steep or two-layered places.
 #include "terrain/trn_quality.hpp"
 
 #include "base/percentile.hpp"

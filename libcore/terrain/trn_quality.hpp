@@ -1,6 +1,6 @@
 // libcore/terrain/trn_quality.hpp: public
-// How good a TRN is: its errors against what is known better, and where a height field is a poor
-// model of the ground.
+// How good a TRN is: its errors against better data, and where a height field is a poor model of
+// the ground.
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // libcore/terrain/trn_walk.hpp: public
 // The cells that a segment crosses in plan, in order, with the part of the segment in each.
 // in:    two points; a TRN's grid
-// out:   a call a cell; the parts follow one another without a gap, so that what is summed or
-//        maximised over cells does not depend on how a path is cut into segments
+// out:   a call a cell; the parts follow one another without a gap, so that sums and maxima over
+//        cells do not depend on how a path is cut into segments
 #pragma once
 
 #include <algorithm>
