@@ -1,3 +1,4 @@
+// Groups the blocks of a set of runs into independent clusters.
 #include "ensemble/clusters.hpp"
 
 #include <algorithm>

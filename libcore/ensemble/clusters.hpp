@@ -1,12 +1,13 @@
 // libcore/ensemble/clusters.hpp: public
-// What is independent among the blocks of a set of runs: all intervals are made over it.
+// Independent clusters among the blocks of a set of runs: all intervals are computed over them.
 // in:    the runs, with the cells that their blocks were released in
-// out:   the cluster that each block belongs to, and what each cluster released
+// out:   the cluster that each block belongs to, and the released mass of each cluster
 //
-// Blocks of one run are not independent: they move together, or share what was drawn for the run.
-// Then each run is a cluster, and runs of one rock mass are one. Where rocks fall one by one and
-// nothing was drawn for a run as a whole, other runs are no more than other rocks. What rocks then
-// share is the ground and the forest below the cell that they come from, in every run: each release
+// Blocks of one run are not independent: they move together, or share the draws of the run. Then
+// each run is a cluster, and runs of one rock mass are one. Where rocks fall one by one and nothing
+// was drawn for a run as a whole, further runs are simply further rocks. Such rocks share the
+// ground and the forest below the cell that they come from, in every run: each release cell is a
+// cluster, over all runs.
 // cell is a cluster, over all runs.
 #pragma once
 
@@ -33,7 +34,8 @@ struct Clusters {
   std::vector<double> weight;      ///< released by each, times that of its runs       (n_clusters)
   std::vector<int> n_blocks;       ///< released by each, in all runs                  (n_clusters)
   std::vector<int> of_run;         ///< cluster of a run, as shares of runs count it       (n_runs)
-  std::vector<double> run_weight;  ///< what each run counts, 1 on average                 (n_runs)
+  std::vector<double> run_weight;  ///< weight of a run, 1 on average
+                                   ///< (n_runs)
   std::vector<std::vector<int>> of_block;  ///< release cells: cluster of each block  (n_runs x n)
 };
 [[nodiscard]] inline int n_clusters(const Clusters& clusters) {

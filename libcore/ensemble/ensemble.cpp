@@ -1,3 +1,4 @@
+// Members of a set of runs: outcomes, keys and files.
 #include "ensemble/ensemble.hpp"
 
 #include <algorithm>

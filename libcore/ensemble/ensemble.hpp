@@ -1,10 +1,10 @@
 // libcore/ensemble/ensemble.hpp: public
 // A set of runs as a file: ensemble.json beside the runs. docs/reference/formats.md#ensemble
 // in:    the runs that are wanted, and the run files of a folder
-// out:   what became of each, what it counts, and which settings differ
+// out:   the outcome and weight of each run, and the settings that differ
 //
 // The truth about a run is in its run file; ensemble.json is derived from them. It is written to a
-// hidden name and renamed, and whoever finds it missing or old writes it again.
+// hidden name and renamed. A tool that finds it missing or old writes it again.
 #pragma once
 
 #include <cstdint>
@@ -25,11 +25,11 @@ struct EnsembleMember {
   std::int64_t seed = 0;
   std::int64_t sample = 0;  ///< of [uncertainty]; 0: none
   Outcome outcome = Outcome::not_started;
-  std::string why;       ///< there is no result, or which checks it failed
+  std::string why;       ///< why there is no result, or the checks that it failed
   std::string digest;    ///< of the run file, as it says itself; "": there is none
-  std::string run_id;    ///< "": there is no result
+  std::string run_id;    ///< "": without a result
   std::string settings;  ///< settings_digest() of the run
-  std::string wanted;    ///< settings_digest() of a run that counts; "": whatever it is
+  std::string wanted;    ///< settings_digest() of a run that counts; "": any
   std::string mass;      ///< digest of its blocks, of several rock masses; "": there is one
   bool seed_draws = true;
   int unit = 0;       ///< runs of one unit count as one (units_of)
@@ -57,10 +57,10 @@ struct Ensemble {
 /// "ensemble.json"
 extern const char* const ensemble_name;
 
-/// Whether a file or folder of the command line stands for a set of runs.
+/// Whether a file or folder of the command line names a set of runs.
 [[nodiscard]] bool is_ensemble(const std::string& path);
 
-/// A run with what it was made with: its id and the digest of its settings.
+/// A run with its inputs: its id and the digest of its settings.
 [[nodiscard]] std::string key_of(const EnsembleMember& member);
 /// Those of the runs in a file of talus-reduce, sorted; none where it is missing or damaged: the
 /// runs themselves are there.

@@ -45,7 +45,7 @@ std::string bytes_of(const std::string& path) {
 
 // --- JSON ----------------------------------------------------------------------------------------
 
-// The keys of a member, but for what became of it.
+// The keys of a member, without its outcome.
 template <class Member, class Take>
 void each_key(Member& m, const Take& take) {
   take("file", m.file), take("case", m.case_name), take("seed", m.seed), take("sample", m.sample);
@@ -132,7 +132,7 @@ EnsembleMember member_of(const std::string& file, const std::string& digest,
   return out;
 }
 
-// Takes over what the file says. One that is not the run that is wanted has no result.
+// Takes over the entry of the file. A run with other settings than the wanted ones has no result.
 void take(EnsembleMember& member, EnsembleMember found) {
   if (!member.wanted.empty()) {
     const bool is_wanted = found.seed == member.seed && found.sample == member.sample &&
@@ -216,7 +216,7 @@ void compare_cases(Ensemble& ensemble) {
                                  first.begin()->first + ": " + d.other);
 }
 
-// Holds the folder against others that bring its ensemble up to date.
+// Locks the folder against other processes that bring its ensemble up to date.
 class FolderLock {
  public:
   explicit FolderLock(const std::string& folder) : file_(open(folder.c_str(), O_RDONLY)) {
@@ -287,7 +287,7 @@ Ensemble read_ensemble(const std::string& path) {
   bring_up_to_date(ensemble);
   try {
     replace(ensemble);
-  } catch (const InputError&) {  // a folder of others, or a full disk: the next one writes it
+  } catch (const InputError&) {  // a read-only folder, or a full disk: the next process writes it
   }
   return ensemble;
 }

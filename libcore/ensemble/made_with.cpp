@@ -1,4 +1,4 @@
-// Which settings of runs count, and what is said of those that differ.
+// Which settings of runs count, and the message about those that differ.
 #include "ensemble/made_with.hpp"
 
 #include <algorithm>

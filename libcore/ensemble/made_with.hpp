@@ -40,12 +40,12 @@ struct SettingDifference {
     const MadeWith& settings, const MadeWith& others,
     const std::function<bool(const std::string&, const EffectiveValue&, const EffectiveValue&)>&
         counts);
-/// Digest of all that a run was made with but for seed, sample and what a sample draws: settings
-/// that motion and record depend on, options, files read, blocks and terrain.
+/// Digest of the inputs of a run, without its seed, sample and drawn quantities: settings that
+/// motion and record depend on, options, files read, blocks and terrain.
 [[nodiscard]] std::string settings_digest(const RunInfo& info);
 
-/// "solver.duration_s: 20, there 6; ...": what of that two runs differ in; "" in nothing, or in
-/// blocks and terrain alone.
+/// "solver.duration_s: 20, there 6; ...": the settings in which two runs differ; "" where they
+/// agree, or differ in blocks and terrain alone.
 [[nodiscard]] std::string what_differs(const RunInfo& run, const RunInfo& other);
 
 /// The number of the sample of [uncertainty] that a run drew; 0: none.
@@ -59,8 +59,8 @@ struct SettingDifference {
 /// Compares the settings of runs that are evaluated together, as they come.
 ///
 /// Runs agree in all settings that motion and record depend on, and in blocks and terrain. Seed,
-/// sample and what a sample draws may differ; rock masses have blocks and beds of their own. Cases
-/// may differ in what the command line gave and in their blocks.
+/// sample and drawn quantities may differ; rock masses have blocks and beds of their own. Cases may
+/// differ in settings of the command line and in their blocks.
 class SettingsCheck {
  public:
   /// `info` with all words. Throws InputError with the files, keys and values.

@@ -1,3 +1,4 @@
+// Runs that are evaluated together: reading, agreement, order, health, failed ones.
 #include "ensemble/run_set.hpp"
 
 #include <algorithm>

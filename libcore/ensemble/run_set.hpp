@@ -1,5 +1,5 @@
 // libcore/ensemble/run_set.hpp: public
-// Runs that are evaluated together: what must agree, in which order they stand, how sound they are.
+// Runs that are evaluated together: which settings must agree, their order, their health.
 // in:    run files in any order
 // out:   their order by run id, their health and faults
 #pragma once
@@ -16,7 +16,7 @@ namespace talus {
 
 /// What is kept of a run for the set.
 struct RunMember {
-  std::string file;  ///< of a run in a part: that it stood in, with its folder
+  std::string file;  ///< of a run in a part: its file before, with its folder
   RunInfo info;      ///< without config, made_with and plan, as large as a small run
   PassageGrid grid;
   int n_blocks = 0;
@@ -27,9 +27,9 @@ struct RunMember {
   std::int64_t unconverged = 0;                   ///< block steps accepted without convergence
   std::int64_t left_domain = 0;                   ///< blocks
   std::int64_t fell_through = 0, not_finite = 0;  ///< steps
-  std::string part;                               ///< file of the part that it stands in; "": none
-  double run_weight = 1;       ///< how much it counts among the others, 1 on average [-]
-  std::string settings;        ///< settings_digest()
+  std::string part;                               ///< file of the part that holds it; "": none
+  double run_weight = 1;                          ///< statistical weight, 1 on average [-]
+  std::string settings;                           ///< settings_digest()
   bool draws_for_all = false;  ///< something was drawn for all blocks of the run (made_with.hpp)
   // of blocks that moved alone, by add_release_cells()
   std::vector<int> release_cell;     ///< of the terrain, by its number                 (n_blocks)
@@ -42,7 +42,7 @@ struct RunMember {
 /// Adds the cells of the terrain that its blocks were released in, where each moved alone.
 void add_release_cells(RunMember& member, const RunFile& run, const Trn& trn);
 
-/// What a case counts among others.
+/// Statistical weight of a case.
 struct CaseWeight {
   std::string name;   ///< "": of runs without one
   double weight = 1;  ///< above 0; the sum of all is 1 after cases_of()
@@ -101,7 +101,7 @@ struct RunFaults {
 /// as they are left out; and whether they may be: their share is at most `most`.
 struct FailedShare {
   double share = 0;          ///< left out [-]
-  bool is_left_out = false;  ///< the failed ones; else they are evaluated like all others
+  bool is_left_out = false;  ///< the failed ones; else they are evaluated like the rest
 };
 [[nodiscard]] FailedShare failed_share(int n_runs, int n_failed, int n_missing, double most);
 

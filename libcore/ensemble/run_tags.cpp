@@ -1,3 +1,4 @@
+// Names and values with which every output identifies the runs that it was made from.
 #include "ensemble/run_tags.hpp"
 
 #include <algorithm>
