@@ -18,7 +18,7 @@
 
 namespace talus {
 
-/// Appends what it is called with.
+/// Appends its arguments.
 struct ByteWriter {
   static constexpr bool is_reading = false;
   std::vector<std::uint8_t> bytes;
@@ -37,7 +37,7 @@ struct ByteWriter {
 struct ByteReader {
   static constexpr bool is_reading = true;
   std::span<const std::uint8_t> bytes;
-  std::string file;  ///< what messages name
+  std::string file;  ///< path as messages name it
 
   void raw(void* begin, std::size_t n) {
     need(n);

@@ -1,3 +1,4 @@
+// Writes and reads checkpoints: every field of the state of a stopped run.
 #include "store/checkpoint.hpp"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 namespace talus {
 
-// --- what is stored of each struct -------------------------------------------------------------
+// --- stored fields of each struct --------------------------------------------------------------
 // A field added to one of these structs and forgotten here would be lost on --resume: the sizes
 // say that a list has to be looked at again.
 
@@ -23,7 +24,7 @@ static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
 static_assert(sizeof(MetBody) == 64 && sizeof(StemHit) == 80);
 static_assert(sizeof(FenceState) == 24 + sizeof(HitChain) && sizeof(HitChain) == 2 * 24);
 static_assert(sizeof(FenceHit) == 104);
-// Of the face of a bond what joints have: they do not give way as ground does.
+// Ground fields of a bond's face are those of joints: joints do not yield as ground does.
 static_assert(sizeof(BlockBond) == 40 + sizeof(GroundClass) && sizeof(GroundClass) == 128);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);

@@ -1,6 +1,6 @@
 // libcore/store/checkpoint.hpp: public
-// What a run needs to go on as if it had not been stopped: to the bit.
-// The rows recorded so far stand in the run file itself; here is the rest.
+// The state with which a stopped run continues to the same bits. The rows recorded so far are in
+// the run file itself; the checkpoint holds the rest.
 #pragma once
 
 #include <cstdint>

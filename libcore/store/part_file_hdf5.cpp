@@ -17,7 +17,7 @@ namespace {
 const char* const format_name = "talus-part";
 constexpr std::int64_t format_version = 4;
 
-// --- what runs share ---------------------------------------------------------------------------
+// --- data shared by runs -----------------------------------------------------------------------
 
 template <class T>
 void hash(Sha256& sum, const std::vector<T>& values) {
@@ -64,7 +64,7 @@ std::string digest_of(const std::vector<RecordObject>& objects) {
   return sum.hex();
 }
 
-// The index of what a digest stands for; `is_new` when it has not been seen before.
+// The index of a digest; `is_new` when it has not been seen before.
 int index_of(std::vector<std::pair<std::string, int>>& known, const std::string& digest,
              bool& is_new) {
   const auto at = std::lower_bound(known.begin(), known.end(), std::pair{digest, 0});

@@ -197,7 +197,7 @@ void read_object_hits(const H5Reader& file, const std::string& path, RunFile& ru
   check_object_hits(run, path);
 }
 
-// Only in runs with fences that stood.
+// Only in runs with fences.
 void write_fences(H5Writer& file, const RunFile& run) {
   if (run.panels.empty()) return;
   write_table(file, run.panels);
@@ -211,7 +211,7 @@ void read_fences(const H5Reader& file, const std::string& path, RunFile& run) {
   check_fences(run, path);
 }
 
-// Only in runs with forests that stood.
+// Only in runs with forests.
 void write_trees(H5Writer& file, const RunFile& run) {
   if (run.forests.empty()) return;
   std::vector<std::string> names;

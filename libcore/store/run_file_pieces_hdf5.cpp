@@ -1,3 +1,4 @@
+// Blocks, lines, grids and reach as HDF5: the parts that run files and part files share.
 #include "store/run_file_pieces_hdf5.hpp"
 
 #include <algorithm>
@@ -322,7 +323,7 @@ void check_breaks(const RunFile& run, const std::string& path) {
   const auto is_piece = [&](int piece, int of) {
     return piece >= 0 && piece < n_blocks(run) && parent[piece] == of;
   };
-  // Where only what is left was kept, nothing tells whose pieces they are.
+  // Where only the remaining pieces were kept, their parents are unknown.
   const auto is_known = [&](const Break& row) {
     if (parent.empty())
       return !run.blocks.body.empty() && row.block >= 0 && row.first_piece > row.block;

@@ -1,6 +1,6 @@
 // libcore/store/run_file_pieces_hdf5.hpp
-// What run files and parts of many runs have in common: blocks, lines, the grid of passages, the
-// reach of blocks, and what their rows may refer to.
+// Data that run files and parts of many runs have in common: blocks, lines, the grid of passages,
+// the reach of blocks, and checks of the indices in their rows.
 //
 // Within the module: run_file_hdf5.cpp and part_file_hdf5.cpp put them together.
 #pragma once
@@ -68,7 +68,7 @@ void put_indices(H5Writer& file, const std::string& path, const std::vector<int>
 /// entries.
 void check_begin(const std::vector<int>& begin, std::size_t n, std::size_t end, const Where& where);
 
-/// What the numbers of Phase mean, for whoever reads a file.
+/// Meaning of the numbers of Phase, for readers of a file.
 inline constexpr const char* phase_numbers =
     "at the end: 0 near the ground, 1 in flight, 2 asleep, 3 left the terrain, 4 stopped for want "
     "of finite numbers, 5 not there yet, 6 crushed, 7 broken into fragments";
@@ -96,7 +96,7 @@ void write_lines(H5Writer& file, const std::vector<RecordLine>& lines);
 void write_block_reach(H5Writer& file, const std::string& group, const RunReach& reach);
 [[nodiscard]] RunReach read_block_reach(const H5Reader& file, const std::string& group);
 
-/// Each throws InputError for a row that refers to what the run does not have. The first also tells
+/// Each throws InputError for a row that refers to a missing entry of the run. The first also tells
 /// crossings beside a line from those of the line.
 void check_crossings(RunFile& run, const std::string& path);
 void check_fences(const RunFile& run, const std::string& path);

@@ -1,3 +1,4 @@
+// Tables of a run as HDF5 groups, one array a field.
 #include "store/run_file_tables_hdf5.hpp"
 
 #include <string>

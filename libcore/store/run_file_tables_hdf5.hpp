@@ -1,8 +1,8 @@
 // libcore/store/run_file_tables_hdf5.hpp
 // Tables (record/tables.hpp) as groups of a file, one array a field.
 //
-// Within the module: run_file_hdf5.cpp and part_file_hdf5.cpp write and read what stands beside
-// them and check what rows refer to.
+// Within the module: run_file_hdf5.cpp and part_file_hdf5.cpp write and read the other data and
+// check the indices in rows.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ void write_table(H5Writer& file, const std::vector<Row>& rows);
 template <class Row>
 void write_table(H5Writer& file, std::size_t n,
                  const std::function<const Row&(std::size_t)>& row_at);
-/// `only_faults`: the fields that are kept as faults, the others stay zero. Throws InputError for
+/// `only_faults`: the fields that are kept as faults, the rest stays zero. Throws InputError for
 /// a field that is missing or not as long as the first.
 template <class Row>
 [[nodiscard]] std::vector<Row> read_table(const H5Reader& file, bool only_faults = false);

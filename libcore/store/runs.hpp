@@ -1,5 +1,5 @@
 // libcore/store/runs.hpp: public
-// The run registry: who ran what on which inputs, with which options and outcome. One SQLite file
+// The run registry: each run with user, inputs, options and outcome. One SQLite file
 // (WAL), shared by any number of processes; every write is one BEGIN IMMEDIATE transaction.
 // The tables are those of W3C PROV: run = Activity, artifact = Entity, run_input = used,
 // run_output = wasGeneratedBy. docs/reference/formats.md#registry
@@ -79,9 +79,8 @@ struct RegistryBusy : InputError {
   using InputError::InputError;
 };
 
-/// How long a write waits for another process that writes [ms]: a minute, or what the environment
-/// variable TALUS_REGISTRY_WAIT_S says [s]. Throws InputError when that is not a number from 0 to
-/// 3600.
+/// How long a write waits for another process that writes [ms]: a minute, or the environment
+/// variable TALUS_REGISTRY_WAIT_S [s]. Throws InputError when that is not a number from 0 to 3600.
 [[nodiscard]] int registry_wait_ms();
 
 /// Writes the run as it begins (status "running") and returns its row. Makes the registry when it
@@ -89,10 +88,10 @@ struct RegistryBusy : InputError {
 /// (all that write do).
 [[nodiscard]] std::int64_t start_run(const std::string& db, const RunRecord& run);
 
-/// Records what a run that still goes on has come to, before the first output is put in place:
-/// content id, inputs named since, outputs, metrics, events, checks. Who finds an output finds its
-/// ancestry and its health, though the run be killed the next moment. A run whose row is gone, with
-/// its registry, gets a new one; finish_run does the same.
+/// Records the results of a run in progress, before the first output is put in place: content id,
+/// inputs named since, outputs, metrics, events, checks. The registry entry is thus complete before
+/// any output has its name, even if the run is killed the next moment. A run whose row was lost
+/// with its registry gets a new one; finish_run does the same.
 void record_results(const std::string& db, const RunRecord& run);
 
 /// Completes the row `run.id`: outcome, times, and all that record_results writes.
@@ -101,8 +100,8 @@ void finish_run(const std::string& db, const RunRecord& run, int wait_ms = regis
 /// Writes a run that is over as a new row, and returns it.
 std::int64_t add_run(const std::string& db, const RunRecord& run, int wait_ms = registry_wait_ms());
 
-/// Takes over all runs of another registry: one that still goes on in `db` (same tool, host,
-/// process and start) is completed, any other is added. Returns how many there were.
+/// Takes over all runs of another registry: one in progress in `db` (same tool, host, process and
+/// start) is completed, any other is added. Returns how many there were.
 int adopt_runs(const std::string& db, const std::string& other);
 
 /// What merge_runs did with the runs of other registries.

@@ -122,7 +122,7 @@ SQLite::Database open_to_write(const std::string& db, int wait_ms) {
 
 bool may_write(const std::string& path) { return ::access(path.c_str(), W_OK) == 0; }
 
-// A copy in a folder that goes at once: what is open stays.
+// A copy in a folder that is deleted at once: the open file stays readable.
 SQLite::Database open_copy(const std::string& db) {
   std::string folder = (std::filesystem::temp_directory_path() / "talus-runs-XXXXXX").string();
   if (!::mkdtemp(folder.data())) refuse(db, "cannot be copied to " + folder);
@@ -225,7 +225,7 @@ void insert_files(SQLite::Database& database, const char* table, std::int64_t ru
   }
 }
 
-// Everything that a run tells of itself but its outcome; what was recorded of it before goes.
+// All data of a run but its outcome; its earlier records are deleted.
 void replace_results(SQLite::Database& database, const RunRecord& run) {
   insert(database, "UPDATE run SET content_id = ? WHERE id = ?", run.content_id, run.id);
   for (const char* table : {"run_input", "run_output", "metric", "event", "\"check\""})
@@ -333,7 +333,7 @@ std::int64_t row_of(SQLite::Database& database, const RunRecord& run) {
   return row.executeStep() ? row.getColumn(0).getInt64() : insert_running(database, run);
 }
 
-// The row `run.id` as it is now: also of a run that still goes on.
+// The row `run.id` as it is now: also of a run in progress.
 void complete(SQLite::Database& database, const RunRecord& run) {
   replace_results(database, run);
   insert(database,
@@ -367,8 +367,8 @@ bool is_same_run(const RunRecord& a, const RunRecord& b) {
 
 // --- merging -----------------------------------------------------------------------------------
 
-// What tells one run from all others. Process numbers repeat in containers, so where and with which
-// words it was started counts too.
+// Distinguishes one run from all other runs. Process numbers repeat in containers, so the folder
+// and the command line of its start count too.
 std::string identity_of(const RunRecord& run) {
   std::string words;
   for (const std::string& word : {run.tool, run.host, std::to_string(run.process_id), run.started,
@@ -379,7 +379,7 @@ std::string identity_of(const RunRecord& run) {
 
 struct RunSource {
   RunRecord run;
-  std::string db;  ///< that it stands in
+  std::string db;  ///< path of its registry
 };
 
 std::vector<RunSource> read_source(const std::string& db) {
@@ -411,7 +411,7 @@ std::vector<RunSource> read_sources(const std::vector<std::string>& files,
       left_out.emplace_back(error.what());
     }
   }
-  // Ancestry goes by rows: a run stands below those that made its inputs.
+  // Ancestry goes by rows: a run comes after those that made its inputs.
   std::stable_sort(sources.begin(), sources.end(), [](const RunSource& a, const RunSource& b) {
     return a.run.started < b.run.started;
   });

@@ -1,3 +1,4 @@
+// Writes a run for ParaView: XDMF 3 with the blocks' faces as polygons, frame by frame.
 #include "store/xdmf_hdf5.hpp"
 
 #include "base/text.hpp"
