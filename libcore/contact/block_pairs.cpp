@@ -1,3 +1,4 @@
+// Contacts between blocks: the list of close pairs, their axes and features, and grazing contacts.
 #include "contact/block_pairs.hpp"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ bool is_absent(const PairMotion& motion, int b) {
 }
 double turn_of(const PairMotion& motion, int b) { return motion.turn.empty() ? 0 : motion.turn[b]; }
 
-// All bodies that are not where they stood for good.
+// All bodies except fixed bodies in their first place.
 template <class Visit>
 void for_each_movable(const Hulls& hulls, const PairMotion& motion, Visit&& visit) {
   for (int b = 0; b < n_free(hulls, motion); ++b) visit(b);
@@ -174,7 +175,7 @@ void box_parts(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& 
   boxes.resize(n);
   for (int p = 0; p < n; ++p) {
     Box& box = boxes[p];
-    if (is_absent(motion, hulls.body[p])) {  // near nothing but what is where its centroid is
+    if (is_absent(motion, hulls.body[p])) {  // near nothing but bodies at its centroid
       box.low = box.high = placed.position[hulls.body[p]];
       continue;
     }
@@ -190,7 +191,7 @@ Box grown(Box box, double by) {
   return box;
 }
 
-// Adds the pairs of free parts with those of the fixed bodies that stand near them.
+// Adds the pairs of free parts with those of the fixed bodies near them.
 int add_fixed_pairs(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
                     const PairState& state, Arrangement& arrangement, PairWork& work) {
   TALUS_ASSERT(motion.grid != nullptr && motion.grid->n_bodies == motion.n_fixed);
@@ -218,7 +219,7 @@ int add_fixed_pairs(const Hulls& hulls, const PlacedHulls& placed, const PairMot
   return n_near;
 }
 
-// The new list; pairs that were listed before keep what is known of them. Travel starts anew, so
+// The new list; pairs that were listed before keep their axes and features. Travel starts anew, so
 // every pair is looked at once.
 void merge_list(PairState& state, PairWork& work) {
   work.next_watch.clear();
@@ -268,7 +269,7 @@ struct Search {
   const PairSettings& settings;
   PairState& state;
   Arrangement& arrangement;
-  const std::vector<double>& reach;  // with what the bodies may have moved since the list was made
+  const std::vector<double>& reach;  // with a bound on the bodies' motion since the list was made
   ListLook& look;
 };
 
@@ -433,7 +434,7 @@ void refresh(const Search& s, const PairWatch& watch, Lookup& now, ListedPair& p
   const double thickness =
       std::min(s.hulls.thickness[watch.part_a], s.hulls.thickness[watch.part_b]);
   const bool known = s.settings.use_cache && pair.touches && now.moved <= pair.hold;
-  // what passes by in a mass has other features soon anyway
+  // in a mass, a part that passes by has other features soon anyway
   const bool passes_by =
       closes_only(s, watch) && now.margin - s.settings.margin > passing_ratio * thickness;
   const double hold = (passes_by ? axis_slack : feature_slack) * thickness;
@@ -490,7 +491,7 @@ void append(const std::vector<T>& from, std::vector<T>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-// Puts what several looks found behind each other, in the order of the list.
+// Joins the findings of several looks, in the order of the list.
 void join_looks(std::span<const ListLook> looks, PairState& state, PairWork& work,
                 PairReport& report) {
   state.held.clear();
@@ -545,7 +546,7 @@ void look_at_list(const Hulls& hulls, const PlacedHulls& placed, const PairMotio
   join_looks(std::span(work.looks).first(n_looks), state, work, report);
 }
 
-// Manifolds by free block that bear it for certain: closed within `graze`, and not shallow
+// Manifolds, by free block, that certainly support it: closed within `graze`, and not shallow
 // themselves.
 void list_supports(const Hulls& hulls, const PairMotion& motion, const PairSettings& settings,
                    PairWork& work) {
@@ -577,7 +578,7 @@ void list_supports(const Hulls& hulls, const PairMotion& motion, const PairSetti
   }
 }
 
-// Does another block than `other` bear `block` along `direction`?
+// Does another block than `other` support `block` along `direction`?
 bool is_borne(const PairWork& work, int block, int other, const Vec3& direction) {
   for (int k = work.support_begin[block + 1]; k < work.support_begin[block + 2]; ++k) {
     const PairManifold& m = work.manifolds[work.supports[k]];
@@ -588,7 +589,7 @@ bool is_borne(const PairWork& work, int block, int other, const Vec3& direction)
   return false;
 }
 
-// A fixed body slides over nothing: what lies on it does not bear it.
+// A fixed body slides over nothing: a block on it does not support it.
 bool is_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
                 const PairSettings& settings, const PairManifold& m, PairWork& work) {
   const double least = -graze_height(hulls, settings, m.part_a, m.part_b);
@@ -609,7 +610,7 @@ bool is_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairMotion&
   return false;
 }
 
-// Takes out the manifolds whose number stands in `dropped`, and their points.
+// Removes the manifolds whose numbers are in `dropped`, and their points.
 void drop_manifolds(PairWork& work) {
   std::size_t kept = 0;
   int n_points = 0;

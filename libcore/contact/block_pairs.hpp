@@ -25,8 +25,8 @@ struct PairSettings {
   bool with_areas = false;  ///< areas are needed for bonds only
   /// A body that slides over a floor of several blocks grazes the sides of those that it has just
   /// reached: a contact is dropped as grazing when the parts overlap by less than this part of
-  /// their thickness (plus graze_m) along another face normal, and another block already bears the
-  /// body that way.
+  /// their thickness (plus graze_m) along another face normal, and another block already supports
+  /// the body in that direction.
   double graze_ratio = 5e-3;
   double graze_m = 0;          ///< at least the penetration that the solver leaves under load [m]
   bool use_cache = true;       ///< off: list and axes are searched anew each time, for tests
@@ -34,7 +34,7 @@ struct PairSettings {
   Workers* workers = nullptr;  ///< share the listed pairs; nullptr: there are none
 };
 
-/// A fixed body that stands elsewhere than it did first, for one free body alone.
+/// A fixed body that has moved from its first place, for one free body alone.
 struct ShiftedBody {
   int body = 0;
   Pose at_first, now;
@@ -48,15 +48,15 @@ class ShiftedBodies {
 };
 
 /// How far each body moves in the coming step, for margins and for the list's range. The last
-/// bodies of the hulls may be fixed: they need no contacts of their own, and only those that stand
-/// near a free one are looked at.
+/// bodies of the hulls may be fixed: they need no contacts of their own, and only those near a free
+/// body are looked at.
 struct PairMotion {  // clang-format off
   std::span<const Vec3> step;       ///< displacement of the centroid [m]; empty: none  (n_free)
   std::span<const double> turn;     ///< bound on motion by turning [m]; empty: none    (n_free)
   std::span<const std::uint8_t> awake;  ///< 0: needs no contacts of its own; empty: all (n_free)
   int n_fixed = 0;                  ///< the last bodies
-  const BodyGrid* grid = nullptr;   ///< the fixed bodies, where they stood first
-  std::span<const int> shifted = {};  ///< bodies: the fixed ones that stand elsewhere by now
+  const BodyGrid* grid = nullptr;   ///< the fixed bodies, in their first places
+  std::span<const int> shifted = {};  ///< the fixed bodies that have moved from their first places
   bool free_meet = true;            ///< free bodies meet each other
   const ShiftedBodies* own = nullptr;  ///< then none are in `shifted`, and travel of a fixed body
                                        ///< (PairState) is as long as all pushes together
@@ -152,7 +152,7 @@ struct PairWork {
 /// The list is made anew when a body has used up its budget, with boxes grown along the motion
 /// ahead and measured in a frame that moves with the bodies' mean, so that a mass that slides as a
 /// whole uses none. Deterministic; allocates only while its arrays still grow. `placed` is changed
-/// on the way where motion.own says so, and left as it was.
+/// temporarily where motion.own is given, and restored.
 PairReport find_pair_contacts(const Hulls& hulls, PlacedHulls& placed, const PairMotion& motion,
                               const PairSettings& settings, PairState& state, PairWork& work);
 

@@ -1,3 +1,4 @@
+// Puts bodies into the columns of a grid, and finds those near a box.
 #include "contact/body_grid.hpp"
 
 #include <algorithm>
@@ -38,8 +39,8 @@ void for_each_column(const BodyGrid& grid, const Vec2& low, const Vec2& high, Vi
       visit(static_cast<size_t>(y) * static_cast<size_t>(grid.nx) + static_cast<size_t>(x));
 }
 
-// Columns are as wide as the bodies, so that all of them together stand in a few times their
-// number, and no more of them than that where bodies are far apart.
+// Columns are as wide as the bodies, so that all entries together are a few times the number of
+// bodies, and there are no more columns than that where bodies are far apart.
 void choose_columns(std::span<const double> radius, const Vec2& low, const Vec2& high,
                     BodyGrid& grid) {
   double sum_sq = 0;

@@ -1,5 +1,5 @@
 // libcore/contact/body_grid.hpp: public
-// Bodies that stay where they are, by place: who stands near a box, without a look at all others.
+// Bodies that do not move, by place: finds those near a box without a look at all of them.
 // in:    centres and radii of balls around the bodies
 // out:   candidates for a box
 #pragma once
@@ -24,7 +24,7 @@ struct BodyGrid {  // clang-format off
 
 [[nodiscard]] BodyGrid make_body_grid(std::span<const Vec3> centre, std::span<const double> radius);
 
-/// Replaces `near` by the bodies that stand in the columns of `box`, ascending: at least those
+/// Replaces `near` by the bodies in the columns of `box`, ascending: at least those
 /// whose ball meets it. All of them where `box` is not finite.
 void find_near(const BodyGrid& grid, const Box& box, std::vector<int>& near);
 

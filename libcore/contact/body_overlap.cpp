@@ -1,3 +1,4 @@
+// Depth of overlap of two bodies: the shortest displacement that separates all their parts.
 #include "contact/body_overlap.hpp"
 
 #include <Eigen/LU>
@@ -10,7 +11,8 @@
 namespace talus {
 namespace {
 
-// No more than this are two parts in each other: what their faces say, a fraction of all axes.
+// Upper bound of the overlap of two parts, by their faces alone: a fraction of the cost of all
+// axes.
 double depth_by_faces(const PartPair& parts) {
   double depth = infinity;
   for_each_face_normal(parts, [&](const Vec3&, double separation, FaceCover) {
@@ -83,8 +85,9 @@ double path_along(const BodyOverlapScratch& scratch, std::size_t first, const Ve
   return at;
 }
 
-// Of the paths along the ways out of pairs that overlap those shorter than `least`. A path may be
-// shorter than its way's depth, as it leaves through other faces; `all`: those ways count too.
+// The shortest path out of all pairs, along one of the axes out of an overlapping pair, if it is
+// shorter than `least`. A path may be shorter than the depth along its axis, as it leaves through
+// other faces; `all`: try such axes too.
 double shorter_path(const BodyOverlapScratch& scratch, bool all, double least) {
   for (std::size_t pair = 0; pair + 1 < scratch.begin.size(); ++pair) {
     if (least_depth(scratch, pair) <= 0) continue;
@@ -114,7 +117,7 @@ int deepest_pair(const BodyOverlapScratch& scratch, const Vec3& x) {
   return deepest;
 }
 
-// Takes x where it goes far enough along all ways of `d`, and is shorter than what was found.
+// Takes x if it goes far enough along all axes of `d` and is shorter than the best so far.
 void take_shorter(const BodyOverlapScratch& scratch, const Vec3& x, Displacement& d) {
   const double length = x.norm();
   if (!(length < d.length)) return;
@@ -124,9 +127,9 @@ void take_shorter(const BodyOverlapScratch& scratch, const Vec3& x, Displacement
   d.length = length;
 }
 
-// The shortest displacement that goes to the end of the last way of `d` and as far along the others
-// as these ask for: it ends on one, two or three of the planes. False: there is none, or it is no
-// shorter than `least`.
+// The shortest displacement that goes to the end of the last axis of `d` and as far along the rest
+// as they require: it ends on one, two or three of the planes. False: there is none, or it is at
+// least as long as `least`.
 bool shorten(const BodyOverlapScratch& scratch, double least, Displacement& d) {
   const auto way = [&](int i) -> const WayOut& { return scratch.ways[d.ways[i]]; };
   const int last = d.n_ways - 1;
@@ -150,8 +153,8 @@ bool shorten(const BodyOverlapScratch& scratch, double least, Displacement& d) {
 }
 
 // The shortest of all displacements that lead out of every part, if one is shorter than `least`.
-// Tried from the shortest on, each asks for a way out of the part that A is in deepest: the first
-// that is out of all parts is the shortest.
+// Tried from the shortest on, each is extended along an axis out of the part that A is in deepest:
+// the first that is out of all parts is the shortest.
 double least_displacement(double least, BodyOverlapScratch& scratch) {
   std::vector<Displacement>& heap = scratch.tried;
   const auto is_longer = [](const Displacement& a, const Displacement& b) {
@@ -188,7 +191,7 @@ double body_overlap(const Hulls& hulls, const PlacedHulls& placed, int body_a, i
     ++n_pairs;
     deepest = std::max(deepest, depth_by_faces(parts));
   });
-  // out of one of several parts may be into the next: what faces say then bounds nothing
+  // out of one of several parts may be into the next: then the bound by faces does not hold
   if (deepest <= (n_pairs == 1 ? ignored : 0)) return 0;
   for_each_pair(hulls, placed, body_a, body_b,
                 [&](const PartPair& parts) { add_ways(parts, scratch); });

@@ -18,7 +18,7 @@ struct WayOut {
   double depth = 0;          ///< [m]
 };
 
-/// A displacement of A and the ways out that it goes to the end of, or beyond.
+/// A displacement of A and the axes along which it goes to the end of the overlap, or beyond.
 struct Displacement {
   static constexpr int most_ways = 6;
   Vec3 x = Vec3::Zero();
@@ -30,7 +30,7 @@ struct Displacement {
 /// Arrays that body_overlap fills anew; kept to spare allocation.
 struct BodyOverlapScratch {
   std::vector<WayOut> ways;         ///< pair of parts by pair
-  std::vector<int> begin;           ///< of each pair's ways
+  std::vector<int> begin;           ///< of each pair's axes
   std::vector<Displacement> tried;  ///< a heap, the shortest first
 };
 

@@ -1,5 +1,5 @@
 // libcore/contact/contact.hpp: public
-// One contact of a block, and what is remembered of it from step to step.
+// One contact of a block, and its memory from step to step.
 // paper: Zhang et al. 2018, Fig. 7 (modes) and Eq. (8)-(24); theory 1.6: one form for the modes
 #pragma once
 

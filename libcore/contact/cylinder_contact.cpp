@@ -1,3 +1,4 @@
+// Contact of a convex part with a vertical cylinder, such as the stem of a tree.
 #include "contact/cylinder_contact.hpp"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ struct PlanView {
     return low;
   }
 
-  // Direction in which the axis stands outside, and how far. Where all of the part is on one side
+  // Direction and distance at which the axis is outside. Where all of the part is on one side
   // of the axis, the nearest point of an edge is that of the outline, since all edges lie in it.
   [[nodiscard]] bool is_outside(Vec2& direction, double& distance) const {
     Vec2 nearest = Vec2::Zero();
@@ -59,7 +60,7 @@ struct PlanView {
     return lowest_along(direction) >= distance - rounding * hulls.radius[hulls.body[part]];
   }
 
-  // The axis stands in the part: the direction to push it along the shortest way out.
+  // The axis is inside the part: the direction to push it out over the shortest distance.
   void find_way_out(Vec2& direction, double& distance) const {
     distance = -infinity;
     for_each_edge([&](int, const HullEdge& edge) {

@@ -1,3 +1,4 @@
+// Clips a face of one convex part by the sides of a face of another.
 #include "contact/face_clip.hpp"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ ClipCorner crossing(const Side& side, const ClipCorner& p, const ClipCorner& q, 
   return corner;
 }
 
-// Keeps what lies on the inner side (Sutherland-Hodgman); a corner on the side stays as it is.
+// Keeps the part on the inner side (Sutherland-Hodgman); a corner on the side stays as it is.
 void clip(const Side& side, std::vector<ClipCorner>& polygon, std::vector<ClipCorner>& clipped) {
   bool all_inside = true;
   for (const ClipCorner& p : polygon) all_inside &= inside_by(side, p) >= -side.tolerance;

@@ -12,7 +12,7 @@
 
 namespace talus {
 
-/// The face that clips (reference) and the face that is clipped (incident), and who they belong to.
+/// The face that clips (reference) and the face that is clipped (incident), and their parts.
 struct FacePair {
   int reference_part, incident_part;
   int reference_face, incident_face;  ///< slots
@@ -39,7 +39,7 @@ struct ClipCorner {
   ContactMode mode = ContactMode::vertex_face;  ///< seen from the incident part
   int incident = -1;   ///< corner of the incident loop, or its edge (mode edge_edge)
   int reference = -1;  ///< corner of the reference loop, or its side (mode edge_edge)
-  int next_side = 0;   ///< what leads to the next corner: incident edge i, or reference side -1 - k
+  int next_side = 0;   ///< line to the next corner: incident edge i, or reference side -1 - k
 };
 
 /// Arrays that find_features fills anew; kept to spare allocation.
@@ -48,8 +48,9 @@ struct ClipScratch {
   std::vector<Vec2> reference;  ///< corners of the reference face in its frame [m]
 };
 
-/// Fills the scratch anew: `reference`, and `polygon` with what of the incident face lies above the
-/// reference face, seen along its normal. Points within 1e-6 of the smaller thickness of a side
+/// Fills the scratch anew: `reference`, and `polygon` with the part of the incident face that lies
+/// above the reference face, seen along its normal. Points within 1e-6 of the smaller thickness of
+/// a side
 /// count as on it.
 FaceFrame clip_incident_face(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair,
                              ClipScratch& scratch);

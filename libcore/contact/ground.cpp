@@ -1,3 +1,4 @@
+// Makes the terrain ready for the contact search: flags of convex features and elevation bounds.
 #include "contact/ground.hpp"
 
 #include <utility>

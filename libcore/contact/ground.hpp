@@ -32,7 +32,7 @@ struct Ground {
 }
 
 /// Calls visit(class, share) for each part of a straight displacement that lies over one class, in
-/// order; what is off the grid is left out.
+/// order; parts off the grid are left out.
 template <class Visit>
 void for_each_class_below(const Ground& ground, const Vec3& from, const Vec3& to, Visit&& visit) {
   int last = -1;

@@ -1,3 +1,4 @@
+// Depth of overlap of a body and the ground, independent of contacts.
 #include "contact/ground_depth.hpp"
 
 #include <algorithm>
@@ -54,7 +55,7 @@ double depth_of_point(const Trn& trn, const Vec3& x) {
   return depth;
 }
 
-// Cuts off of a polygon what lies beyond a plane.
+// Cuts off the part of a polygon beyond a plane.
 void clip(const Vec3& normal, double offset, GroundDepthScratch& scratch) {
   const std::vector<Vec3>& from = scratch.polygon;
   scratch.clipped.clear();
@@ -68,8 +69,8 @@ void clip(const Vec3& normal, double offset, GroundDepthScratch& scratch) {
   scratch.polygon.swap(scratch.clipped);
 }
 
-// Is any point of a triangle inside a part, and `depth` inside of what of its faces is the body's
-// surface?
+// Is any point of a triangle inside a part, and `depth` inside those of its faces that are the
+// body's surface?
 bool reaches(const Hulls& hulls, const PlacedHulls& placed, int part, const Corners& corners,
              double depth, GroundDepthScratch& scratch) {
   scratch.polygon.assign(corners.begin(), corners.end());

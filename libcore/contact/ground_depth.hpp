@@ -1,8 +1,8 @@
 // libcore/contact/ground_depth.hpp: public
 // How deep a body and the ground are in each other, as bodies: no contact is asked.
 // in:    a placed body, the terrain
-// out:   the least motion, at least, that frees the body's deepest vertex and what of the ground
-//        stands deepest in it
+// out:   the least motion, at least, that frees the body's deepest vertex and the deepest part of
+//        the ground in it
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// Finds contacts of convex nodes and edges of the ground with faces and edges of a block.
 #include "contact/ground_features.hpp"
 
 #include <algorithm>
@@ -18,11 +19,12 @@ using std::size_t;
 
 // Bounds of the sine below which a block's face and a ridge count as parallel: the margin over the
 // block's radius, by which a face that rests on a ridge may be pressed in farther at one end than
-// at the other. The lower one is ten times what ground_flags calls flat.
+// at the other. The lower one is ten times the slope that ground_flags takes as flat.
 constexpr double least_parallel = 1e-3;
 constexpr double most_parallel = 0.03;
 constexpr double explained = 2;    // of its depth: so near to another overlap it is part of that
-constexpr double at_node = 0.01;   // of half the thickness: so far beyond its ends a ridge bears
+constexpr double at_node = 0.01;   // of half the thickness: a ridge supports this far beyond its
+                                   // ends
 constexpr double blunt_cos = 0.1;  // of the normals beside a ridge: a normal between is along both
 constexpr double searches_ahead = 10;  // a list of features is to last for so many ...
 constexpr double least_skin = 5e-3;    // ... of the radius
@@ -33,11 +35,11 @@ double parallel_within(double margin, double radius) {
   return std::clamp(margin / radius, least_parallel, most_parallel);
 }
 
-/// A search for contacts, or for what a list needs.
+/// A search for contacts, or for the features of a list.
 struct FeatureSearch : PlacedBlock {
   double margin;
   double nearly_parallel;  // sine
-  double strained;         // bound on what strains move vertices by [m]
+  double strained;         // bound on the displacement of vertices by strains [m]
   double skin = 0;         // by which the block may have moved, to make a list [m] ...
   double turn = 0;         // ... and may have turned, as a chord
   int n_put_off = 0;       // deep overlaps that another feature may explain better
@@ -174,7 +176,7 @@ void find_mode_2(FeatureSearch& s, int row, int col, std::vector<Contact>& conta
 }
 
 /// Vertices of a block above the planes on either side of a ridge by more than the margin, as bits.
-/// The ground at a ridge is what lies below both planes: an edge between two vertices above the
+/// The ground at a ridge is the region below both planes: an edge between two vertices above the
 /// same one is clear of it.
 struct AboveRidge {
   static constexpr size_t most = 64;  // vertices; of a block with more nothing is known
@@ -198,7 +200,7 @@ bool is_above(const Vec3& normal, const Vec3& at, const Vec3& point, double clea
 
 constexpr std::uint64_t all_edges = ~std::uint64_t{0};
 
-/// An edge of the ground and what it meets blocks with.
+/// An edge of the ground and its geometry for the search.
 struct Ridge {
   Vec3 end_a, end_b;          // local axes
   Vec3 Q, f;                  // end_a and the path to end_b, body axes
@@ -223,7 +225,7 @@ void add_edge_contact(FeatureSearch& s, const Ridge& ridge, size_t i, double dee
   const Vec3 up = s.to_local.transpose() * Vec3::UnitZ();
   const LinePair crossing = overlap ? crossing_seen_along(up, P, e, Q, f) : at;
   normal.normalize();
-  // Ridges that meet at a node both bear an edge above it: by turns they would bear nothing.
+  // Ridges that meet at a node both support an edge above it: taken by turns they would not.
   const double beyond = std::clamp(normal.dot(Q - P), 0.0, at_node * deepest) / f.norm();
   if (!is_within(at, beyond)) at = crossing;
   if (!is_within(at, beyond)) return;
@@ -246,7 +248,7 @@ void add_edge_contact(FeatureSearch& s, const Ridge& ridge, size_t i, double dee
   contacts.push_back(contact);
 }
 
-/// A ridge that the block may touch, and what tells which of its edges cannot.
+/// A ridge that the block may touch, and bounds that exclude some of its edges.
 struct NearRidge {
   Ridge ridge;
   Vec3 left, right;    // normals beside it, local axes
@@ -420,7 +422,7 @@ constexpr std::pair<std::uint8_t, EdgeKind> convex_edges[] = {
     {trn_flag::convex_south, EdgeKind::south},
     {trn_flag::convex_diagonal, EdgeKind::diagonal}};
 
-// Modes 2 and 3 of what `flags` says of a node.
+// Modes 2 and 3 at a node with these `flags`.
 void find_features_at(FeatureSearch& s, int row, int col, std::uint8_t flags, std::uint64_t among,
                       std::vector<Contact>& contacts) {
   if (flags & trn_flag::convex_vertex) find_mode_2(s, row, col, contacts);
@@ -449,7 +451,7 @@ double moved(const Pose& from, const Pose& to, double radius) {
          2 * radius * (to.attitude.coeffs() - from.attitude.coeffs()).norm();
 }
 
-// Lists what may touch the block of `s` within `near.skin` and `near.margin`.
+// Lists features that may touch the block of `s` within `near.skin` and `near.margin`.
 void list_features(const FeatureSearch& s, NearFeatures& near) {
   const double radius = s.shapes.radius[s.b];
   FeatureSearch around = s;

@@ -1,7 +1,7 @@
 // libcore/contact/ground_features.hpp
 // Modes 2 and 3 of Fig. 7: convex nodes of the ground against faces of a block, convex edges
 // against its edges. Within the module, for search.cpp.
-// in:    ground, block where it is, candidate cells; what earlier searches left
+// in:    ground, block where it is, candidate cells; the list of earlier searches
 // out:   contacts whose gap is below the margin
 // theory: 2.2-2.5
 #pragma once

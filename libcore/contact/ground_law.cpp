@@ -1,3 +1,4 @@
+// Law of the ground: friction after slip, rolling resistance, dents and restitution.
 #include "contact/ground_law.hpp"
 
 #include <algorithm>

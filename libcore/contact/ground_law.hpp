@@ -1,6 +1,6 @@
 // libcore/contact/ground_law.hpp: public
-// The law of the ground: the numbers of a class of ground, and what they make of an approach, a
-// slip, a roll and a displacement. All solvers read it from here.
+// The law of the ground: the numbers of a class of ground, and restitution, friction, rolling
+// resistance and drag that follow from them. All solvers read it from here.
 // theory 1.13; docs/reference/site-file.md
 #pragma once
 
@@ -69,8 +69,8 @@ struct RestitutionFall {
 /// How the restitution on `ground` falls for a block of `mass` [kg].
 [[nodiscard]] RestitutionFall fall_on(const GroundClass& ground, double mass);
 
-/// tan(phi) of ground at slip `speed` after a slid distance of `way`; and its mean over a path that
-/// goes on from there, exact in the work of friction that follows the slid distance.
+/// tan(phi) of ground at slip `speed` after a slid distance of `way`; and its mean over a further
+/// path, exact in the work of friction that follows the slid distance.
 [[nodiscard]] double friction_on(const GroundClass& ground, double speed, double way);
 [[nodiscard]] double mean_friction(const GroundClass& ground, double speed, double way,
                                    double path);

@@ -1,3 +1,4 @@
+// Convex parts of all blocks: made from a block set, then placed at the pose of each body.
 #include "contact/hulls.hpp"
 
 #include <Eigen/Geometry>
@@ -23,8 +24,8 @@ struct DraftFace {
   std::vector<Vec3> corners;
   double area = 0;
   int tag = 0;
-  bool internal = false;  // covered by other parts, or by a body that stands beside this one
-  bool partly = false;    // covered in part: what is bare of it stops
+  bool internal = false;  // covered by other parts, or by a body beside this one
+  bool partly = false;    // covered in part: the uncovered rest stops bodies
 };
 
 struct DraftPart {

@@ -27,7 +27,7 @@ struct HullEdge {
   int arc_left = 0, arc_right = 0;  ///< normals of the body's surface at the edge: its Gauss arc
 };
 
-/// Convex parts at rest, in body axes (origin at the body's centroid). Parts stand body by body.
+/// Convex parts at rest, in body axes (origin at the body's centroid), ordered by body.
 struct Hulls {  // clang-format off
   // bodies
   std::vector<int> part_begin{0};     ///< parts of body b: [b], [b + 1)                 (n_bodies + 1)

@@ -1,3 +1,4 @@
+// Contact points of two convex parts along a given axis.
 #include "contact/manifold.hpp"
 
 #include <Eigen/Geometry>
@@ -256,8 +257,8 @@ void add_crossing(const Hulls& hulls, const PlacedHulls& placed, int part_a, int
   points.push_back({held.key, on_b, gap, held.area});
 }
 
-// Edges that are chosen bear at one point, and a push beside it turns the blocks into each other
-// before another contact is known: where a face is nearly as good, its corners are contacts too.
+// An edge pair has one contact point, and a force beside it turns the blocks into each other before
+// another contact is known: where a face is nearly as good, its corners are contacts too.
 void prefer_near_face(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
                       AxisChoice& choice) {
   if (choice.near_face.kind == AxisKind::none) return;

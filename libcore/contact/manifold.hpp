@@ -40,7 +40,7 @@ struct PairManifold {
 
 [[nodiscard]] inline bool has_points(const PairManifold& m) { return m.point_end > m.point_begin; }
 
-/// The features of a contact, without their places: what stays while the parts hardly move.
+/// The features of a contact without their places: they stay while the parts hardly move.
 struct HeldPoint {
   ContactKey key;
   double area = 0;  ///< [m2]
@@ -88,9 +88,9 @@ struct ContactSearch {
 
 /// find_axis, then find_features, which are appended to `held`. Edges with a face in nearly their
 /// direction are used as that face and its near edges. Where a face is preferred to the axis of the
-/// largest separation, but what lies above that face is not as deep, the latter is used after all,
-/// for one step: of two faces of a block that are nearly one plane, the other block may press on
-/// the one that it did not press on before.
+/// largest separation, but no point above that face is as deep, the axis is used after all, for one
+/// step: of two faces of a block that are nearly one plane, the other block may press on the one
+/// that it did not press on before.
 [[nodiscard]] ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed,
                                            int part_a, int part_b, double margin,
                                            const PairAxis& last, bool with_areas,

@@ -1,3 +1,4 @@
+// Finds overlapping boxes by strips, each sorted along one axis.
 #include "contact/neighbours.hpp"
 
 #include <algorithm>

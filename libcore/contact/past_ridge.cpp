@@ -1,3 +1,4 @@
+// Depth of a block in a ridge that one of its vertices has crossed.
 #include "contact/past_ridge.hpp"
 
 #include <algorithm>

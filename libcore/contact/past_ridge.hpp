@@ -1,5 +1,5 @@
 // libcore/contact/past_ridge.hpp: public
-// How deep a block stands in a ridge that one of its vertices has crossed.
+// Depth of a block in a ridge that one of its vertices has crossed.
 // in:    ground, block, its contacts
 // out:   an overlap that none of the contacts reports
 #pragma once
@@ -14,11 +14,11 @@
 namespace talus {
 
 /// Depth of block b in a ridge that one of its vertices has crossed, where no contact reports half
-/// as much [m]; 0 when there is none. The vertex stands on or in the triangle beyond the ridge, and
-/// its contact says nothing of the edge that leads from it back under the ridge; what leads out
-/// soonest may be a plane that the vertex does not stand on any more. The height from that edge up
-/// to the ridge times the cosine of the steeper slope beside it. `vertices`: those of the block at
-/// its pose; `contacts`: what find_contacts() found there; depths up to `least` count as none.
+/// as much [m]; 0 when there is none. The vertex is on or in the triangle beyond the ridge, and its
+/// contact says nothing of the edge that leads from it back under the ridge; the shortest direction
+/// out may be normal to a plane that the vertex has left. The height from that edge up to the ridge
+/// times the cosine of the steeper slope beside it. `vertices`: those of the block at its pose;
+/// `contacts`: result of find_contacts() there; depths up to `least` count as none.
 [[nodiscard]] double depth_past_ridge(const Ground& ground, const Shapes& shapes, int b,
                                       std::span<const Vec3> vertices,
                                       const std::vector<Contact>& contacts, double least);

@@ -1,3 +1,4 @@
+// Finds all contacts of a block with the ground at a pose: modes 1, 2 and 3 of Fig. 7.
 #include "contact/search.hpp"
 
 #include <algorithm>

@@ -17,8 +17,8 @@ namespace talus {
 
 /// What the search found besides the contacts.
 struct SearchResult {
-  /// `off_ground` also when a vertex lies beyond the known ground and the block is not above it:
-  /// what would bear or stop it there is not known.
+  /// `off_ground` also when a vertex lies beyond the known ground and the block is not above it: it
+  /// is not known whether ground would support or stop it there.
   Reach reach = Reach::off_ground;
   double clearance = 0;  ///< when above: lowest vertex over the highest candidate ground [m]
 };
@@ -31,7 +31,7 @@ struct SearchResult {
 /// neighbours. That leaves nothing to collide with on flat or concave ground; of deep ones that
 /// another face or edge may explain better, those that nothing else found explains. `stretch` = I +
 /// strain moves the vertices in body axes. `vertices` is scratch: the block's vertices at the pose.
-/// `near`: what the last searches for this block leave for the next; none: every search is whole.
+/// `near`: features that the last searches for this block left; none: every search is whole.
 SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, const Pose& pose,
                            const Mat3& stretch, double margin, std::vector<Vec3>& vertices,
                            std::vector<Contact>& contacts, NearFeatures* near = nullptr);

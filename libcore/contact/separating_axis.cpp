@@ -1,3 +1,4 @@
+// Finds the axis along which two convex parts are farthest apart, or overlap least.
 #include "contact/separating_axis.hpp"
 
 #include <Eigen/Geometry>
@@ -18,10 +19,11 @@ namespace {
 using Parts = PartPair;
 
 constexpr double none = -infinity;
-// Edges parallel within a degree bear where no face is nearer to their direction than 8 degrees.
+// Edges parallel within a degree are an axis where no face is nearer to their direction than 8
+// degrees.
 constexpr double no_face_cos = 0.990268068741570;
-// Of bodies of several parts: what is nearer than this part of the thickness may be the same place
-// on both sides of a seam; what is not this part of its depth is as good as free.
+// For bodies of several parts: points nearer than this part of the thickness may be the same place
+// on both sides of a seam; an overlap below this part of its depth counts as free.
 constexpr double seam_ratio = 5e-3;
 constexpr double longest_hold = 0.05;  // [m], of an axis
 
@@ -53,9 +55,9 @@ struct BesideFace {
 };
 
 // Whether edges that are parallel within a degree are an axis of their own. Along a face their
-// parts are farther in than along them by the way from where they cross to the end of one, times
-// the sine of their angle: the less that is, the less tells them from an edge that rests on a face
-// all along, so they need as much less above it as their angle is less than a degree.
+// parts are farther in than along the edges by d sin(angle), d the distance from their crossing to
+// the end of one edge. The smaller that is, the less it differs from an edge that rests on a face
+// all along: the bar above the face is as much lower as their angle is less than a degree.
 bool cross_beside(const BesideFace& face, const Vec3& normal, double separation, double sine_sq) {
   return normal.dot(face.normal) < no_face_cos &&
          separation > face.separation + face.bar_per_sine * std::sqrt(sine_sq);
@@ -117,8 +119,8 @@ const Vec3& nearest_vertex(const Parts& parts, int part, const AxisScratch& scra
 // part has over the plane through the edge, and where that point is behind the planes of both faces
 // it is no higher over that one than over the higher of them. The centroid of the other body tells
 // so of the edges on the far side, its vertex that is nearest to the part's best face of most
-// others: it lies behind all faces beside that one. `least` <= 0, and any edge where it is not
-// finite.
+// remaining ones: it lies behind all faces beside that one. `least` <= 0, and any edge where it is
+// not finite.
 int near_edges(const Parts& parts, int part, bool inner, double least, AxisScratch& scratch,
                std::vector<int>& found) {
   const Hulls& hulls = parts.hulls;
@@ -256,7 +258,7 @@ struct Axis {
   double separation = none;
 };
 
-// The least overlap along what of two parts lies bare.
+// The least overlap along the uncovered faces of two parts.
 Axis bare_axis(const Parts& parts) {
   Axis best;
   const auto consider = [&best](const Vec3& normal, double separation) {
@@ -279,7 +281,7 @@ void for_each_other_pair(const Parts& parts, Visit&& visit) {
       if (a != parts.a || b != parts.b) visit(Parts{hulls, parts.placed, a, b});
 }
 
-// Moves A on by what is missing of an overlap.
+// Extends the displacement of A by the rest of an overlap.
 void move_out(const Axis& axis, Vec3& moved) {
   if (axis.separation >= 0) return;
   moved += std::max(0.0, -axis.separation - axis.normal.dot(moved)) * axis.normal;
@@ -307,8 +309,9 @@ bool leads_out(const Parts& parts, const Axis& axis, double seam) {
   return is_free;
 }
 
-// Whether what other parts of the bodies bear, each less deep than these parts along their own axis
-// and in another direction, frees these parts too. So the least deep of all is never left out.
+// Whether the contacts of other parts of the bodies, each less deep than these parts along their
+// own axis and in another direction, free these parts too. So the least deep of all is never left
+// out.
 bool others_free(const Parts& parts, const Axis& own) {
   Vec3 moved = Vec3::Zero();
   for_each_other_pair(parts, [&](const Parts& other) {
@@ -396,7 +399,7 @@ double keep_bonus(const FaceAxis& last, double thickness) {
 // Edges with a separation below this change nothing: they are neither chosen nor noted beside the
 // best face, of separation `face`, nor do they shorten a hold of `longest`.
 double least_edges(double face, double thickness, double longest) {
-  constexpr double ample = 2;  // what a face may be below the best one, and edges below that
+  constexpr double ample = 2;  // depth of a chosen face below the best one, and of edges below that
   const double bonus = std::max(hardly_better * std::abs(face), axis_slack * thickness);
   return std::min(0.0, face - 2 * longest - 2 * ample * bonus);
 }
@@ -541,7 +544,7 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const double longest = std::min(longest_hold, axis_slack * radius);
   const bool pieces = has_pieces(hulls, part_a) || has_pieces(hulls, part_b);
   const double least = pieces ? none : least_edges(farthest.separation, thickness, longest);
-  // what edges need above the best face: half as much when an edge pair was chosen last
+  // bar of edges above the best face: half as much when an edge pair was chosen last
   const double edge_bar = feature_slack * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
   const BesideFace face{to_a(parts, farthest), farthest.separation,
                         edge_bar / std::sqrt(parallel_sin_sq)};
@@ -572,7 +575,8 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
     }
     covered.is_chosen = true;
   }
-  const double bar = edges.nearly_parallel ? 0 : edge_bar;  // what they need, they have
+  const double bar = edges.nearly_parallel ? 0 : edge_bar;  // nearly parallel edges have passed
+                                                            // their bar already
   AxisChoice choice;
   if (edges.separation > best.separation + bar) {
     const double near = axis_slack * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);

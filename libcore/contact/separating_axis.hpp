@@ -56,7 +56,7 @@ struct FaceAxis {
 struct AxisScratch {
   std::vector<double> face_a, face_b;  ///< separation along the faces of A, of B [m]
   std::vector<double> dots_a, dots_b;  ///< edge directions times the other part's normals
-  std::vector<int> edges_a, edges_b;   ///< edges of A, of B, that may bear or separate
+  std::vector<int> edges_a, edges_b;   ///< edges of A, of B, that may touch or separate
   std::vector<double> heights;         ///< of two points of the other body over the faces [m]
   std::vector<FaceAxis> doubtful;      ///< of faces that other parts of their bodies cover
   std::vector<int> crossing;           ///< of edges_b, those whose arcs cross that of an edge of A

@@ -1,3 +1,4 @@
+// Surfaces of all blocks for the contact search, in body axes.
 #include "contact/shapes.hpp"
 
 #include <Eigen/Geometry>

@@ -1,7 +1,6 @@
 // libcore/contact/shapes.hpp: public
 // The surfaces of all blocks as the contact search reads them, in body axes: origin at the
-// centroid, axes along the principal axes of inertia. Flat arrays; what belongs to block b stands
-// together.
+// centroid, axes along the principal axes of inertia. Flat arrays, ordered by block.
 #pragma once
 
 #include <span>

@@ -1,3 +1,4 @@
+// Joint faces in contact and overlapping blocks before anything moves.
 #include "contact/start_contacts.hpp"
 
 #include <algorithm>
@@ -35,8 +36,8 @@ std::vector<std::array<int, 2>> close_parts(const Hulls& hulls, const PlacedHull
   return pairs;
 }
 
-// Pairs of a part of a body below number `n_moving` and one that stands, whose boxes overlap. What
-// moves may lie in one place by the thousand, so that its pairs must not be looked at.
+// Pairs of a part of a body below number `n_moving` and a part of a fixed one, whose boxes overlap.
+// Moving bodies may lie in one place by the thousand, so their pairs must not be looked at.
 std::vector<std::array<int, 2>> close_to_standing(const Hulls& hulls, const PlacedHulls& placed,
                                                   int n_moving) {
   const std::vector<Box> boxes = boxes_of(hulls, placed, 0);

@@ -1,5 +1,5 @@
 // libcore/contact/start_contacts.hpp: public
-// Who touches whom before anything moves: joint faces in contact, where bonds act, and overlaps,
+// Blocks that touch before anything moves: joint faces in contact, where bonds act, and overlaps,
 // which are an error of the input.
 // in:    hulls placed as cut
 // theory: docs/theory/theory.md 1.7 (bond areas)
@@ -39,8 +39,8 @@ struct BlockOverlap {
 };
 
 /// All pairs of blocks that overlap by more than `tolerance` [m], deepest first. Bodies from
-/// number `n_moving` on stand still: their pairs among themselves are left out. So are, without
-/// `among_moving`, those of the others.
+/// number `n_moving` on are fixed: their pairs among themselves are left out. So are, without
+/// `among_moving`, those of the moving bodies.
 [[nodiscard]] std::vector<BlockOverlap> block_overlaps(
     const Hulls& hulls, const PlacedHulls& placed, double tolerance,
     int n_moving = std::numeric_limits<int>::max(), bool among_moving = true);
