@@ -1,5 +1,5 @@
 // libcore/solver/angular_row.hpp: public
-// A couple between two bodies beside the impulses at their points: what resists rolling and
+// A couple between two bodies besides the impulses at their points: resistance to rolling and
 // pivoting. It holds the relative spin by damping, the part along the contacts' mean normal and the
 // part across each up to an arm times the normal impulses of the same pair in the same step. The
 // contact law with spin for velocity: evaluate() and tangent() in solver/one_contact.hpp.
@@ -51,8 +51,8 @@ struct AngularRow {
   int arm_begin = 0;                ///< of the arms of the pair's rows
   double damping = 0;               ///< couple impulse per spin while it holds, > 0 [kg m2]
   double inertia = 0;               ///< that it turns, about; 0: it never aims [kg m2]
-  bool is_off = false;              ///< it bears nothing, whatever the rows bear
-  Vec3 held_normal = Vec3::Zero();  ///< stands for the mean normal, where not zero
+  bool is_off = false;              ///< the couple is zero, whatever the rows carry
+  Vec3 held_normal = Vec3::Zero();  ///< replaces the mean normal, where not zero
   // at the last evaluation
   Vec3 couple = Vec3::Zero();  ///< on A; B gets the opposite [N m s]
   Vec3 normal = Vec3::Zero();  ///< mean normal, unit; zero: nothing presses

@@ -1,3 +1,4 @@
+// LU factorisation of a sparse matrix of dense blocks with a symmetric pattern.
 #include "solver/block_lu.hpp"
 
 #include <algorithm>

@@ -1,14 +1,15 @@
 // libcore/solver/contact_law.hpp
 // Law talus: the impulse of a contact as a function of the velocity of its point, once for a lone
 // block and an impact (V = double: solver/one_contact.hpp) and for an island (V = lanes of two or
-// four contacts: solver/row_lanes.hpp). in:    velocity of the point, and what the contact is
-// (fields of LawRow, over an accessor) out:   impulse, state, tangents paper: Eq. (16)-(24) and the
-// three patterns of Fig. 8; theory 1.7 (return mapping), 1.8
+// four contacts: solver/row_lanes.hpp).
+// in:    velocity of the point, numbers of the contact (fields of LawRow, over an accessor)
+// out:   impulse, state, tangents
+// paper: Eq. (16)-(24) and the three patterns of Fig. 8; theory 1.7 (return mapping), 1.8
 //
 // The law works with impulses over a step. Normal: p_n = max(0, -D_n (v_n + b)), where b holds
 // the overlap at the start of the step, so that a resting contact of stiffness k_n presses with k_n
 // times its overlap, and one that just closes takes the approach away and no more; where the other
-// side gives way at a force (a panel of a fence), p_n stays at that limit. Tangent: the
+// side yields at a force (a panel of a fence), p_n stays at that limit. Tangent: the
 // trial -D_t (v_t + s / tau) is the impulse while it stays below tan(phi) p_n + c A_c h, else the
 // contact slips with tan(phi) p_n along the mean of the slip directions at the step's start and
 // end: second order in the step, which the end direction alone is not (it errs by 1e-3 on an
@@ -16,7 +17,7 @@
 //
 // All templates are local to the file that includes them, which compiles them for its own
 // processor, and inline: this is the innermost loop of the engine. Functions take vectors of V by
-// reference, since a vector of four is no argument where there is no AVX.
+// reference, since a vector of four cannot be an argument where there is no AVX.
 #pragma once
 
 #include <cmath>
@@ -144,12 +145,12 @@ template <class V, class Rows>
   const Mask<V> slips = (state_before == all_in<V>(ContactState::slip)) |
                         ((strength.friction + strength.cohesion) <= 0);
   cap = is_new ? cap : slips ? last_cap : V{} + no_normal_limit;
-  // what just touches may be pushed; what would pull more than it pressed has parted
+  // a contact that just touches may be pushed; one that would pull more than it pressed has parted
   closed = (p_n >= -strength.tension) | (none_of<V>(is_new) & (p_n >= -last_p_n));
 }
 
 // Which contacts the bound lets stick. Lanes compare squares, so that no root is taken of those
-// that do; one contact, which without friction sticks while it stands, compares as it is.
+// that do; one contact, which without friction sticks while it is at rest, compares as it is.
 template <class V>
 [[gnu::always_inline]] inline void hold(const V& shear_damping, const V& speed_sq, Found<V>& found,
                                         Mask<V>& within) {

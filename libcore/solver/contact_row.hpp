@@ -22,13 +22,13 @@ inline constexpr double no_normal_limit = 1e150;
 enum class Evaluation : std::uint8_t { inherited, coupled };
 
 /// A vector and a state of one contact (Number = double), or of several side by side (a vector type
-/// of the compiler); either way axis k of a vector is v[k].
+/// of the compiler); in both cases axis k of a vector is v[k].
 template <class Number>
 using VectorOf = std::conditional_t<std::is_same_v<Number, double>, Vec3, Number[3]>;
 template <class Number>
 using StateOf = std::conditional_t<std::is_same_v<Number, double>, ContactState, Number>;
 
-/// What the contact law reads of a contact, and what it leaves. All zero, it never presses.
+/// Input and result of the contact law for one contact. All zero, it never presses.
 template <class Number>
 struct LawRow {  // clang-format off
   VectorOf<Number> normal;          ///< unit, from B to A
@@ -40,7 +40,7 @@ struct LawRow {  // clang-format off
   Number friction{};                ///< tan(phi) [-]
   Number cohesion{};                ///< c A_c h [N s]
   Number tension{};                 ///< t A_c h [N s]
-  Number normal_limit{};            ///< the other side gives way at this normal impulse [N s]
+  Number normal_limit{};            ///< the other side yields at this normal impulse [N s]
   // in, for an island: those of the last step, scaled to this one's length; out: the solution
   VectorOf<Number> impulse;         ///< on A; B gets the opposite [N s]
   StateOf<Number> state{};          ///< ContactState
@@ -70,7 +70,7 @@ inline void see_fields(A& a, B& b, See&& see) {
 /// those of A's point relative to B's. Axes: of A's body at the end of the substep for a lone
 /// block, local ones for an island.
 struct KeptContact {  // clang-format off
-  // between what it acts
+  // bodies that it acts between
   ContactKey key;
   int a = 0, b = -1;              ///< blocks; b = -1: the ground, or a fixed body
   int fixed = -1;                 ///< id of a fixed body, -1: none
@@ -101,10 +101,10 @@ struct KeptContact {  // clang-format off
 };  // clang-format on
 
 /// A bond that breaks within the step makes the law jump, and a step with a jump may have no
-/// solution: an island takes an intact bond as one without limit, compares what it carries with the
+/// solution: an island takes an intact bond as one without limit, compares its load with the
 /// limits afterwards and solves again without the bonds that were exceeded.
 struct ContactRow : KeptContact, LawRow<double> {  // clang-format off
-  int contact = 0;                ///< with the ground: index into what the search found
+  int contact = 0;                ///< with the ground: index into the contacts found
   double last_stiffness = 0;      ///< ContactMemory::stiffness, 0: new [N/m]
   bool stuck = false;             ///< at the end of the last step
   double slip_speed = 0;          ///< of its point when the substep begins [m/s]

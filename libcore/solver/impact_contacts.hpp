@@ -32,7 +32,7 @@ struct ImpactContact {
   Dent dent;                   ///< ... and makes both arms at least that of the approach
   double resting_speed = 0;    ///< a slower approach returns nothing [m/s]
   bool is_bond = false;        ///< holds A to B whatever the force
-  // of who looks for hits
+  // for the search of hits
   ContactKey key;
   int pair = 0;    ///< of the island
   double gap = 0;  ///< [m]

@@ -1,3 +1,4 @@
+// The impact law for few contacts: one dense problem in their impulses.
 #include "solver/impact_few.hpp"
 
 #include <algorithm>
@@ -11,11 +12,12 @@ namespace {
 using std::size_t;
 
 constexpr int most_steps = 24;  // of Newton
-// Of what a contact feels, added to Newton's matrix alone: contacts that share a load then share it
+// Share of a contact's own flexibility added to Newton's matrix alone: contacts that share a load
+// share
 // about evenly, and steps get nearer by this factor. Tried: 1e-7, 1e-3; fewer are found.
 constexpr double regularization = 1e-5;
 
-/// The problem at hand; a struct so that its parts share what they all need.
+/// The problem at hand; a struct so that its parts share common data.
 struct Few {
   std::span<const ImpactBody> bodies;
   std::span<ImpactContact> contacts;

@@ -1,3 +1,4 @@
+// The impact law for many contacts: Newton's method on the velocities of the bodies.
 #include "solver/impact_solve.hpp"
 
 #include <algorithm>
@@ -14,25 +15,26 @@ namespace {
 
 using std::size_t;
 
-// A contact gives way by 1/D of the error of its expected impulse: four figures a round.
-constexpr double stiffness_ratio = 9e3;  // D over the mass that the contact feels
-constexpr double first_stiffness = 1e3;  // in the first round
-constexpr double settled = 1e-5;         // of the fastest approach: what contacts give way, at most
-constexpr double tolerance = 1e-13;      // of the same: residual of the balance of momentum
+// A contact yields by 1/D of the error of its expected impulse: four figures a round.
+constexpr double stiffness_ratio = 9e3;   // D over the mass that the contact feels
+constexpr double first_stiffness = 1e3;   // in the first round
+constexpr double settled = 1e-5;          // of the fastest approach: largest error of a contact's
+                                          // velocity
+constexpr double tolerance = 1e-13;       // of the same: residual of the balance of momentum
 constexpr double loose_tolerance = 1e-7;  // ... where a step hardly helps
 constexpr int most_rounds = 12;           // of expected impulses ...
 constexpr int most_convex_rounds = 500;   // ... and in the convex form, where these do not settle
-constexpr double most_renewed = 20;       // of what a slip misses, and at least its inverse
+constexpr double most_renewed = 20;       // of the error of a slip, and at least its inverse
 constexpr int most_steps = 30, most_convex_steps = 100;  // of Newton in a round
 
-/// An impact being solved; a struct so that its parts share what they all need.
+/// An impact being solved; a struct so that its parts share common data.
 struct Solver {
   std::span<const ImpactBody> bodies;
   std::span<ImpactContact> contacts;
   ImpactWork& w;
   double scale = 0;          // fastest approach [m/s]
   double rounding = 0;       // of velocities [m/s]
-  double renewed = 1;        // share of what a slip misses that a round adds
+  double renewed = 1;        // share of the error of a slip that a round adds
   bool has_missing = false;  // of the round before
   bool is_convex = false;    // slips and the bounds of couples are those expected
   int passes = 0;
@@ -104,8 +106,8 @@ struct Solver {
     return &w.turns[static_cast<size_t>(w.turn_of[static_cast<size_t>(c.a)])];
   }
 
-  // Couples at velocities v, whose contacts are evaluated: about those expected, within what the
-  // normal impulses let them be; in the convex form what those expected do.
+  // Couples at velocities v, whose contacts are evaluated: about the expected ones, within the
+  // bounds from the normal impulses; in the convex form within the bounds that were expected.
   void add_couples(const Eigen::VectorXd& v) {
     for (ImpactWork::Turn& turn : w.turns) turn.bounds = {};
     for (const ImpactContact& c : contacts)
@@ -166,8 +168,9 @@ struct Solver {
                  (c.friction * c.normal_damping) * direction * n.transpose();
   }
 
-  // The same where the slip `c.slip` is taken as known (de Saxce): the impulse is the nearest in
-  // the cone of friction to what a damper would give that asks for friction times the slip more.
+  // The same where the slip `c.slip` is taken as known (de Saxce): the impulse is the point of the
+  // friction cone nearest to that of a damper which aims at a normal velocity higher by friction
+  // times the slip.
   static void evaluate_convex(const Vec3& u, ImpactContact& c) {
     const Vec3& n = c.normal;
     const double D = c.shear_damping, mu = c.friction;
@@ -260,7 +263,7 @@ struct Solver {
     if (!w.turns.empty()) add_couple_tangents();
   }
 
-  // Newton's step from what balance() left; false where the matrix is singular.
+  // Newton's step from the residual of balance(); false where the matrix is singular.
   bool find_step() {
     set_matrix();
     factor(w.matrix);
@@ -340,8 +343,8 @@ struct Solver {
     return gives;
   }
 
-  // Rounds until no contact gives way any more, with ever stiffer contacts: what sticks, slides or
-  // opens is found while they are soft. In the convex form slips are renewed with the impulses:
+  // Rounds until no contact yields any more, with ever stiffer contacts: sticking, sliding and
+  // opening are found while they are soft. In the convex form slips are renewed with the impulses:
   // velocities do not depend on how contacts share impulses, so neither do they.
   bool solve_rounds() {
     begin_rounds();
@@ -449,7 +452,7 @@ struct Solver {
   }
 
   // Velocities are those that the impulses give: momentum is kept to rounding, and energies are
-  // those of what is returned.
+  // those of the returned result.
   void take_impulses() {
     w.velocity = w.before;
     const auto add = [&](int k, const Vec3& arm, const Vec3& p) {
@@ -522,7 +525,7 @@ Impact solve_impact(std::span<ImpactBody> bodies, std::span<ImpactContact> conta
     out.by_rolling -=
         turn.couple.dot(Vec3(work.before.segment<3>(at) + work.velocity.segment<3>(at)) / 2);
   }
-  // many contacts that jam bodies press them and each other at will: what they take together stands
+  // many contacts that jam bodies may press them and each other arbitrarily: their total counts
   out.by_friction =
       std::clamp(out.by_friction, 0.0, std::max(0.0, out.dissipated - out.by_rolling));
   return out;

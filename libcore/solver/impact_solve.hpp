@@ -1,5 +1,5 @@
 // libcore/solver/impact_solve.hpp: public
-// The impact law: what rigid bodies that hit each other at one time do to each other's velocities.
+// The impact law: changes of velocity of rigid bodies that hit each other at one time.
 // in:    bodies at that time, and the contacts that approach then
 // out:   their velocities after it, and the impulse of each contact
 // theory 1.12: M (v - v-) = sum J^T p, 0 <= p_n _|_ u_n - t >= 0, Coulomb against the end velocity
@@ -54,7 +54,7 @@ struct ImpactWork {  // clang-format off
   std::vector<Vec6> blocks;              ///<                                            (n_bodies)
 };  // clang-format on
 
-/// Scratch of those who look for hits.
+/// Scratch of the search of hits.
 struct ImpactScratch {
   std::vector<ImpactContact> touching, hit;
   ImpactWork solver;
@@ -67,9 +67,9 @@ struct ImpactScratch {
 Impact solve_impact(std::span<ImpactBody> bodies, std::span<ImpactContact> contacts,
                     ImpactWork& work);
 
-/// Largest share f <= 1 of a restitution at which square f^2 + linear f + constant, what it gains
-/// or lacks of the energy that it must lose, is not above zero; where none is, the share at which
-/// it is least. `square` > 0; at f = 1 the sum is above zero.
+/// Largest share f <= 1 of a restitution at which square f^2 + linear f + constant, the gain or
+/// lack of the energy that it must lose, is not above zero; if there is none, the share at which it
+/// is least. `square` > 0; at f = 1 the sum is above zero.
 [[nodiscard]] double largest_share(double square, double linear, double constant);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// Incomplete elimination of an island's matrix and conjugate gradients with it.
 #include "solver/incomplete_factor.hpp"
 
 #include <algorithm>
@@ -80,7 +81,7 @@ void set_pivot(const Packed<6>& diagonal, size_t k, IncompleteFactor& factor) {
   factor.rest[k] = A - 2 * D;
 }
 
-// --- rows that need others ---------------------------------------------------------------------
+// --- rows that depend on earlier rows ----------------------------------------------------------
 
 bool has_workers(const IncompleteFactor& factor) {
   return are_shared(factor.workers, factor.order.size());
@@ -175,8 +176,8 @@ void list_columns(IncompleteFactor& factor) {
                static_cast<size_t>(factor.upper_begin[k + 1] - factor.upper_begin[k]));
 }
 
-// The same as solve_upper(), with its sums in the same order: each row collects what those after it
-// would hand on.
+// The same as solve_upper(), with its sums in the same order: each row collects the contributions
+// of those after it.
 void solve_upper_by_columns(IncompleteFactor& factor, std::span<const Vec6> b, std::span<Vec6> y) {
   const auto for_needed = [&](size_t k, const auto& use) {
     for (const UpperBlock& upper : column_at(factor, k)) use(upper.after);

@@ -1,13 +1,14 @@
 // libcore/solver/incomplete_factor.hpp
 // Conjugate gradients for the matrix of an island, K = M + sum B_c^T K_c B_c, preconditioned with
-// an incomplete elimination of its bodies from the lowest to the highest, as loads are carried. in:
-// island, its matrix with symmetric tangents, active bodies, right side out:    the step of the
-// active bodies theory: 3.4; docs/developing/design-notes.md
+// an incomplete elimination of its bodies from the lowest to the highest, as loads are carried.
+// in:     island, its matrix with symmetric tangents, active bodies, right side
+// out:    the step of the active bodies
+// theory: 3.4; docs/developing/design-notes.md
 //
-// K = L + A + L^T, A the diagonal blocks, L what couples a body to those eliminated before. The
-// factor (D + L) D^-1 (D + L)^T drops what elimination would add between bodies that share no pair:
-// D_i = A_i - sum over j before i of L_ij D_j^-1 L_ij^T. It is K itself where bodies hang together
-// without a ring and each has at most one neighbour after it: a column. Its blocks are positive by
+// K = L + A + L^T, A the diagonal blocks, L the coupling of a body to those eliminated before. The
+// factor (D + L) D^-1 (D + L)^T drops the fill-in of elimination between bodies that share no pair:
+// D_i = A_i - sum over j before i of L_ij D_j^-1 L_ij^T. It is K itself where the contact graph is
+// a tree and each body has at most one neighbour after it: a column. Its blocks are positive by
 // construction: a pair adds W to A_j and takes at most W from A_i, since D_j >= M_j + W.
 #pragma once
 
@@ -27,7 +28,7 @@ struct LowerBlock {
 
 /// The same block from the side of the other body.
 struct UpperBlock {
-  int after = 0;  ///< place of the row that it stands in
+  int after = 0;  ///< place of its row
   int block = 0;  ///< index into IncompleteFactor::lower
 };
 
@@ -54,7 +55,8 @@ struct IncompleteFactor {  // clang-format off
 /// Heights of the bodies' centroids: `down` points along gravity, of any length.
 void set_heights(const Island& island, const Vec3& down, IncompleteFactor& factor);
 
-/// The factor for the active bodies of `matrix`, which holds symmetric tangents; the others stand.
+/// The factor for the active bodies of `matrix`, which holds symmetric tangents; the rest is at
+/// rest.
 void eliminate(const Island& island, const IslandMatrix& matrix, IncompleteFactor& factor);
 
 /// K x = -b for the active bodies by conjugate gradients from zero, after eliminate(), until the

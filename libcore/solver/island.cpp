@@ -1,3 +1,4 @@
+// An island of touching bodies: assembly of pairs and rows, and lanes of contacts.
 #include "solver/island.hpp"
 
 #include "base/make_room.hpp"
@@ -15,8 +16,8 @@ void open_pair(int a, int b, Island& island) {
 
 namespace {
 
-// As lanes have it: the drift is a known part of the point's velocity, and what waits to be hit
-// keeps its place and its strength, but presses nothing.
+// As lanes have it: the drift is a known part of the point's velocity, and a contact that waits to
+// be hit keeps its place and its strength, but presses nothing.
 LawRow<double> law_in_lane(const ContactRow& contact) {
   LawRow<double> law = contact;
   if (contact.waits) {

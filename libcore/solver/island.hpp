@@ -1,5 +1,5 @@
 // libcore/solver/island.hpp
-// An island: bodies that touch each other, directly or through others, over one time step.
+// An island: bodies that touch each other, directly or through other bodies, over one time step.
 // in:     masses, free motion and contacts from the step that assembles them, in local axes
 // out:    velocities at the end of the step and the impulse of every contact
 // theory: 1.6 (relative map B_c = [T_A, -T_B]), 1.7, 3.5
@@ -156,7 +156,7 @@ struct Island {  // clang-format off
       .subspan(begin, static_cast<std::size_t>(pair.row_end + 1) / 2 - begin);
 }
 
-/// What the normal impulses of a pair let its angular row bear.
+/// The bounds that the normal impulses of a pair give to its angular row.
 [[nodiscard]] inline CoupleBounds couple_bounds(const Island& island, const BodyPair& pair) {
   CoupleBounds bounds;
   const auto arm_begin = static_cast<std::size_t>(island.angular[pair.angular].arm_begin);

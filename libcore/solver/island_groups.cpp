@@ -1,3 +1,4 @@
+// Groups of blocks in contact, by union-find.
 #include "solver/island_groups.hpp"
 
 #include <cstddef>
@@ -7,7 +8,7 @@ namespace {
 
 using std::size_t;
 
-// Root of b; halves the path on the way. The root is the lowest block of the set.
+// Root of b; halves the path to it. The root is the lowest block of the set.
 int root_of(std::vector<int>& parent, int b) {
   while (parent[b] != b) {
     int& up = parent[b];

@@ -1,6 +1,6 @@
 // libcore/solver/island_groups.hpp: public
-// Which blocks touch each other, directly or through others: union-find over the pairs in contact.
-// The ground, and blocks that stand as fast as the ground, join nobody.
+// Which blocks touch each other, directly or through other blocks: union-find over the pairs in
+// contact. The ground, and blocks as fixed as the ground, join no blocks.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Matrix of a Newton step of an island: tangents pair by pair, and its solution by block LU.
 #include "solver/island_matrix.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace {
 
 using std::size_t;
 
-// D += X^T W X, what the pair adds to the diagonal block of B.
+// D += X^T W X, the pair's part of the diagonal block of B.
 // X = [I, -S; 0, I] with S = [shift]x: W = [K, .; L, C] becomes
 // [K, .; L' = L + S K, C' = C - L S + S L'^T].
 void add_carried(const Packed<6>& W, const Vec3& shift, Packed<6>& D) {
@@ -92,7 +93,7 @@ void prepare_pair(const Island& island, size_t p, IslandMatrix& matrix) {
   const BodyPair& pair = island.pairs[p];
   matrix.changed_pairs.add(static_cast<int>(p));
   if (matrix.tangent == Tangent::symmetric && matrix.pair_closed[p]) {
-    Packed<6> change;  // what it added at its shift before
+    Packed<6> change;  // its part at the shift before
     subtract(matrix.pair[p], change);
     add_to_diagonals(pair, change, matrix.shift[p], matrix);
     matrix.pair_closed[p] = 0;

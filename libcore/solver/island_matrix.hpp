@@ -36,7 +36,7 @@ namespace talus {
 /// matrix is the exact derivative, and not symmetric. `none`: not summed yet.
 enum class Tangent : std::uint8_t { none, symmetric, exact };
 
-/// Bodies that a linear solution moves while the others stand, and what it reads of the island:
+/// Bodies that a linear solution moves while the rest is fixed, and its data of the island:
 /// costs go with these, not with the island.
 struct ActiveBodies {  // clang-format off
   IndexSet bodies;
@@ -53,9 +53,9 @@ struct IslandMatrix {
   IndexSet changed_pairs;          ///< whose tangent has to be summed again
   double mass_scale = 1;           ///< K has M times this
   // update_tangents
-  Tangent tangent = Tangent::none;         ///< what `pair` and `rest` hold
+  Tangent tangent = Tangent::none;         ///< of `pair` and `rest`
   std::vector<Packed<6>> pair;     ///< W of pair p, its symmetric part                 (n_pairs)
-  std::vector<Mat6> rest;          ///< exact: what W has besides                     (n_pairs or 0)
+  std::vector<Mat6> rest;          ///< exact: difference from W                    (n_pairs or 0)
   std::vector<std::uint8_t> pair_closed;   ///< W != 0                                  (n_pairs)
   std::vector<Packed<6>> change;   ///< scratch: of W, of pairs that changed
   std::vector<Packed<6>> diagonal; ///< of K, symmetric tangents [kg .. kg m2]          (n_bodies)
@@ -86,7 +86,7 @@ void update_tangents(Island& island, Tangent tangent, IslandMatrix& matrix);
 /// Makes K = scale M + sum B_c^T K_c B_c from the next update_tangents() on.
 void scale_masses(double scale, IslandMatrix& matrix);
 
-/// Makes `bodies`, which may repeat, active and no others.
+/// Makes exactly `bodies`, which may repeat, active.
 void activate(const Island& island, std::span<const int> bodies, IslandMatrix& matrix);
 void activate_all(const Island& island, IslandMatrix& matrix);
 

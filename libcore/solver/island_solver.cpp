@@ -1,3 +1,4 @@
+// Solves an island by semismooth Newton steps with line search and pseudo-time.
 #include "solver/island_solver.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ using std::size_t;
 
 using law::slack;
 
-/// One solve; a struct so that its parts share what they all need.
+/// One solve; a struct so that its parts share common data.
 struct Solve {
   Island& island;
   const IslandSettings& settings;
@@ -28,7 +29,7 @@ struct Solve {
   bool direct = false;
   bool inherits = false;  // a row comes with a state: the first evaluation is not the law's
 
-  // Lowers the rows of pair `p` that are too stiff, and notes what tolerance they and the
+  // Lowers the rows of pair `p` that are too stiff, and notes the tolerance that they and the
   // velocities allow: in a very short substep contacts press with little more than rounding.
   void prepare_pair(size_t p) {
     const BodyPair& pair = island.pairs[p];
@@ -123,7 +124,7 @@ struct Solve {
     add_impulse(static_cast<size_t>(p), impulse);
   }
 
-  // Contacts of active bodies; what a body at rest had from them before is replaced.
+  // Contacts of active bodies; former impulses on a body at rest are replaced.
   [[gnu::flatten]] void evaluate_contacts(std::span<const int> pairs, Evaluation evaluation) {
     if (are_shared(work.matrix.workers, pairs.size())) return evaluate_shared(pairs, evaluation);
     FewPairs now;
@@ -135,7 +136,7 @@ struct Solve {
     }
   }
 
-  // The same in several threads; what pairs add to the residual of bodies comes after, in order.
+  // The same in several threads; contributions to the residual are added afterwards, in order.
   void evaluate_shared(std::span<const int> pairs, Evaluation evaluation) {
     std::vector<PairImpulse>& found = work.evaluated;
     if (found.size() < pairs.size()) found.resize(pairs.size());
@@ -201,7 +202,7 @@ struct Solve {
     return result.residual;
   }
 
-  // Takes off the residual what couples that are about to hold ask for.
+  // Takes the target of couples that are about to hold off the residual.
   void aim_couples() {
     for (const int p : work.matrix.active.pairs) {
       const BodyPair& pair = island.pairs[p];
@@ -257,8 +258,7 @@ struct Solve {
   }
 
   // A Newton step; with `search` it is shortened: with the exact derivative until the residual
-  // falls, else until the residual's work along the step is at most half of what it was at the
-  // start.
+  // falls, else until the residual's work along the step is at most half of its value at the start.
   double advance(bool search) {
     find_step();
     const double start_residual = result.residual;
@@ -324,7 +324,7 @@ struct Solve {
     return result.residual <= tolerance;
   }
 
-  // Velocities that are handed back: v - M^-1 residual, so that what the bodies exchange adds up to
+  // Velocities that are handed back: v - M^-1 residual, so that exchanged momenta add up to
   // nothing whatever the tolerance. That moves them by no more than the tolerance, but a solution
   // that continues starts from v: a stiff contact makes many tolerances of that move.
   void keep_momentum() {

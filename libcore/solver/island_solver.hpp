@@ -23,9 +23,9 @@ struct IslandSettings {
   /// Largest D_n and D_t over the reduced mass of the pair; stiffer rows of the island are lowered
   /// to it. Beyond, the mass is lost in the rounding of the matrix.
   double stiffest = 1e8;
-  /// Goes on from the last solution of the same IslandWork, which converged, and to which only what
-  /// BodyPair::changed says is not the same: no step with the states they came with. Costs go with
-  /// what changed.
+  /// Continues from the last solution of the same IslandWork, which converged, and from which only
+  /// the data named by BodyPair::changed differ: no step with the states they came with. Costs grow
+  /// with the number of changes.
   bool continues = false;
 };
 
@@ -69,7 +69,7 @@ struct IslandWork {  // clang-format off
 /// Solves the island: sets velocity, impulse and state of the rows.
 ///
 /// The first step keeps the inherited states and bounds friction by the last step's normal
-/// impulses; where none is inherited and the first guess is right, there is no step. Steps follow
+/// impulses; where none is inherited and the first guess is right, no step is made. Steps follow
 /// with the law at the iterate, from the fourth on with a line search: with the exact derivative
 /// where the matrix is factored, with a symmetric one for conjugate gradients. Where that
 /// gets no closer, the bodies come to rest from their free motion under the residual, in a time of

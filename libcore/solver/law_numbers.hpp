@@ -3,7 +3,7 @@
 // question of stability begins here. Tolerances of one function's geometry or rounding stay with
 // it.
 //
-// Each row: value, [unit], what it is. "Tried": the values that were compared, and what was seen;
+// Each row: value, [unit], meaning. "Tried": the values that were compared, and the result;
 // where a row says nothing of that, no other value is on record. h is a substep, dt the nominal
 // step, g gravity, m the mass that a contact feels. Shares of the thickness or radius are those of
 // the block, of two blocks those of the smaller.
@@ -24,10 +24,10 @@ namespace talus::law {
 inline constexpr double shallow = 1e-2;
 /// [thickness] Sunk in, and behind a ridge gone through it: overlap above this is pressed out
 /// whatever the force, in full from twice as much on; a contact is stiffer than the heaviest
-/// neighbour asks for; what a hit left deep is hit anew when a substep brings it in by so much; a
+/// neighbour asks for; an overlap left by a hit is hit anew when a substep deepens it by so much; a
 /// hit cuts the substep that ends deeper by so much.
 inline constexpr double sunk = 2e-2;
-/// [g h, or the resting speed] Speed that is no hit where the solver's error or a block's own
+/// [g h, or the resting speed] Speed that is not a hit where the solver's error or a block's own
 /// motion may bring it about, and that a sweep of a mass may still change. Tried for masses: 0.05;
 /// a wall that a mass reaches at one end sags by 2 mm in a second at the other, and a block on 400
 /// that are 10,000 times lighter comes 2.5 % short of its closed form.
@@ -39,15 +39,15 @@ inline constexpr double largest_change = 4;
 /// calm.
 inline constexpr std::size_t few_blocks = 8;
 /// [-] Rounds of a substep until no contact is added that hits left to be stopped; solutions of the
-/// first step until contacts are as stiff as they bear; cuts in a step where a block would end deep
-/// in something.
+/// first step until contacts are as stiff as their loads need; cuts in a step where a block would
+/// end deep in something.
 inline constexpr int most_rounds_in_substep = 8;
 /// [-] Rounds of hits at one time, and two for each block that they hit; hits in a step of a lone
 /// block, or of an island whose hits end substeps; flights of a lone block in a step; half of the
 /// looks at a pair in a substep.
 inline constexpr int most_hits = 40;
-/// [-] Repetitions of a substep: of a lone block, to find an event or to converge; where what gives
-/// way is used up.
+/// [-] Repetitions of a substep: of a lone block, to find an event or to converge; where a yielding
+/// body is used up.
 inline constexpr int most_repetitions = 24;
 
 // --- stiffness ---------------------------------------------------------------------------------
@@ -55,23 +55,24 @@ inline constexpr int most_repetitions = 24;
 /// [-] k_n dt^2 / m of the stiffest contact of a lone block. Tried: the block's full mass for m;
 /// needles fail.
 inline constexpr double stiffest_lone = 400;
-/// [-] The same in an island whose matrix is cheap to factor, and of a mass that stands since the
-/// start, before a contact knows what it bears; 1 in all others. D of a contact that only stops,
+/// [-] The same in an island whose matrix is cheap to factor, and of a mass at rest since the
+/// start, before a contact knows its load; 1 in all other islands. D of a contact that only stops,
 /// over the mass that it feels. Tried: 1 for these; twin towers near the angle at which they topple
-/// sway and fall. 30 for all that rests; a mass that comes to rest is thrown up again and again.
-/// 400 for all; the forces of masses in motion are not found.
+/// sway and fall. 30 for all blocks at rest; a mass that comes to rest is thrown up again and
+/// again. 400 for all; the forces of masses in motion are not found.
 inline constexpr double stiffest_at_rest = 30;
-/// [blocks] An island is small, too, of so many blocks that hang together without a ring: a column
+/// [blocks] An island whose contact graph is a tree is small, too, up to so many blocks: a column
 /// ...
 inline constexpr std::size_t small_tree = 64;
-/// [g times the sum of thicknesses] ... whose squared speeds are below this: it stands or topples.
+/// [g times the sum of thicknesses] ... whose squared speeds are below this: it is at rest or
+/// topples.
 inline constexpr double column_falls = 0.1;
 /// [thickness] Overlap of a contact at rest under its load: it is as stiff as that asks. A tower
 /// leans by the sum of these. Tried: multipliers carried from step to step; they shake towers down.
 inline constexpr double most_sag = 1e-6;
 /// [thickness] ... and of blocks in motion, else.
 inline constexpr double most_sag_in_motion = 1e-5;
-/// [g dt^2] Overlap of a contact that slips, opens or is hard to find the force of: it bears
+/// [g dt^2] Overlap of a contact that slips, opens or is hard to find the force of: it carries
 /// little, or is as stiff as that asks. [of that] It is stiffer than the heaviest neighbour asks
 /// for where it is sunk in, or at this overlap where that is more. Tried: none; small blocks under
 /// a large one that slides sink in.
@@ -83,23 +84,23 @@ inline constexpr double stiffest_by_load = 4e5;
 inline constexpr double easing = 4096;
 /// [-] ... then all of the island is soft, at once where a block moves; then substeps are halved.
 inline constexpr int most_eased = 2;
-/// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for; one
-/// that bears little, slips or opens has that times the stiffness for its own mass.
+/// [-] A contact at rest becomes stiffer by so much a step, beyond the stiffness for the masses;
+/// one that carries little, slips or opens has that times the stiffness for its own mass.
 inline constexpr double stiffens = 2;
 /// [g dt] Speed of slip or of opening from which a contact does not rest, nor a block.
 inline constexpr double slow = 0.2;
-/// [passes] An island whose first solution in a substep takes more is hard: contacts of what
-/// moves ...
+/// [passes] An island whose first solution in a substep takes more is hard: contacts of moving
+/// blocks ...
 inline constexpr int hard_passes = 10;
 /// [-] ... become softer by so much ...
 inline constexpr double relief = 8;
 /// [steps] ... and no stiffer for so long. Tried: 5; a mass that topples takes half as many passes
 /// again.
 inline constexpr int most_rests = 40;
-/// [-] Stiffness of a contact whose load asks for more: `stiffens` times what it needs; times that
-/// in the first step, in which all sag at once. Tried: 2; towers sway ...
+/// [-] Stiffness of a contact whose load asks for more: `stiffens` times the need; times that in
+/// the first step, in which all sag at once. Tried: 2; towers sway ...
 inline constexpr double ample_at_start = 8;
-/// [-] ... and kept until it is this many times what it needs. Tried: 8; layers of small blocks
+/// [-] ... and kept until it is this many times the need. Tried: 8; layers of small blocks
 /// that slide under a large one grow soft and are squeezed out. 100; a tower of 16 creeps at 20 ms.
 /// 300; a tower under a block a thousand times as heavy falls.
 inline constexpr double too_much = 30;
@@ -114,7 +115,7 @@ inline constexpr double recovery_steps = 3;
 /// [g h] Speed at which overlap that presses nothing relaxes: slower than gravity, nothing hops ...
 inline constexpr double relaxes_by_gravity = 0.25;
 /// [m/s] ... and at most this, as deep overlap does in a mass. Tried for masses: all overlap;
-/// blocks that come from the exact step are lifted with what lies on them, again and again.
+/// blocks that come from the exact step are lifted with all blocks on them, again and again.
 inline constexpr double fastest_relaxing = 0.3;
 /// [weights] Overlap is pressed out in full up to this force, not at all from twice as much on.
 /// Tried: without bound; blocks that are jammed are thrown out.
@@ -143,8 +144,8 @@ inline constexpr double slides_by_turn = 0.05;
 /// [g dt] Approaches above the larger of these rebound: at least g dt, which resting contacts
 /// reach, at most this much ...
 inline constexpr double rebounds_by_gravity = 2;
-/// [m/s] ... and in between those faster than this. Tried: 2 g dt at any step; what rocks lose by
-/// the rebounds that are left out shortens a slide at large steps.
+/// [m/s] ... and in between those faster than this. Tried: 2 g dt at any step; a slide at large
+/// steps is too short, since the rebounds that are left out cost rocks their energy.
 inline constexpr double rebound_matters = 0.1;
 /// [-] Looks at true gaps to find the time of a hit.
 inline constexpr int most_looks_for_time = 5;
@@ -152,7 +153,7 @@ inline constexpr int most_looks_for_time = 5;
 inline constexpr double support_drives = 0.1;
 /// [in a substep] Hits of a pair; beyond, it is stopped.
 inline constexpr int most_pair_hits = 20;
-/// [rad] Longest turn of a flight: bounds what its attitude costs.
+/// [rad] Longest turn of a flight: bounds the cost of its attitude.
 inline constexpr double longest_turn = 60;
 
 // --- check of a substep, and repetitions -------------------------------------------------------
@@ -161,16 +162,16 @@ inline constexpr double longest_turn = 60;
 /// no forces were found in the step, so that it ends.
 inline constexpr int most_halvings = 4;
 /// [h] So long after the hit the substep ends, and a look that found no hit looks on; so shortly
-/// after it nobody knows what supports a block, and what is left after it is no shorter. Tried for
-/// looks: none; the next corner of a pair that parts is missed, and stopped without rebound.
+/// after it the supports of a block are unknown, and the rest of the substep is no shorter. Tried
+/// for looks: none; the next corner of a pair that parts is missed, and stopped without rebound.
 inline constexpr double after_hit = 1.0 / 32;
 /// [thickness] A block is deep above this overlap: health counts it, and a hit that ends so cuts
 /// the substep.
 inline constexpr double deep_share = 0.1;
 
-// --- what gives way ----------------------------------------------------------------------------
+// --- yielding bodies ---------------------------------------------------------------------------
 
-/// [-] One with an axis gives way to contacts whose normal has at least this cosine with it.
+/// [-] A body with an axis yields to contacts whose normal has at least this cosine with it.
 inline constexpr double least_yield_cosine = 0.5;
 
 // --- solution of an island ---------------------------------------------------------------------
@@ -178,7 +179,7 @@ inline constexpr double least_yield_cosine = 0.5;
 /// [g h] Residual at which an island's forces count as found ...
 inline constexpr double island_tolerance = 1e-2;
 /// [fastest speed] ... but not above this, which is also the least of conjugate gradients, and not
-/// below what is negligible of g h.
+/// below a negligible part of g h.
 /// Tried for these: 1e-2; two to four times the steps.
 inline constexpr double relative_tolerance = 1e-3;
 /// [-] Newton steps before the line search looks at them, of all solvers. Tried for a lone block:

@@ -184,7 +184,7 @@ template <class V>
   lanes_at<V>(&field[2][lane]) = z;
 }
 
-// Rows of a batch, side by side, with what they give and how far a sweep goes.
+// Rows of a batch, side by side, with their compliances and the step of a sweep.
 template <class V>
 [[gnu::always_inline]] inline void fill_lanes(const MassSweeps& sweeps, const MassBatch& batch,
                                               int lane) {

@@ -25,9 +25,9 @@ inline constexpr double reach_speed = 0.5;
 // --- solution ----------------------------------------------------------------------------------
 
 /// [-] Sweeps at the default accuracy, and at most eight times as many. In the first step of a run,
-/// when no contact knows what it carries: twice as many, times the square of the layers of blocks,
-/// through which support rises as heat does. Tried: 8 times that square; columns of twenty that
-/// stand still fall at 0.3 g.
+/// when no contact knows its load: twice as many, times the square of the layers of blocks, through
+/// which support rises as heat does. Tried: 8 times that square; columns of twenty at rest fall at
+/// 0.3 g.
 inline constexpr int sweeps = 12;
 /// [-] A first step that needs more is exact: six layers. 3,900 blocks in seven take twice as long
 /// by sweeps.

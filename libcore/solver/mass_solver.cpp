@@ -1,3 +1,4 @@
+// Projected Gauss-Seidel for the contact impulses of a mass, colour by colour.
 #include "solver/mass_solver.hpp"
 
 #include <algorithm>
@@ -21,8 +22,8 @@ constexpr int n_colour_bits = 64;
 constexpr int alone = n_colour_bits - 1;  // pairs of it share bodies: each has a batch to itself
 constexpr int most_rows = 16;             // pairs with more count as this when they are sorted
 
-// Greedy colours: no two pairs of one colour share a body, but those of `alone`. Pairs with what
-// stands (ground, panels, stems) have colours of their own behind the others: what is left of an
+// Greedy colours: no two pairs of one colour share a body, but those of `alone`. Pairs with fixed
+// bodies (ground, panels, stems) have colours of their own behind the rest: the error of an
 // unfinished solution is between blocks, not in the ground. Pairs are sorted by colour, those with
 // most rows first.
 int colour_pairs(MassSystem& s) {
@@ -104,7 +105,7 @@ void turn_body(const Vec3& couple, const MassInertia& inertia, MassBody& body) {
   for (int k = 0; k < 3; ++k) body.spin[k] += static_cast<float>(by[k]);
 }
 
-// A part of a couple, `spin` being what it resists: brought as near to zero as `bound` lets it.
+// A part of a couple, which resists `spin`: brought as near to zero as `bound` allows.
 Vec3 couple_against(const Vec3& spin, const Vec3& last, const MassTurn& turn, double bound) {
   const Vec3 next = last - turn.inertia * (spin + last / turn.damping);
   const double size = next.norm();

@@ -2,7 +2,7 @@
 // Contact impulses of a mass that moves: projected Gauss-Seidel over pairs of bodies, colour by
 // colour, eight pairs of a colour side by side in single precision.
 // in:    bodies, and contacts as rows, each with the impulse of the last step
-// out:   impulse of every row; what the last sweep changed
+// out:   impulse of every row; the change by the last sweep
 // docs/theory/theory.md, "One step of a mass"
 //
 // The law of a row: with w = v + J dv, v its velocity at the end of the step without contact, the
@@ -13,7 +13,7 @@
 // shear_ratio D_n.
 //
 // Impulses alone are results. Changes of velocity are summed in single precision while the sweeps
-// go on; who needs them sums the impulses in doubles, so that momentum is kept to their rounding.
+// continue; sums of the impulses in doubles keep momentum to their rounding.
 #pragma once
 
 #include <cstdint>

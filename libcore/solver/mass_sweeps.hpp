@@ -20,7 +20,7 @@ struct MassSweeps {
   MassRow* rows;
   MassBody* change;
   const MassInertia* inertia;
-  const MassRow& no_row;   ///< stands for those of lanes that have none
+  const MassRow& no_row;   ///< row of lanes that have none
   float compliance;        ///< W_n D_n = 1 / compliance
   float shear_compliance;  ///< W_n D_t = 1 / shear_compliance
 };

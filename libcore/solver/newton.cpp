@@ -1,3 +1,4 @@
+// Contact impulses of one block: semismooth Newton on the balance of its momentum.
 #include "solver/newton.hpp"
 
 #include <algorithm>
@@ -46,7 +47,7 @@ void add_tangent(const Vec3& X, const Mat3& A, Mat<Dof>& H) {
   }
 }
 
-// What the normal impulses let an angular row bear.
+// The bounds that the normal impulses give to an angular row.
 template <int Dof>
 CoupleBounds bounds_of(const BlockSystem<Dof>& system, const AngularRow& turn,
                        std::span<const ContactRow> rows) {
@@ -171,7 +172,7 @@ bool is_small(const BlockSystem<Dof>& s, const Vec<Dof>& r) {
   return true;
 }
 
-// The residual as an energy, twice: what line searches bring down.
+// The residual as an energy, twice: line searches reduce it.
 template <int Dof>
 double size_of(const BlockSystem<Dof>& s, const Vec<Dof>& r) {
   return r.cwiseAbs2().cwiseQuotient(s.mass.diagonal()).sum();
@@ -189,7 +190,7 @@ Vec<Dof> newton_step(const BlockSystem<Dof>& system, std::span<const ContactRow>
 }
 
 // Newton steps until the residual is small; from the seventh on they are shortened until it falls.
-// In one piece: called by themselves, the law and its derivative make an impact a seventh dearer.
+// In one piece: as separate calls, the law and its derivative make an impact a seventh dearer.
 template <int Dof>
 [[gnu::flatten]] NewtonResult solve_coupled(BlockSystem<Dof>& system, std::span<ContactRow> rows,
                                             int max_passes) {
@@ -215,7 +216,7 @@ template <int Dof>
 }
 
 // With couples about the mean normal of the contacts as they press without couples. Where a block
-// spins about an axis all but across its mean normal, what it pivots changes sign with that normal,
+// spins about an axis all but across its mean normal, its pivoting changes sign with that normal,
 // which follows the impulses: then no velocity may be found that agrees with itself.
 template <int Dof>
 NewtonResult solve_holding_normals(BlockSystem<Dof>& system, std::span<ContactRow> rows,

@@ -23,7 +23,7 @@ struct OneContact {
   }
 };
 
-/// Evaluates the law for the point's velocity and keeps what it found in `row`. Body axes
+/// Evaluates the law for the point's velocity and keeps the result in `row`. Body axes
 /// throughout.
 [[gnu::always_inline]] inline void evaluate(const Vec3& velocity, ContactRow& row) {
   const double w[3] = {velocity.x(), velocity.y(), velocity.z()};
@@ -62,7 +62,7 @@ struct OneContact {
   }
   const Vec3 &d = row.direction, &start = row.slip_start;
   const double threshold = row.cap / row.shear_damping, share = 1 - threshold / row.trial_speed;
-  if (along > 1 - 1e-12) {  // straight on: what follows, with d = start = end
+  if (along > 1 - 1e-12) {  // straight on: the formula below, with d = start = end
     A += (row.cap / ((1 + share) * row.trial_speed)) * side * side.transpose();
     return A;
   }
@@ -81,8 +81,9 @@ struct OneContact {
 /// A part of a couple: -damping times `spin`, or where that is more than `cap`, of that size.
 ///
 /// A couple that stops a spin jumps to the other side of its bound where a step of Newton has gone
-/// past the stop, and back. So where the couple that the last step reckoned with, less what stops
-/// the spin now, is within the bound, the part aims at holding.
+/// past the stop, and back. So where the couple that the last step reckoned with, less the couple
+/// that
+/// would stop the spin now, is within the bound, the part aims at holding.
 inline void evaluate_part(const Vec3& spin, const AngularRow& row, double cap, CouplePart& part) {
   const Vec3 reckoned = part.aims ? Vec3(-row.damping * spin) : part.couple;
   const double speed = spin.norm();
@@ -131,7 +132,7 @@ inline void evaluate(const Vec3& spin, const CoupleBounds& bounds, AngularRow& r
   return A;
 }
 
-/// -d couple / d (normal impulse) of a contact with arms `arm`: what slips follows its bound.
+/// -d couple / d (normal impulse) of a contact with arms `arm`: a slipping part follows its bound.
 [[nodiscard]] inline Vec3 by_bound(const AngularRow& row, const RowArm& arm) {
   Vec3 change = Vec3::Zero();
   const auto slips = [](const CouplePart& part) {

@@ -1,3 +1,4 @@
+// Contact impulses and tangents of an island, two or four contacts at a time.
 #include "solver/row_groups.hpp"
 
 #include <cmath>

@@ -23,14 +23,14 @@ enum class RowWidth : std::uint8_t { two = 2, four = 4 };
 [[nodiscard]] inline RowWidth widest() { return has_four_lanes() ? RowWidth::four : RowWidth::two; }
 
 /// Impulses of the pairs' contacts at their relative motions. A tangent counts as changed with a
-/// state, or with a slip stiffness by more than `slack` of what the tangent was summed with.
+/// state, or when a slip stiffness differs by more than `slack` from that of the summed tangent.
 void evaluate_pairs(std::span<PairEvaluation> pairs, Evaluation evaluation, double slack,
                     RowWidth width = widest());
 /// The same where has_four_lanes() (row_groups_avx2.cpp).
 void evaluate_pairs_by_four(std::span<PairEvaluation> pairs, Evaluation evaluation, double slack);
 
-/// W = sum T^T K T of a pair, symmetric; and with `rest`, what the exact derivative has instead of
-/// the stiffness across the slip. False when no contact presses.
+/// W = sum T^T K T of a pair, symmetric; and with `rest`, the part by which the exact derivative
+/// replaces the stiffness across the slip. False when no contact presses.
 bool sum_tangents(std::span<RowGroup> groups, Packed<6>& W, Mat6* rest);
 
 }  // namespace talus
