@@ -1,3 +1,4 @@
+// Checks a bonded face: normal, shear and bending loads against its strength.
 #include "scene/bond_face.hpp"
 
 #include <Eigen/Dense>
@@ -54,7 +55,7 @@ bool holds_normal_force(const BondFace& face, const PlaneFace& plane) {
     double moment = 0, all = 0;
     for (size_t k = 0; k < face.corners.size(); ++k) {
       const double bears = face.corners[k].tension * face.corners[k].area;
-      // what is farther than the outline's side by rounding is on it
+      // a corner outside the outline's side by rounding counts as on it
       const double distance = std::max(0.0, inward.dot(plane.at[k] - from));
       moment += (plane.normal[k] + bears) * distance;
       all += std::abs(plane.normal[k]) + bears;

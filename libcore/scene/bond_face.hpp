@@ -1,5 +1,5 @@
 // libcore/scene/bond_face.hpp: public
-// Whether a bonded face holds what it carries: one rule for faces between blocks and on the ground.
+// Whether a bonded face holds its load: one rule for faces between blocks and on the ground.
 // in:    the corners of the face, the forces there, their shares of the area and its strength
 // theory 1.7 and "Bonds"; docs/guide/limits.md
 #pragma once
@@ -26,7 +26,7 @@ struct BondCorner {
   int polygon = 0;            ///< corners of one convex part of the face have the same number
 };
 
-/// A bonded face and what it carries over a substep.
+/// A bonded face and its load over a substep.
 struct BondFace {
   int bond = -1;               ///< index into State::bonds; -1: with the ground
   int block = -1;              ///< A

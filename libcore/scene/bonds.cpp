@@ -1,3 +1,4 @@
+// Bonds of joint faces at the start, the faces that touch, and the class of two faces.
 #include "scene/bonds.hpp"
 
 #include <algorithm>

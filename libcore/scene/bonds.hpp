@@ -1,6 +1,6 @@
 // libcore/scene/bonds.hpp: public
 // Bonds that hold joint faces together until they break, and the class of the faces that touch.
-// in:    joint classes of the scene; who lies against whom before anything moves
+// in:    joint classes of the scene; blocks that lie against each other before anything moves
 // theory 1.7 (bonded area, brittle), docs/developing/design-notes.md
 #pragma once
 
@@ -29,13 +29,13 @@ struct BlockBond {
 /// block's rock.
 [[nodiscard]] GroundClass pair_class(const Scene& scene, const PairManifold& manifold);
 
-/// Gap of faces that lie against each other where the blocks stand [m].
+/// Gap of faces that lie against each other where the blocks start [m].
 [[nodiscard]] double closed_gap(const Scene& scene);
 
-/// The faces of released blocks that lie against each other where the blocks stand.
+/// The faces of released blocks that lie against each other where the blocks start.
 [[nodiscard]] std::vector<JointContact> closed_faces(const Scene& scene);
 
-/// Bonds of all faces that lie against each other where the blocks stand and both have cohesion, or
+/// Bonds of all faces that lie against each other where the blocks start and both have cohesion, or
 /// both tensile strength: one for the faces of two blocks in one direction. Sorted by block_a, then
 /// block_b.
 [[nodiscard]] std::vector<BlockBond> start_bonds(const Scene& scene);

@@ -1,3 +1,4 @@
+// Drag of forests on blocks that pass their undergrowth and crowns.
 #include "scene/canopy.hpp"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 namespace talus {
 namespace {
 
-/// What a coordinate takes on the way.
+/// Range of a coordinate over a motion.
 struct Range {
   double low, high;
   void add(double x) { low = std::min(low, x), high = std::max(high, x); }
@@ -40,7 +41,7 @@ double drag_at(const std::vector<Canopy>& canopies, const Trn& trn, const Vec3& 
   for (const Canopy& canopy : canopies) {
     if ((at.array() < canopy.low.array()).any() || (at.array() > canopy.high.array()).any())
       continue;
-    // off the known ground the elevation is no number, and nothing is below a canopy
+    // off the known ground the elevation is not a number, and nothing is below a canopy
     if (position.z() < elevation_at(trn, at.x(), at.y()) + canopy.height &&
         canopy.area.contains(at))
       drag += canopy.drag;
@@ -50,8 +51,8 @@ double drag_at(const std::vector<Canopy>& canopies, const Trn& trn, const Vec3& 
 
 namespace {
 
-// Adds where the height above the canopy's top is zero on a way that the ground below bends in
-// pieces; `low` and `high` are shares of it.
+// Adds where the height above the canopy's top is zero on a segment; the ground below bends it in
+// pieces; `low` and `high` are shares of the segment.
 void add_top(const Canopy& canopy, const Trn& trn, const Vec3& from, const Vec3& to,
              std::vector<double>& shares) {
   constexpr int pieces = 4, halvings = 40;  // a substep goes over a few triangles at most

@@ -1,5 +1,5 @@
 // libcore/scene/canopy.hpp: public
-// Forests that drag what goes through their undergrowth and crowns, and have no stem in them.
+// Forests that drag blocks in their undergrowth and crowns, and have no stem in them.
 // in:    areas in plan, heights above the ground
 // out:   viscous drag on the mass centre of a block, -d v
 // docs/theory/theory.md, Stems; step/soil.hpp applies it
@@ -13,7 +13,7 @@
 
 namespace talus {
 
-/// A stand that drags.
+/// A stand of trees with its drag.
 struct Canopy {
   PreparedArea area;  ///< local coordinates
   Vec2 low, high;     ///< of the box around it [m]
@@ -23,8 +23,8 @@ struct Canopy {
 
 [[nodiscard]] Canopy make_canopy(const Area& area, double height, double drag);
 
-/// Mean of drag_at() over the straight way from one place to another. Borders of the stands and the
-/// tops of their canopies are located on it [kg/s].
+/// Mean of drag_at() over the straight segment from one place to another. Borders of the stands and
+/// the tops of their canopies are located on it [kg/s].
 [[nodiscard]] double mean_drag(const std::vector<Canopy>& canopies, const Trn& trn,
                                const Vec3& from, const Vec3& to);
 
@@ -34,7 +34,8 @@ struct Canopy {
                              const Vec3& position);
 
 /// Whether a mass centre that starts at `position` with `velocity` and accelerates with `a` comes
-/// over the box of a stand within `time`, at any height. Never says no where it does.
+/// over the box of a stand within `time`, at any height. May say yes where it does not, never the
+/// reverse.
 [[nodiscard]] bool comes_over(const std::vector<Canopy>& canopies, const Vec3& position,
                               const Vec3& velocity, const Vec3& a, double time);
 

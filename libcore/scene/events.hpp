@@ -9,7 +9,7 @@
 
 namespace talus {
 
-/// First touch of a block and a panel, and what became of it.
+/// First touch of a block and a panel, and its outcome.
 struct FenceHit {
   std::int32_t block = 0, line = 0, panel = 0;  ///< panel: number in its line
   double time = 0;                              ///< of the first touch [s]
@@ -18,12 +18,12 @@ struct FenceHit {
   double translational_energy = 0;              ///< before [J]
   double rotational_energy = 0;                 ///< before [J]
   double energy_after = 0;   ///< kinetic, with spin, at the end of the last touch so far [J]
-  double work = 0;           ///< taken from this block by the panel's giving way so far [J]
+  double work = 0;           ///< taken from this block by the panel's yielding so far [J]
   double top_height = 0;     ///< of the block's highest vertex above the panel's base there [m]
   double bottom_height = 0;  ///< of its lowest vertex [m]
 };
 
-/// First touch of a block and a stem, and what became of it.
+/// First touch of a block and a stem, and its outcome.
 struct StemHit {
   std::int32_t block = 0, stem = 0;  ///< stem: of the scene
   double time = 0;                   ///< of the first touch [s]
@@ -40,7 +40,7 @@ struct CrushedBlock {
   std::int32_t block = 0;
   double time = 0;            ///< [s]
   double load = 0;            ///< that went through it, mean over law::load_time [N]
-  double strength = 0;        ///< the load that it could bear [N]
+  double strength = 0;        ///< the load that it could carry [N]
   Vec3 place = Vec3::Zero();  ///< of its centroid; it stays there as debris [m]
   double volume = 0;          ///< [m3]
   double mass = 0;            ///< [kg]

@@ -1,3 +1,4 @@
+// Fences in a scene: panels as fixed bodies, and the record of blocks that hit them.
 #include "scene/fence.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // libcore/scene/fence.hpp: public
-// Fences that stand in the way: panels between posts, rigid, or giving way at a constant force
-// until their energy is used up.
+// Fences: panels between posts, rigid, or yielding at a constant force until their energy is used
+// up.
 // in:    posts on the ground, height, capacity and deflection; contacts of blocks with panels
-// out:   fixed bodies that give way across their line (scene/yielding.hpp), and what hit them
+// out:   fixed bodies that yield across their line (scene/yielding.hpp), and the hits on them
 //
 // A panel resists each block with F = capacity / deflection at most and follows the block that
 // pushes it farthest; blocks that push at the same time use it up together.
@@ -17,7 +17,7 @@
 
 namespace talus {
 
-/// A fence line as it stands in a run.
+/// A fence line in a run.
 struct StandingFence {
   int line = 0;             ///< index of its line among those of the run
   std::vector<Vec3> posts;  ///< feet, local [m]; at least two, no two in a row above each other
@@ -38,11 +38,11 @@ void add_fence(Scene& scene, const StandingFence& fence);
 [[nodiscard]] int panel_number(const Scene& scene, int body);
 
 /// Notes that `block` touched fixed body `body`, a panel, at `point`, having had motion `before` at
-/// `time`, and leaves it with motion `after`; what is known from the first touch stays.
+/// `time`, and leaves it with motion `after`; data of the first touch stay.
 void note_hit(const Scene& scene, int block, int body, const Vec3& point, double time,
               const Motion& before, const Motion& after, FenceState& fence);
 
-/// Adds what panels took from the blocks that pushed them in an accepted substep to their hits.
+/// Adds the work of panels on the blocks that pushed them in an accepted substep to their hits.
 void note_work(const Scene& scene, std::span<const YieldPush> pushes, FenceState& fence);
 
 }  // namespace talus

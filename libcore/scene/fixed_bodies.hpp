@@ -1,9 +1,9 @@
 // libcore/scene/fixed_bodies.hpp: public
 // Bodies without mass that no block moves: panels of fences, prisms of a blocky slope. Some of them
-// give way (Yielding). Blocks meet them through the same search as other blocks; for the solver of
-// an island they are the ground.
-// in:    convex bodies, what they are made of, and how they give way
-// out:   what a contact with a fixed body does; what those that give way have met so far
+// yield (Yielding). Blocks meet them through the same search as blocks; for the solver of an island
+// they are the ground.
+// in:    convex bodies, their class of ground, and how they yield
+// out:   effect of a contact with a fixed body; what has hit those that yield so far
 //
 // A fixed body has an id of its own, from 0. Only the search of pairs knows it as a body of
 // Blocks::hulls (fixed_of(), hull_of_fixed() in scene/scene.hpp).
@@ -21,14 +21,14 @@
 
 namespace talus {
 
-/// How a fixed body gives way: a rigid body on a plastic brake, without mass. It resists each block
+/// How a fixed body yields: a rigid body on a plastic brake, without mass. It resists each block
 /// with `force` at most, is pushed along, and stays where it was pushed. Its work is the sum of
 /// force times the distance that each block pushes it; at `capacity` it breaks and is gone.
 struct Yielding {
   static constexpr double no_limit = std::numeric_limits<double>::infinity();
   double capacity = no_limit;  ///< energy that it takes before it breaks; infinite: rigid [J]
-  double force = no_limit;     ///< with which it resists each block while it gives way [N]
-  Vec3 axis = Vec3::Zero();    ///< unit vector along which alone it gives way; zero: along any push
+  double force = no_limit;     ///< with which it resists each block while it yields [N]
+  Vec3 axis = Vec3::Zero();    ///< unit vector along which alone it yields; zero: along any push
   int body = 0;                ///< id of the fixed body
 };
 
@@ -52,13 +52,13 @@ struct FixedBodies {  // clang-format off
   std::vector<FencePanel> panels;
 };  // clang-format on
 
-/// What a body that gives way has met since the start.
+/// State of a yielding body, from its hits since the start.
 struct Yielded {
   double work = 0;                        ///< taken so far, <= capacity [J]
   double deflection = 0;                  ///< along its axis, lasting [m]
   Vec3 shift = Vec3::Zero();              ///< of a body without an axis, lasting [m]
-  double broken_at = Yielding::no_limit;  ///< time; infinite while it stands [s]
-  int broken_by = -1;                     ///< block; -1 while it stands
+  double broken_at = Yielding::no_limit;  ///< time; infinite while it is whole [s]
+  int broken_by = -1;                     ///< block; -1 while it is whole
 };
 
 /// What a body that was pushed has met; those that nothing pushed have none.
@@ -68,14 +68,15 @@ struct MetBody {
 };
 
 /// Part of the state. Blocks that meet each other share one world: each finds fences and trees as
-/// the others left them. Rocks that fall one by one have a world each: all stands there as it did
-/// at the start, but for what the rock itself and its pieces pushed.
+/// other blocks left them. Rocks that fall one by one have a world each: every body there is as it
+/// was at the start, except those that the rock itself and its pieces pushed.
 struct YieldingState {  // clang-format off
-  std::vector<std::vector<MetBody>> worlds;  ///< what was pushed there, ascending       (n_worlds)
+  std::vector<std::vector<MetBody>> worlds;  ///< bodies pushed there, ascending
+                                             ///< (n_worlds)
   std::vector<int> shifted;         ///< fixed bodies pushed in the shared world, in that order
 };  // clang-format on
 
-/// What one block does to one body that gives way, over a substep.
+/// Effect of one block on one yielding body, over a substep.
 struct YieldPush {
   int block = 0, yielding = 0;  ///< yielding: index into `yieldings`; after them, the stems
   double work = 0;              ///< taken from the block [J]
@@ -91,7 +92,7 @@ struct FenceState {
   HitChain chain;              ///< of `hits`
 };
 
-// --- names of what a block may touch -----------------------------------------------------------
+// --- names of partners of a contact -------------------------------------------------------------
 // ContactKey::body_b and DeepBlock::partner: a block by its number, the ground, or a fixed body.
 
 inline constexpr int ground_name = -1;

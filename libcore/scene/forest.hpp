@@ -1,8 +1,8 @@
 // libcore/scene/forest.hpp: public
-// Stems of trees that stand in the way: vertical cylinders that give way as other fixed bodies do
+// Stems of trees as obstacles: vertical cylinders that yield as other fixed bodies do
 // (scene/fixed_bodies.hpp), without an axis, until they have taken their energy and are gone.
 // in:    stems from a list or drawn (scene/stand.hpp)
-// out:   what the search and the solver know of them; what hit them
+// out:   their data for the search and the solver; hits on them
 //
 // Stems have no hulls, so that a forest costs nothing where no block is. Their numbers as fixed
 // bodies follow those of the bodies with hulls: see scene/stems.hpp.
@@ -34,7 +34,7 @@ struct Stem {
 /// Stems of a scene; plain where there are none.
 struct Forest {  // clang-format off
   std::vector<Stem> stems;            ///<                                            (n_stems)
-  std::vector<Yielding> yieldings;    ///< how each gives way                         (n_stems)
+  std::vector<Yielding> yieldings;    ///< how each yields                           (n_stems)
   std::vector<GroundClass> faces;     ///< friction, by section                       (n_sections)
   BodyGrid grid;                      ///< stems by place
   double widest = 0;                  ///< largest radius [m]

@@ -1,5 +1,5 @@
 // libcore/scene/hit_chain.hpp
-// Finds the hits of one block among those of all, which stand in the order of their times: a look
+// Finds the hits of one block among those of all, which are in the order of their times: a look
 // through all of them at each touch would cost a run of many rocks the square of their number.
 #pragma once
 

@@ -1,6 +1,6 @@
 // libcore/scene/joint_classes.hpp
-// What contacts between blocks do, by what made the faces that touch: friction, cohesion, tension
-// and restitution.
+// Laws of contacts between blocks, by the origin of the faces that touch: friction, cohesion,
+// tension and restitution.
 // in:    joint sets and materials of the site
 #pragma once
 

@@ -1,3 +1,4 @@
+// Water pressure in the joints of a mass at rest, as point loads on its faces.
 #include "scene/joint_water.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // libcore/scene/joint_water.hpp: public
 // Water in the joints of a mass at rest: its pressure on each face, as point loads.
-// in:    a piezometric surface, open cracks; who lies against whom before anything moves
+// in:    a piezometric surface, open cracks; blocks that lie against each other at the start
 // out:   Scene::loads, Scene::wet_faces
-// theory: docs/theory/theory.md 1.14; what becomes of the pressure: step/loads.hpp
+// theory: docs/theory/theory.md 1.14; decay of the pressure: step/loads.hpp
 #pragma once
 
 #include <cstdint>

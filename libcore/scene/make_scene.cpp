@@ -1,3 +1,4 @@
+// Makes and checks a scene: masses, principal axes, surfaces, limits of input.
 #include "scene/make_scene.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -32,7 +33,7 @@ void check_material(const Material& m, const std::string& name) {
     throw InputError(where, "Poisson's ratio is " + text(m.poisson) + ", expected 0 to below 0.5");
 }
 
-// Beyond any rock, and what steps can follow: a step is cut to a part of a turn.
+// Beyond any rock, and beyond what steps can follow: a step is cut to a part of a turn.
 void check_speed(const char* what, double speed, const char* unit, int block) {
   constexpr double largest = 1000;
   if (speed <= largest) return;

@@ -26,7 +26,7 @@ void add_blocks_without_surfaces(Scene& scene, const BlockSet& set,
 /// Appends the surfaces of block b of `set`.
 void add_surfaces(const BlockSet& set, int b, Blocks& to);
 
-/// Throws InputError for what no run can be computed with: dt <= 0, friction < 0, a restitution
+/// Throws InputError for a scene that cannot be computed: dt <= 0, friction < 0, a restitution
 /// outside 0..1, a base motion whose times do not increase.
 void check_scene(const Scene& scene);
 

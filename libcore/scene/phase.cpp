@@ -1,3 +1,4 @@
+// Transitions between the phases of a block's life.
 #include "scene/phase.hpp"
 
 #include "base/error.hpp"

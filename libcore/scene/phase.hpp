@@ -19,7 +19,7 @@
 
 namespace talus {
 
-/// What a block is doing. The numbers stand in run files and checkpoints: append only.
+/// Phase of a block. The numbers are in run files and checkpoints: append only.
 enum class Phase : std::uint8_t {
   near_ground,  ///< contact is searched in every step
   flight,       ///< free until flight_end; its motion is that at `local_time`
@@ -27,14 +27,14 @@ enum class Phase : std::uint8_t {
   left_domain,  ///< left the known terrain: stopped where it left, and counted
   stopped,      ///< its numbers failed: stopped at its last good state, and flagged
   unborn,       ///< not there yet: a fragment of a block that is still whole
-  crushed,      ///< debris that bears nothing, where it was crushed
+  crushed,      ///< debris without support, where it was crushed
   broken,       ///< not there any more: its fragments are
 };
 inline constexpr Phase last_phase = Phase::broken;
 
 // --- questions ---------------------------------------------------------------------------------
 
-/// Whether it moves or may be moved: by the step, by other blocks, by what it rests on giving way.
+/// Whether it moves or may be moved: by the step, by other blocks, by a support that yields.
 [[nodiscard]] constexpr bool takes_part(Phase phase) {
   return phase == Phase::near_ground || phase == Phase::flight || phase == Phase::asleep;
 }
@@ -77,7 +77,7 @@ void take_off(BlockLives& lives, std::size_t b, double until);
 /// Its flight ends at `time`.
 void land(BlockLives& lives, std::size_t b, double time);
 void go_to_sleep(BlockLives& lives, std::size_t b);
-/// Something moves what it rests on, or comes near it, at `time`.
+/// A body that it rests on, or one near it, moves at `time`.
 void wake(BlockLives& lives, std::size_t b, double time);
 void leave_domain(BlockLives& lives, std::size_t b);
 void stop_for_good(BlockLives& lives, std::size_t b);

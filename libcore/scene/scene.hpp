@@ -28,7 +28,8 @@ struct Settings {
   double dt = 0.005;            ///< time step, > 0; law talus shortens it where it must [s]
   double normal_stiffness = 0;  ///< k_n, > 0; 0 lets law talus choose [N/m]
   double shear_ratio = 0.4;     ///< k_s / k_n [-]
-  double accuracy = 0.005;      ///< law talus: error of the way of what moves, as a share [-]
+  double accuracy = 0.005;      ///< law talus: error of the displacement of moving blocks, as a
+                                ///< share [-]
   double tolerance_factor = 1;  ///< law talus: on the residual at which forces count as found [-]
   int max_passes = 50;          ///< law talus, a lone block: of Newton, before a step is repeated
   bool static_start = true;     ///< law talus: blocks at rest start in equilibrium with the ground
@@ -39,7 +40,7 @@ struct Settings {
   bool sleep = true;         ///< law talus: blocks at rest are left out
 };
 
-/// A force on a material point of a block, constant in local axes but for what a wet face loses.
+/// A force on a material point of a block, constant in local axes but for the loss of a wet face.
 struct PointLoad {
   int block = 0;
   Vec3 point = Vec3::Zero();  ///< body axes [m]
@@ -98,7 +99,7 @@ struct Scene {
   std::vector<PointLoad> loads;      ///< sorted by block
   std::vector<WetFace> wet_faces;    ///< by A                                    (n_wet_faces)
   double drained_at = 0;             ///< opening at which their pressure is gone [m]
-  AccelerationRecord base;           ///< empty: the ground stands still
+  AccelerationRecord base;           ///< empty: the ground does not move
   Settings settings;
 };
 

@@ -1,3 +1,4 @@
+// From a fence of the site file to the posts and panels of a run.
 #include "scene/site_fence.hpp"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ struct Dip {
 };
 
 // Exact: the ground is straight between the places where the line meets the terrain's edges, so the
-// largest depth stands at one of them. Those edges lie on lines x = const, y = const and x + y =
+// largest depth is at one of them. Those edges lie on lines x = const, y = const and x + y =
 // const of the grid.
 Dip dip_between(const Trn& trn, const Vec3& a, const Vec3& b) {
   const Vec2 from((a.x() - trn.node0.x()) / trn.cell_size, (trn.node0.y() - a.y()) / trn.cell_size);

@@ -1,5 +1,5 @@
 // libcore/scene/site_fence.hpp: public
-// From a [fence.*] of the site file and its posts on the terrain to a fence that stands in a run.
+// From a [fence.*] of the site file and its posts on the terrain to a fence of a run.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// Loads that sleeping blocks carry, and waking.
 #include "scene/sleep.hpp"
 
 #include <algorithm>

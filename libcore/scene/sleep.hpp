@@ -12,7 +12,7 @@ namespace talus {
 
 /// What block b carried when it fell asleep, by neighbour.
 [[nodiscard]] std::span<const SleepLoad> carried_by(const State& state, int b);
-/// Notes that a block carries this, which falls asleep: added to what it has from that neighbour.
+/// Notes a load on a block that falls asleep: added to its load from that neighbour.
 void note_carried(const SleepLoad& load, State& state);
 
 /// Wakes block b, which sleeps, at `time`, and all that bonds hold it to; adds them to `woken`.

@@ -1,3 +1,4 @@
+// Draws the stems of a stand of trees, cell by cell.
 #include "scene/stand.hpp"
 
 #include <cmath>

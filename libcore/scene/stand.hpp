@@ -40,7 +40,7 @@ struct DrawnStem {
   bool is_conifer = true;
 };
 
-/// Names a stand; other words draw another one.
+/// Names a stand; another seed draws another one.
 struct StandSeed {
   std::int64_t seed = 1;
   std::string name;      ///< of the section: stands of two sections on one place are independent

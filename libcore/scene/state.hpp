@@ -16,7 +16,7 @@
 
 namespace talus {
 
-/// Sums since the start over all blocks, all in joule; what each adds is >= 0 except `contact`,
+/// Sums since the start over all blocks, all in joule; each term is >= 0 except `contact`,
 /// `base` and `water`.
 struct EnergyLedger {
   double friction = 0;  ///< dissipated by sliding
@@ -24,20 +24,20 @@ struct EnergyLedger {
   double contact = 0;   ///< dissipated or stored by normal contact and strain damping
   double base = 0;      ///< put in by base motion and point loads
   double water = 0;     ///< put in by the pressure of water in joints
-  double fence = 0;     ///< taken by panels of fences, and what else gave way
+  double fence = 0;     ///< taken by panels of fences, and other yielding bodies
   double rolling = 0;   ///< dissipated by rolling and pivoting resistance, in hits too
   double drag = 0;      ///< dissipated by drag of ground and forests
   double breakage = 0;  ///< kinetic energy of crushed blocks, and work of fracture
   double removed = 0;   ///< kinetic energy of blocks stopped at the domain's edge
 };
 
-/// How the island of a block was last moved, and what decides on how it moves on
+/// How the island of a block was last moved, and the data that decide on its next step
 /// (step/mass/stages.hpp).
 struct MassShare {
   bool is_in_mass = false;  ///< by the mass step
   int calm = 0;             ///< steps in a row in which few of its blocks moved
   int unsettled = 0;        ///< steps in a row whose last sweep changed too much
-  int barred = 0;           ///< steps for which it is no mass, since its forces were not found
+  int barred = 0;           ///< steps for which it is not a mass, since its forces were not found
   int steady = 0;           ///< substeps in a row that a long step would have followed as well
 };
 
@@ -66,8 +66,8 @@ struct RunCounters {
   int left_domain = 0;            ///< blocks that left the known terrain
 };
 
-/// What presses on a block that may be crushed (step/crushing.hpp): means over law::load_time, and
-/// sums of the step under way, which are zero between steps.
+/// Load on a block that may be crushed (step/crushing.hpp): means over law::load_time, and sums of
+/// the current step, which are zero between steps.
 struct BlockLoad {
   Mat3 press = Mat3::Zero();       ///< sum of N n n^T over its contacts, N the normal force [N]
   Vec3 push = Vec3::Zero();        ///< sum of their forces [N]
@@ -75,14 +75,14 @@ struct BlockLoad {
   Vec3 step_push = Vec3::Zero();   ///< [N s]
 };
 
-/// What became of a block that was deep in something (step/deep_blocks.hpp).
+/// Record of a block that was deep in something (step/deep_blocks.hpp).
 struct DeepBlock {
   std::int64_t steps = 0;     ///< that ended with it deep
   double first_time = 0;      ///< end of the first of them [s]
   double depth = 0;           ///< largest [m]
   double time = 0;            ///< when that was [s]
   Vec3 place = Vec3::Zero();  ///< of its centroid then [m]
-  int partner = ground_name;  ///< in what then: see scene/fixed_bodies.hpp
+  int partner = ground_name;  ///< the body that it was deep in: see scene/fixed_bodies.hpp
   bool is_deep = false;       ///< at the end of the last step
   bool is_too_fast = false;   ///< at some time since, it was faster than its fall can have made it
 };
@@ -96,7 +96,7 @@ struct Mishap {
   Vec3 place = Vec3::Zero();  ///< of the block's centroid then [m]
 };
 
-/// What the limits of a run's health name (step/mishaps.hpp): the deepest overlap, and the first
+/// Blocks for the limits of a run's health (step/mishaps.hpp): the deepest overlap, and the first
 /// block of each other kind.
 struct Mishaps {
   Mishap deepest, unconverged, not_finite, left_domain, fell_through;
@@ -121,22 +121,23 @@ struct State : BlockLives {  // clang-format off
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
   std::vector<double> pressure;             ///< share left of that at the start [-]   (n_wet_faces)
   std::vector<DeepBlock> deep;              ///<                                     (n_blocks)
-  std::vector<SlidWay> slid;                ///< empty: friction follows no way      (n_blocks)
+  std::vector<SlidWay> slid;                ///< empty: friction follows no distance (n_blocks)
   std::vector<BlockLoad> load;              ///< empty: none is crushed                 (n_blocks)
   std::vector<CrushedBlock> crushed;        ///< by time
-  std::vector<double> hit_loss;             ///< of the step under way; empty: none breaks [J] (n_blocks)
+  std::vector<double> hit_loss;             ///< of the current step; empty: none breaks [J]
+                                            ///< (n_blocks)
   std::vector<std::int32_t> n_hits;         ///< steps with a hit; empty: none breaks   (n_blocks)
   std::vector<Break> breaks;                ///< by time
   Mishaps mishaps;                          ///< so far
-  YieldingState yielding;                   ///< what fixed bodies that give way have met
-  FenceState fence;                         ///< what touched the panels of fences
+  YieldingState yielding;                   ///< state of fixed bodies that yield
+  FenceState fence;                         ///< hits on the panels of fences
   std::vector<StemHit> stem_hits;           ///< in the order of their times, step by step
   HitChain stem_chain;                      ///< of `stem_hits`
   EnergyLedger ledger;
   RunCounters counters;
 };  // clang-format on
 
-/// What a block has slid up to now; `way` nullptr: no ground keeps it.
+/// Slip memory of a block up to now; `way` nullptr: no ground keeps it.
 struct Slide {
   const SlidWay* way = nullptr;
   double t = 0;  ///< now [s]

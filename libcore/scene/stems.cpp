@@ -1,3 +1,4 @@
+// Stems of a forest in a scene: making them, where they are, and the record of hits.
 #include "scene/stems.hpp"
 
 #include <algorithm>

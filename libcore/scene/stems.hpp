@@ -1,10 +1,10 @@
 // libcore/scene/stems.hpp: public
-// Stems of a forest in a scene: their numbers among the fixed bodies, and what hits them.
+// Stems of a forest in a scene: their numbers among the fixed bodies, and hits on them.
 // in:    stems on the ground; contacts of blocks with them
 // out:   Scene::forest; hits
 // ref:   Dorren and Berger 2006 (energy that breaks a stem)
 //
-// As fixed bodies the stems stand behind those with hulls: stem s is body n_fixed + s.
+// As fixed bodies the stems follow those with hulls: stem s is body n_fixed + s.
 #pragma once
 
 #include <span>
@@ -37,15 +37,15 @@ void add_forest(Scene& scene, std::vector<Stem> stems, std::vector<GroundClass> 
 [[nodiscard]] const Yielded& met_by_stem(const Scene& scene, const State& state, int world,
                                          int stem);
 
-/// Where the axis of `stem` stands now in `world`, local x, y [m].
+/// Where the axis of `stem` is now in `world`, local x, y [m].
 [[nodiscard]] Vec2 axis_of_stem(const Scene& scene, const State& state, int world, int stem);
 
 /// Notes that `block` touches fixed body `body`, a stem, at `point`, having had motion `before` at
-/// `time`, and leaves it with motion `after`; what is known from the first touch stays.
+/// `time`, and leaves it with motion `after`; data of the first touch stay.
 void note_stem_touch(const Scene& scene, int block, int body, const Vec3& point, double time,
                      const Motion& before, const Motion& after, State& state);
 
-/// Adds what stems took from the blocks that pushed them in an accepted substep to their hits.
+/// Adds the work of stems on the blocks that pushed them in an accepted substep to their hits.
 void note_stem_work(const Scene& scene, std::span<const YieldPush> pushes, State& state);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// Finds the state of a yielding body in the world of a block.
 #include "scene/worlds.hpp"
 
 #include <algorithm>

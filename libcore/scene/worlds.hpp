@@ -1,6 +1,6 @@
 // libcore/scene/worlds.hpp: public
-// In which world a block meets the bodies that give way, and what they have met there.
-// in:    a scene, what was pushed so far (YieldingState)
+// The world in which a block meets yielding bodies, and their state there.
+// in:    a scene, bodies pushed so far (YieldingState)
 // out:   the one access to it, whether blocks share a world or have each their own
 #pragma once
 
@@ -24,7 +24,7 @@ namespace talus {
 /// The world of block `b`: index into YieldingState::worlds. A piece is in that of its rock.
 [[nodiscard]] int world_of(const Scene& scene, int b);
 
-/// What body `yielding` has met in a world; nothing where nothing pushed it.
+/// State of body `yielding` in a world; that at the start where nothing pushed it.
 [[nodiscard]] const Yielded& met_by(const YieldingState& state, int world, int yielding);
 /// The same to be changed.
 [[nodiscard]] Yielded& meet(YieldingState& state, int world, int yielding);

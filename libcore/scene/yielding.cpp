@@ -1,3 +1,4 @@
+// Yielding fixed bodies: place, resistance, pushes, breaking.
 #include "scene/yielding.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ using std::size_t;
 
 bool has_axis(const Yielding& yielding) { return !yielding.axis.isZero(0); }
 
-// The bodies with hulls that give way, then the stems.
+// The bodies with hulls that yield, then the stems.
 int n_with_hulls(const Scene& scene) { return static_cast<int>(scene.fixed.yieldings.size()); }
 
 const Yielding& yielding_of(const Scene& scene, int y) {
