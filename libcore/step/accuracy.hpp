@@ -13,7 +13,8 @@
 
 namespace talus {
 
-/// Error of a block's place after a substep, estimated, and the way of its points in it [m].
+/// Estimated error of a block's place after a substep, and the displacement of its points in it
+/// [m].
 struct WayError {
   double error = 0, way = 0;
 };
@@ -28,7 +29,7 @@ struct WayError {
   return {over_h * changed * h * h / 12, path.norm() + c.radius * turn.norm()};
 }
 
-/// As a share of the way, or of a part of the thickness where that is more [-].
+/// As a share of the displacement, or of a part of the thickness where that is more [-].
 [[nodiscard]] inline double share_of(const WayError& of, double thickness) {
   return of.error / (of.way + law::shallow * thickness);
 }

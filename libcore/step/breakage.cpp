@@ -1,3 +1,4 @@
+// Blocks that break: pieces replace their block, and the energy of the hits that break it.
 #include "step/breakage.hpp"
 
 #include <Eigen/Geometry>
@@ -42,7 +43,7 @@ double mobility_of(const Scene& scene, size_t b, const Motion& m, const Vec3& ar
   return 1 / scene.blocks.mass[b] + turn.dot(turn.cwiseQuotient(scene.blocks.inertia[b]));
 }
 
-// A block goes where a piece of it is: what is as cut turns and moves with the block.
+// A piece in its place as cut turns and moves with the block.
 Motion inherited(const Scene& scene, size_t piece, size_t whole, const Motion& motion) {
   const Pose &rest = scene.blocks.rest[piece], &from = scene.blocks.rest[whole];
   const Quat turn = motion.pose.attitude * from.attitude.conjugate();
@@ -84,7 +85,7 @@ void begin_life(const Scene& scene, size_t b, State& state) {
   forget_rates(scene, static_cast<int>(b), state);
 }
 
-// What holds a block to others is gone with it.
+// Bonds of the block with its neighbours are gone with it.
 void free_bonds(int b, State& state) {
   for (BlockBond& bond : state.bonds)
     if (bond.block_a == b || bond.block_b == b) bond.area = 0;
@@ -144,7 +145,7 @@ void add_ground_hit_loss(const Scene& scene, int b, const Motion& before, const 
   const double impulse = scene.blocks.mass[i] * normal.dot(after.velocity - before.velocity);
   const double path =
       normal.dot(velocity_at(scene, i, before, point) + velocity_at(scene, i, after, point)) / 2;
-  // what couples took of a hit may be more than the rest of it lost
+  // couples may have taken more of a hit than it lost otherwise
   state.hit_loss[i] += std::clamp(-impulse * path, 0.0, std::max(0.0, dissipated));
 }
 

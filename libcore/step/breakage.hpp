@@ -32,10 +32,10 @@ inline void add_hit_loss(int b, double loss, State& state) {
 void add_ground_hit_loss(const Scene& scene, int b, const Motion& before, const Motion& after,
                          std::span<const Contact> contacts, double dissipated, State& state);
 
-/// Adds what hits take; for_each(take) calls take(block a, block b, loss) for each. The ground and
-/// fixed bodies (b < 0) have no part in it; two blocks have half of it each. Where a hit is passed
-/// on through a block, one contact takes what another gives back (loss < 0): all together have what
-/// the hits of the substep took, so that breaking takes no more.
+/// Adds the losses of hits; for_each(take) calls take(block a, block b, loss) for each. The ground
+/// and fixed bodies (b < 0) have no part in it; two blocks have half of it each. Where a hit is
+/// passed on through a block, one contact takes energy that another gives back (loss < 0): together
+/// they have the loss of all hits of the substep, so that breaking takes no more.
 template <class ForEach>
 void add_hit_losses(const ForEach& for_each, State& state) {
   double taken = 0, given = 0;

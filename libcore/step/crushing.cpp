@@ -1,3 +1,4 @@
+// Small blocks that are crushed by the load through them.
 #include "step/crushing.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -48,7 +49,7 @@ void crush_blocks(const Scene& scene, State& state) {
   for (size_t b = 0; b < state.load.size(); ++b) {
     if (std::isinf(scene.crush_load[b]) || does_not_move(state.phase[b])) continue;
     renew_mean(step_length(scene, state), state.load[b]);
-    // no axis bears more than half the trace
+    // the load through no axis is more than half the trace
     if (state.load[b].press.trace() <= 2 * scene.crush_load[b]) continue;
     if (state.phase[b] != Phase::near_ground) continue;
     const double load = load_through(state.load[b]);

@@ -1,12 +1,12 @@
 // libcore/step/crushing.hpp
 // Small blocks that are crushed by the load that is pressed through them: a splinter in a jam.
 // in:    impulses of the contacts of accepted substeps
-// out:   State::load, State::crushed, and at the end of a step the phase of what is crushed
+// out:   State::load, State::crushed, and at the end of a step the phase of crushed blocks
 //
 // Load: M = sum N n n^T over the contacts of a block (N normal force), R the sum of their forces.
-// Along a principal axis d of M, M_dd is what presses from both sides and |R_d| by how much the one
-// is larger than the other: half the difference goes through the block. Both are means over
-// law::load_time, and hits count with their impulse: no number of steps enters.
+// Along a principal axis d of M, M_dd is the load from both sides and |R_d| the difference of the
+// two sides: half the difference goes through the block. Both are means over law::load_time, and
+// hits count with their impulse: no number of steps enters.
 #pragma once
 
 #include <cmath>
@@ -31,8 +31,8 @@ inline void add_load(const Scene& scene, int b, const Vec3& normal, double p_n, 
 [[nodiscard]] double load_through(const BlockLoad& load);
 
 /// Ends a step that has come to state.time: brings the loads up to date, and crushes the blocks
-/// that bear more than they can. What was crushed bears nothing any more and stays where it was;
-/// its kinetic energy is booked.
+/// that are loaded beyond their strength. A crushed block carries nothing any more and stays in
+/// place; its kinetic energy is booked.
 void crush_blocks(const Scene& scene, State& state);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// Finds blocks that are deep in the ground, a block or a fence at the end of a step.
 #include "step/deep_blocks.hpp"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ void for_each_listed(const Scene& scene, const State& state, const DeepWork& w, 
   }
 }
 
-// Places the suspects and what they may overlap where they are at the end of the step.
+// Places the suspects and the bodies that they may overlap where they are at the end of the step.
 void place_suspects(const Scene& scene, const State& state, DeepWork& w) {
   const auto n = static_cast<size_t>(n_blocks(scene));
   w.poses.resize(n);
@@ -51,7 +52,7 @@ void place_suspects(const Scene& scene, const State& state, DeepWork& w) {
   place_hulls(scene.blocks.hulls, w.poses, w.stretch, w.moving, w.placed);
 }
 
-// Whether body b stands in the way of block a, and if it is a fixed one, placed where a finds it.
+// Whether body b is an obstacle to block a, and if it is a fixed one, placed where a finds it.
 bool is_placed_for(const Scene& scene, const State& state, int a, int b, DeepWork& w) {
   if (!is_fixed(scene, b)) return true;
   const int world = world_of(scene, a), body = fixed_of(scene, b);

@@ -1,3 +1,4 @@
+// Motion without contact: translation, free spin, and how long nothing can be hit.
 #include "step/flight.hpp"
 
 #include <algorithm>
@@ -133,9 +134,9 @@ std::array<double, 4> corner_heights(const Trn& trn, int row, int col, const Cel
   return heights;
 }
 
-// Where the body touches the ground, it reaches any plane that no corner of a triangle in one of
-// the cells below stands above: that of the triangle below the centroid does for many, over convex
-// ground for all, each other triangle has its own.
+// Where the body touches the ground, it reaches any plane that is above all corners of triangles in
+// the cells below: often the plane of the triangle below the centroid, over convex ground always;
+// each other triangle has its own.
 double time_to_ground(const Trn& trn, const CellRange& cells, const GridPoint& below,
                       const Passing& at, double longest) {
   const double flat = flat_ratio * trn.cell_size;

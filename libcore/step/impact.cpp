@@ -1,3 +1,4 @@
+// Impact of one block on the ground: rounds of hits until nothing approaches.
 #include "step/impact.hpp"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ double approach_of(const ImpactBody& body, const ImpactContact& contact) {
   return contact.normal.dot(body.velocity.head<3>() + body.velocity.tail<3>().cross(contact.point));
 }
 
-// One round: what approaches is hit. False when nothing is faster than the located speed.
+// One round of hits on approaching contacts. False when none is faster than the located speed.
 bool hit_once(std::span<const ImpactContact> touching, const HitSpeeds& speeds, bool is_last,
               ImpactBody& body, ImpactScratch& scratch, ImpactResult& result) {
   double fastest = 0;

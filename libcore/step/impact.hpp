@@ -1,7 +1,7 @@
 // libcore/step/impact.hpp
-// Impact of one block on the ground: what approaches is hit, all of it together, and again what
-// that drives into the ground, until nothing approaches. theory 1.12 (solver/impact_solve.hpp);
-// replaces Eq. (28)
+// Impact of one block on the ground: all approaching contacts are hit together, then those that the
+// hit drives into the ground, until nothing approaches. Replaces Eq. (28).
+// theory 1.12 (solver/impact_solve.hpp)
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ namespace talus {
 /// Approaches that matter [m/s].
 struct HitSpeeds {
   double resting = 0;  ///< slower ones do not rebound
-  double located = 0;  ///< slower ones are no hits
+  double located = 0;  ///< slower ones are not hits
 };
 
 struct ImpactResult {
@@ -34,7 +34,7 @@ struct ImpactResult {
 ImpactResult apply_impact(const Scene& scene, int b, double touch, const HitSpeeds& speeds,
                           Motion& motion, Work& work);
 
-/// The same for the contacts that stand in `work.contacts`.
+/// The same for the contacts in `work.contacts`.
 ImpactResult apply_impact(const Scene& scene, int b, const HitSpeeds& speeds, Motion& motion,
                           Work& work);
 

@@ -1,3 +1,4 @@
+// Gravity, base motion, point loads and joint water on a block.
 #include "step/loads.hpp"
 
 #include <algorithm>

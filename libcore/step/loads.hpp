@@ -40,7 +40,7 @@ namespace talus {
 Vec3 book_loads(const Scene& scene, int b, const Pose& from, const Pose& to, State& state);
 
 /// Lowers the pressure of wet faces by how far they have parted since the start; none rises again.
-/// Wakes the blocks of those that lost what could move a block.
+/// Wakes their blocks where the loss could move one.
 void drain_faces(const Scene& scene, State& state);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// Notes the first block that failed to converge, became infinite, left the terrain or fell through.
 #include "step/mishaps.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // libcore/step/mishaps.hpp
-// Which block first went wrong, when and where: what the limits of a run's health name.
-// in:    what a step reports, motion at its end
+// Which block first went wrong, when and where: the blocks that the limits of a run's health name.
+// in:    report of a step, motion at its end
 // out:   State::mishaps, but the deepest overlap, which step/deep_blocks.hpp notes
 #pragma once
 

@@ -27,14 +27,14 @@ enum class StepFlag : unsigned {
 
 /// Why a substep is made again.
 enum class SubstepCut : std::uint8_t {
-  yielding_touched,  ///< a fixed body that gives way is first touched within it: ends there
+  yielding_touched,  ///< a yielding fixed body is first touched within it: ends there
   unconverged,       ///< its forces did not converge: half
   deep,              ///< a block would end deep in something: ends after the hit that does it
   hit,               ///< a contact of a small island closes within it: ends there
   inaccurate,        ///< its forces change by more than Settings::accuracy allows: shorter
   bond_broken,       ///< a bond carries more than it holds: the same without it
-  woken,             ///< a block asleep carries what it did not fall asleep under: with it awake
-  yielding_used_up,  ///< what gives way has taken all that it can: ends there
+  woken,             ///< the load on a sleeping block has changed: with it awake
+  yielding_used_up,  ///< a yielding body has taken all that it can: ends there
 };
 inline constexpr std::array<const char*, 8> substep_cut_names = {
     "yielding_touched", "unconverged", "deep",  "hit",
@@ -57,7 +57,7 @@ struct StepReport {
   double sum_penetration = 0;  ///< over contacts that press [m]
   /// Substeps of islands of law talus that were made again, by SubstepCut.
   std::array<int, substep_cut_names.size()> cuts{};
-  /// Largest error estimated of a substep that was accepted, as a share of the way (step/
+  /// Largest error estimated of a substep that was accepted, as a share of the displacement (step/
   /// accuracy.hpp) [-].
   double largest_error = 0;
   double shortest_dt = 0;  ///< shortest substep; 0 when no block searched contact [s]

@@ -1,5 +1,5 @@
 // libcore/step/segment.hpp: public
-// How a step moved a block: what frames, passages and crossings are recorded from.
+// Motion of a block in a step: frames, passages and crossings are recorded from it.
 #pragma once
 
 #include "motion/motion.hpp"

@@ -1,3 +1,4 @@
+// Static start of one block, and the bonds of its faces on cohesive ground.
 #include "step/settle.hpp"
 
 #include <algorithm>
@@ -116,9 +117,9 @@ BlockSystem<Dof> static_system(const Scene& scene, int b, const BlockNumbers& c,
   return system;
 }
 
-// Step of the static iteration [s]. Friction holds back what spreads by straining until the block
-// has slid farther than that, so where it hardly slides short steps come to no end: as long as a
-// free fall takes through the margin.
+// Step of the static iteration [s]. Friction holds back motion that spreads by straining until the
+// block has slid farther than that, so where it hardly slides short steps come to no end: as long
+// as a free fall takes through the margin.
 template <int Dof>
 double static_step(const Settings& settings, const BlockNumbers& c) {
   if (Dof == 6 || c.gravity == 0) return settings.dt;
@@ -172,9 +173,9 @@ std::optional<StaticPass> static_pass(const Scene& scene, int b, const BlockNumb
 }
 
 // Static iteration: steps from rest, each ending at rest, until the block moves by less than
-// `still` of its radius, or by the same way as in the step before without turning. What slides is
-// put back by the way that it slid, and its acceleration is known. friction < 0: that of the
-// ground.
+// `still` of its radius, or by the same displacement as in the step before without turning. A
+// sliding block is put back by the distance that it slid, and its acceleration is known. friction <
+// 0: that of the ground.
 template <int Dof>
 Settled settle(const Scene& scene, int b, double friction, bool from_touch, double still,
                State& state, Work& work) {
@@ -182,7 +183,7 @@ Settled settle(const Scene& scene, int b, double friction, bool from_touch, doub
   // strains
   constexpr int most_passes = Dof == 12 ? 400 : 40, first_passes = Dof == 12 ? 100 : 5;
   constexpr double accelerates = 0.9;  // of the pass before: it comes to no end
-  // What slides goes on until the path changes by less than this, of the radius, or where that is
+  // Sliding is followed until the path changes by less than this, of the radius, or where that is
   // as far as the solver's tolerance lets it come: by less than these, of the path and of the
   // radius.
   constexpr double slides = 1e-11, slides_about = 1e-8, of_way = 1e-5;

@@ -1,3 +1,4 @@
+// Effects of yielding ground and of forests: couples, friction that varies, drag.
 #include "step/soil.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // libcore/step/soil.hpp
-// What ground that gives way does to a block: couples against rolling and pivoting, friction that
-// follows the way slid or the speed, drag; and the drag of forests. Nothing is computed where no
-// class of ground and no forest asks for it.
+// Effects of yielding ground on a block: couples against rolling and pivoting, friction that
+// follows the slid distance or the speed, drag; and the drag of forests. Nothing is computed where
+// no class of ground and no forest asks for it.
 // in:    classes of ground, rows of a block's contacts with it
 // out:   angular rows, friction of the rows, motions after drag
 // theory 1.13; docs/reference/site-file.md
@@ -41,7 +41,7 @@ int add_turn(const Scene& scene, int b, const BlockNumbers& c, double h,
              std::span<const ContactRow> rows, std::vector<AngularRow>& turns,
              std::vector<RowArm>& arms);
 
-/// Way slid on ground whose friction follows it: less what has been forgotten off the ground [m].
+/// Slip distance on ground whose friction follows it: less the part forgotten off the ground [m].
 [[nodiscard]] double way_slid(const Slide& slide, const GroundClass& ground);
 
 /// The one place that friction comes from where it varies, for every solver: makes `friction` its
@@ -55,8 +55,8 @@ inline void weaken_friction(const GroundClass& faces, double speed, double& fric
   if (weakens(faces)) friction = friction_on(faces, speed, 0);
 }
 
-/// The block goes on sliding for a `time` at the mean speed `speed`, to the end of a substep of `h`
-/// from t. What sticks creeps: that is not slid.
+/// The block slides for a further `time` at the mean speed `speed`, to the end of a substep of `h`
+/// from t. A sticking contact creeps: that is not slid.
 void slide_on(const Scene& scene, const GroundClass& ground, int b, double speed, double time,
               double t, double h, State& state);
 
@@ -66,7 +66,7 @@ int begin_soil(const Scene& scene, int b, const BlockNumbers& c, double h, const
                std::span<ContactRow> rows, std::vector<AngularRow>& turns,
                std::vector<RowArm>& arms);
 
-/// The straight way that a block's centroid goes in half of a substep. The two halves follow on
+/// The straight displacement of a block's centroid in half of a substep. The two halves follow on
 /// each other, so that a border that the block crosses counts where it is.
 struct HalfWay {
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< [m]
@@ -79,7 +79,7 @@ struct HalfWay {
   return {first_half(start, h).to, end.pose.position};
 }
 
-/// `motion` of block b after drag for a time of `h`, in which it goes the way `half`: of the ground
+/// `motion` of block b after drag for a time of `h`, in which it moves along `half`: of the ground
 /// below it where it `is_pressed` on that, and of the forests around it, which leave its spin;
 /// exact for each alone.
 [[nodiscard]] Motion after_drag(const Scene& scene, int b, const Motion& motion,

@@ -1,6 +1,6 @@
 // libcore/step/stage_clock.hpp
-// The stages of an island's step by number and name, and what each takes of the time: for
-// benchmarks, since a clock that is read costs more than some stages.
+// The stages of an island's step by number and name, and the time that each takes: for benchmarks,
+// since reading a clock costs more than some stages.
 #pragma once
 
 #include <array>

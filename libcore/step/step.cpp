@@ -1,3 +1,4 @@
+// One time step of all blocks: lone blocks, islands, masses, in order.
 #include "step/step.hpp"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ using std::size_t;
 
 constexpr size_t expected_contacts = 16;  // of a block, before a buffer has to grow
 
-// Whether block b shares its island with others, or may touch a fixed body.
+// Whether block b shares its island with another block, or may touch a fixed body.
 bool in_company(const State& state, const PairSearch& w, int b) {
   const auto i = static_cast<size_t>(b), k = static_cast<size_t>(w.groups.island_of[i]);
   return w.groups.block_begin[k + 1] - w.groups.block_begin[k] > 1 ||

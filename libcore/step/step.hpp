@@ -23,8 +23,8 @@ namespace talus {
 /// outlive it; the bits are the same with any number of them, and without.
 [[nodiscard]] Work make_work(const Scene& scene, Workers* workers = nullptr);
 
-/// Advances all blocks by State::stride nominal steps: settings.dt, or twice that while most of
-/// what moves is in masses.
+/// Advances all blocks by State::stride nominal steps: settings.dt, or twice that while most of the
+/// moving mass is in masses.
 ///
 /// A block in flight is not touched until its flight ends: its motion is that at local_time;
 /// motion_at() gives it at any time. A block that leaves the known terrain is stopped there.

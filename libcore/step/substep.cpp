@@ -1,3 +1,4 @@
+// Start of a substep: numbers of a block, its free motion, the rows of its ground contacts.
 #include "step/substep.hpp"
 
 #include <algorithm>
@@ -37,10 +38,10 @@ int row_of(const ContactMemory& memory, std::span<const Contact> contacts) {
   return best;
 }
 
-// Where the stiffness of a contact is not what it was, its springs keep their forces. What they
-// were pressed in beyond that would throw the block; it presses nothing from now on, and again when
-// the contact is as soft as before. A contact that becomes softer carries no more than it did,
-// since what presses overlap out of a stiff one is mostly taken up by damping.
+// Where the stiffness of a contact has changed, its springs keep their forces. Overlap beyond that
+// would throw the block; it presses nothing from now on, and again when the contact is as soft as
+// before. A contact that becomes softer carries no more than it did, since the force that presses
+// overlap out of a stiff one is mostly taken up by damping.
 void keep_force(double k_n, ContactRow& row) {
   const double share = row.last_stiffness / k_n;
   const double pressed_in = std::max(0.0, -(row.gap_start + row.offset));
@@ -57,8 +58,8 @@ double stiffness_to_bear(const ContactRow& row, double sag) {
   return last >= needed && last <= law::too_much * needed ? last : law::stiffens * needed;
 }
 
-// As soft as a contact may be that bears its last force: with `sag` of overlap, from `least` for
-// what bears little up to `stiffest`; beyond, where even that lets the overlap grow far.
+// As soft as a contact may be under its last force: with `sag` of overlap, from `least` for a small
+// force up to `stiffest`; beyond, where even that lets the overlap grow far.
 double softest_by_load(const BlockNumbers& c, double sag, double least, double stiffest,
                        const ContactRow& row) {
   const double k = std::clamp(stiffness_to_bear(row, sag), std::min(least, stiffest), stiffest);
@@ -66,8 +67,9 @@ double softest_by_load(const BlockNumbers& c, double sag, double least, double s
   return row.last_force > far * stiffest ? std::max(k, stiffness_to_bear(row, far)) : k;
 }
 
-// What the load asks for, from `soft` up to `most`; reached step by step beyond `ready`, left step
-// by step by what slips or opens, and at once where the forces were hard to find.
+// Stiffness that the load asks for, from `soft` up to `most`; reached step by step beyond `ready`,
+// left step by step by a contact that slips or opens, and at once where the forces were hard to
+// find.
 double stiffness_by_load(const BlockNumbers& c, double soft, double ready, double most,
                          const ContactRow& row) {
   const double last = row.last_stiffness;
@@ -125,10 +127,10 @@ std::optional<FeatureStart> edge_start(const Scene& scene, const Substep& s, con
   return FeatureStart{point, normal, normal.dot(point - (Q + at.t * f))};
 }
 
-// A contact of a face or an edge that goes on acts, over the substep, half-way between where it was
-// on the block and where it will be, and its gap is that between the features at either time. With
-// the point of its end alone, a face that slides over a node at speed v would be borne v h / 2 away
-// from where it is.
+// A contact of a face or an edge that continues acts, over the substep, half-way between its places
+// on the block at the start and the end, and its gap is that between the features at either time.
+// With the point of its end alone, a face that slides over a node at speed v would be supported v h
+// / 2 away from its place.
 void follow_features(const Scene& scene, const Substep& s, const Contact& contact,
                      const Mat3& to_body, ContactRow& row) {
   const Mat3 from_start = to_body * s.R_start;
@@ -153,9 +155,9 @@ void follow_features(const Scene& scene, const Substep& s, const Contact& contac
   row.free_move += (contact.gap - start->gap - row.normal.dot(row.free_move)) * row.normal;
 }
 
-// Gap of a vertex to the ground below it when the substep begins. A vertex may stand behind the
-// plane of the triangle that it will reach, a ridge away, and yet above the ground: it will hit on
-// its path.
+// Gap of a vertex to the ground below it when the substep begins. A vertex may be behind the plane
+// of the triangle that it will reach, a ridge away, and yet above the ground: it will hit on its
+// path.
 double clearance_at_start(const Scene& scene, const Contact& contact, const Substep& s) {
   if (contact.key.mode != ContactMode::vertex_face) return -1;
   const Trn& trn = scene.ground.trn;
@@ -310,7 +312,7 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   const double per_mass = c.stiffness * c.per_mass;
   const double stiffest = std::min(asked > 0 ? asked : c.stiffness, per_mass / W.normal);
   double k_n = stiffest;
-  const bool was_hit = row.memory >= 0 && row.last_stiffness == 0;  // nobody knows what it bears
+  const bool was_hit = row.memory >= 0 && row.last_stiffness == 0;  // its load is unknown
   if (c.sag > 0 && row.bond_area == 0 && !was_hit) {
     const double per_mobility = c.per_mass / W.normal;
     const double at_once = scene.gravity.norm() * scene.settings.dt * scene.settings.dt;
@@ -458,8 +460,8 @@ int count_flips(std::span<const ContactRow> rows, const std::vector<ContactMemor
   return flips.total();
 }
 
-// Residual at which the contact forces count as found, as a velocity: 1e-8 of what gravity does in
-// the substep, or what the rounding of the coordinates makes of the stiffest contact.
+// Residual at which the contact forces count as found, as a velocity: 1e-8 of the change by gravity
+// in the substep, or the effect of rounded coordinates on the stiffest contact.
 double newton_tolerance(const BlockNumbers& c, const Substep& s) {
   const double rounding = 8 * std::numeric_limits<double>::epsilon() *
                           s.start.pose.position.cwiseAbs().maxCoeff() * c.stiffness * s.h / c.mass;
@@ -541,8 +543,8 @@ void stop_outside(const Scene& scene, int b, State& state, StepReport& report) {
 void set_rates(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                const Motion& end, State& state) {
   const auto i = static_cast<size_t>(b);
-  // a running mean: what comes and goes at the solver's tolerance is not carried on; but it begins
-  // anew where nothing pressed the block before
+  // a running mean: fluctuations at the solver's tolerance are not carried on; but it begins anew
+  // where nothing pressed the block before
   const double share = state.acceleration[i] == scene.gravity ? 1 : 0.5;
   const double per_h = share / s.h;
   state.acceleration[i] =

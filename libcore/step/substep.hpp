@@ -28,11 +28,11 @@ namespace talus {
 /// it open [m].
 [[nodiscard]] double search_margin(const BlockNumbers& c, double h);
 
-/// Below this approach there is no impact [m/s]. `g`: of gravity [m/s^2].
+/// Below this approach there is no impact [m/s]. `g`: acceleration of gravity [m/s^2].
 [[nodiscard]] double resting_speed(const Settings& settings, double g);
 /// Approach of a contact that ends a substep, of a block of which no point is faster than `speed`
-/// [m/s]. A slower one closes within the substep, which errs by up to that speed in what the block
-/// does next, and by that times the substep in where it is.
+/// [m/s]. A slower one closes within the substep, which errs by up to that speed in the block's
+/// next motion, and by that times the substep in its place.
 [[nodiscard]] double located_speed(const Scene& scene, const BlockNumbers& c, double speed);
 
 /// When a contact that approaches with `speed` < 0 and has `gap` when a substep of `h` begins, and
@@ -47,12 +47,12 @@ namespace talus {
 /// I + strain of block b.
 [[nodiscard]] Mat3 stretch_of(const State& state, int b);
 
-/// Resets what a row is not given anew in every step: memory, bond, and what solve_contacts leaves
-/// as it was while the row waits. Cheaper than a whole new row.
+/// Resets the data of a row that are not set anew in every step: memory, bond, and those that
+/// solve_contacts keeps while the row waits. Cheaper than a whole new row.
 void forget_last_step(ContactRow& row);
 
-/// Begins row `i`, of what the search found between block b and the ground: forgets the last step,
-/// and says between what it acts, in the axes that `to_row` turns local ones into.
+/// Begins row `i`, one of the contacts found between block b and the ground: forgets the last step,
+/// and sets the bodies that it acts between, in the axes that `to_row` turns local ones into.
 [[nodiscard]] ContactRow& begin_row(const Scene& scene, int b, std::size_t i, const Mat3& to_row,
                                     std::span<const Contact> contacts, std::span<ContactRow> rows);
 /// Normal velocity and direction of slip of a row whose point begins the substep with `velocity`.
@@ -64,23 +64,24 @@ inline void set_start(const Vec3& velocity, ContactRow& row) {
   row.slip_start = slip_speed > 0 ? Vec3((1 / slip_speed) * slip) : Vec3(Vec3::Zero());
 }
 
-/// What a row inherits from memory `index`: the shear spring turned into the new tangent plane, and
-/// the overlap that presses nothing. Where what lies below changes plane the gap jumps; the jump
-/// does no work. Over one plane, or where both features are those of before, it jumps only by what
-/// turning bends. `to_row` turns local into the row's axes.
+/// The part of memory `index` that a row inherits: the shear spring turned into the new tangent
+/// plane, and the overlap that presses nothing. Where the ground below changes plane the gap jumps;
+/// the jump does no work. Over one plane, or where both features are those of before, it jumps only
+/// by the bend of a turn. `to_row` turns local into the row's axes.
 void inherit(const ContactMemory& memory, int index, bool same_features, const Mat3& to_row,
              const BlockNumbers& c, ContactRow& row);
 
-/// Whether a contact that a hit left deep in its other side, and that bears nothing, approaches so
+/// Whether a contact that a hit left deep in its other side, and that carries nothing, approaches
+/// so
 /// fast again that it has to be hit anew: farther in than 2 % of the thickness in a substep of `h`.
 [[nodiscard]] bool comes_back_fast(const ContactMemory& memory, double approach, double h,
                                    const BlockNumbers& c);
 
-/// What the row of a new contact with body `body_b` takes over from those that press it already,
-/// the `memory` of A. As much of its overlap as the deepest of them is pressed in is no surprise:
-/// where corners of two faces only change places, what they bear must not be dropped. The stiffness
-/// of that one is the new one's last, so that where the stiffness changes in the same step it takes
-/// on the force and not the depth.
+/// The load that the row of a new contact with body `body_b` takes over from those that press it
+/// already, the `memory` of A. Overlap up to that of the deepest of them is expected: where corners
+/// of two faces only change places, their load must not be dropped. The stiffness of that one is
+/// the new one's last, so that where the stiffness changes in the same step it takes on the force
+/// and not the depth.
 void take_on_load(std::span<const ContactMemory> memory, int body_b, ContactRow& row);
 
 /// Stiffness, bias and whether the row waits for its impact. `approach`: normal velocity without
@@ -90,8 +91,8 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
 /// The same for a contact with the ground.
 void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row);
 
-/// Takes the contact of an intact bond as one without limit: what it carries is compared with the
-/// strength of its face afterwards.
+/// Takes the contact of an intact bond as one without limit: its load is compared with the strength
+/// of its face afterwards.
 void hold(const GroundClass& face, double recovery_time, ContactRow& row);
 
 /// The corner of a bonded face of class `face` at a contact that carries `impulse` [N s] over a
@@ -101,7 +102,7 @@ void hold(const GroundClass& face, double recovery_time, ContactRow& row);
                                    const Vec3& impulse, double h);
 
 /// Makes the `rows` of `contacts`, which the search found between block b and the ground, in the
-/// body axes of s.R. `memory`: what the block remembers.
+/// body axes of s.R. `memory`: the contact memory of the block.
 void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                std::span<const ContactMemory> memory, std::span<const Contact> contacts,
                std::span<ContactRow> rows);
@@ -137,7 +138,7 @@ void watch_rest(const Scene& scene, std::size_t b, State& state);
 [[nodiscard]] inline double step_length(const Scene& scene, const State& state) {
   return static_cast<double>(state.stride) * scene.settings.dt;
 }
-/// Block b is left out until something wakes it; what it still moved by is booked as lost in
+/// Block b is left out until something wakes it; its remaining kinetic energy is booked as lost in
 /// contacts.
 void fall_asleep(const Scene& scene, std::size_t b, State& state);
 /// Kinetic energy of block b in motion `m` [J].
@@ -160,10 +161,10 @@ void stop_at(const Motion& last_good, std::size_t b, State& state, StepReport& r
 /// something presses the block.
 void set_rates(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                const Motion& end, State& state);
-/// After a hit the last accelerations say nothing about the next, and what nothing presses falls.
+/// After a hit the last accelerations say nothing about the next, and an unsupported block falls.
 void forget_rates(const Scene& scene, int b, State& state);
 
-/// Keeps by how much the ground accelerated block b [m/s2], up to what bears its weight.
+/// Keeps by how much the ground accelerated block b [m/s2], up to the support of its weight.
 void set_support(const Scene& scene, int b, const Vec3& acceleration, State& state);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// End of a substep: energy of contacts, pushes on yielding bodies, loads, segments.
 #include "step/substep_end.hpp"
 
 #include <algorithm>

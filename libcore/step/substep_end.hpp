@@ -30,16 +30,16 @@ struct ContactEnd {
   Vec3 path;                      ///< per time, that the impulse works on [m/s]
   bool is_hit = false, yields = false;
 
-  /// Normal energy that it took; < 0: others drove its bodies apart [J].
+  /// Normal energy that it took; < 0: other contacts drove its bodies apart [J].
   [[nodiscard]] double loss() const { return -p_n * normal.dot(path); }
 };
 
 /// Energy that a contact took, by kind, and the load that it puts on its blocks; push_bodies() adds
-/// that of bodies that give way.
+/// that of yielding bodies.
 void book(const Scene& scene, const ContactEnd& contact, State& state);
 
-/// What a contact does to the fixed body that gives way to it over a substep of `h`: adds it to
-/// `pushes`. `speed_start`: normal velocity at the start; `is_limited`: the body gives way, to
+/// Adds the push of a contact on the fixed body that yields to it over a substep of `h` to
+/// `pushes`. `speed_start`: normal velocity at the start; `is_limited`: the body yields, to
 /// `gap_end`; `pose`: of the fixed body, where it was searched.
 void push(const Scene& scene, const State& state, const ContactEnd& contact, double h,
           double speed_start, bool is_limited, double gap_end, std::span<const Pose> poses,

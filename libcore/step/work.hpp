@@ -1,5 +1,5 @@
 // libcore/step/work.hpp: public
-// What a step recomputes and may be thrown away; the comment above a group names what fills it.
+// Data that a step recomputes and may be thrown away; the comment above a group names its function.
 // Buffers grow to the largest step and are kept: the step loop does not allocate.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace talus {
 
-/// What ground that gives way does over a substep of one block (step/soil.hpp).
+/// Scratch of yielding ground over a substep of one block (step/soil.hpp).
 struct SoilWork {
   std::vector<AngularRow> turns;  ///< one, or none
   std::vector<RowArm> arms;       ///< of the rows; empty: no turn
@@ -31,7 +31,8 @@ struct Work {  // clang-format off
   // find_contacts: candidates of the block at hand
   std::vector<Vec3> world_vertices;          ///< at the predicted pose [m]
   std::vector<Contact> contacts;             ///< of the block at hand             (n_candidates)
-  std::vector<NearFeatures> near_ground;     ///< what each block may touch there      (n_blocks)
+  std::vector<NearFeatures> near_ground;     ///< features that each block may touch there
+                                             ///< (n_blocks)
   // make_rows, solve_contacts
   std::vector<ContactRow> rows;              ///< of the block at hand
   SoilWork soil;                             ///< beside them

@@ -20,7 +20,7 @@ namespace {
 
 using std::size_t;
 
-/// Accepts a substep; a struct so that its parts share what they all read and fill.
+/// Accepts a substep; a struct so that its parts share common data.
 struct SubstepAcceptance {
   const Scene& scene;
   const IslandMembers& members;
@@ -34,7 +34,8 @@ struct SubstepAcceptance {
   StepReport& report;
   bool is_eased = false;  // its forces were not found at first
 
-  // Normal energy that the contact of a hit took; below zero where others drove its bodies apart.
+  // Normal energy taken by the contact of a hit; below zero where other contacts drove its bodies
+  // apart.
   [[nodiscard]] double hit_loss_of(size_t r) const {
     if (!system.contacts[r].is_hit() || system.contacts[r].waits || gives_way(system, r) ||
         row_of(system, r).state() == ContactState::open)
@@ -59,10 +60,10 @@ struct SubstepAcceptance {
     }
   }
 
-  // Share of offset_relaxed() by which an overlap is pressed out. That is a speed, whatever it
-  // takes: between blocks that are jammed the forces would grow without bound, and throw out what
-  // they hold. So nothing is pressed out against several times the weight of the lighter block,
-  // unless it is deep: health allows a tenth of the thickness.
+  // Share of offset_relaxed() by which an overlap is pressed out. That is a speed at any force:
+  // between jammed blocks the forces would grow without bound, and throw the blocks out. So nothing
+  // is pressed out against several times the weight of the lighter block, unless it is deep: health
+  // allows a tenth of the thickness.
   [[nodiscard]] double share_pressed_out(const KeptContact& contact, double normal_force) const {
     double mass = members.of(contact.a).mass;
     if (contact.b >= 0) mass = std::min(mass, members.of(contact.b).mass);
@@ -72,8 +73,8 @@ struct SubstepAcceptance {
     return std::clamp(std::max(by_load, by_depth), 0.0, 1.0);
   }
 
-  // How long contacts are to stiffen no more: those of blocks in motion whose forces were hard to
-  // find. A pile that stands would begin to lean.
+  // For how long contacts do not stiffen: those of blocks in motion whose forces were hard to find.
+  // A pile at rest would begin to lean.
   [[nodiscard]] std::uint8_t rests_of(const KeptContact& contact) const {
     const auto moves = [&](int b) {
       return b >= 0 && free.substeps[members.at(b)].start.velocity.norm() > members.of(b).slow;
@@ -82,10 +83,10 @@ struct SubstepAcceptance {
     return static_cast<std::uint8_t>(eases ? law::most_rests : std::max(0, contact.rests - 1));
   }
 
-  // What contact `r`, which pressed and ends with an overlap of `overlap`, keeps for the next step.
-  // Hits keep nothing, but where blocks are found deep in each other or in the ground: edges that
-  // slide on each other while they turn are hit in every step, and so are splinters that large
-  // blocks drive into the ground; what that adds to the overlap has to be pressed out.
+  // The memory that contact `r`, which pressed and ends with an overlap of `overlap`, leaves to the
+  // next step. Hits leave nothing, but where blocks are found deep in each other or in the ground:
+  // edges that slide on each other while they turn are hit in every step, and so are splinters that
+  // large blocks drive into the ground; the overlap that this adds has to be pressed out.
   void remember_contact(size_t r, const Vec3& path, double overlap) {
     const double h = free.h;
     const KeptContact& contact = system.contacts[r];
@@ -109,7 +110,7 @@ struct SubstepAcceptance {
     }
     const double along = normal.dot(path);
     memory.gap_end = contact.gap_start + contact.offset + along - (contact.offset - memory.offset);
-    if (was_hit) return;  // it bears nothing
+    if (was_hit) return;  // it carries nothing
     const ContactState stays = row.state();
     memory.normal_force = p_n / h;
     const double per_time = members.of(contact.a).recovery_time * h;
@@ -150,7 +151,8 @@ struct SubstepAcceptance {
       book(scene, end_of_contact(members, free, system, hits, r), state);
       ++report.n_closed;
       report.sum_penetration += std::max(overlap, 0.0);
-      // what blocks give each other they keep: only the ground may go on to bear one alone
+      // impulses between members stay within the island: only the ground may continue to support
+      // one alone
       if (pair.b < 0 && !gives_way(system, r)) end.ground_impulse[pair.a] += row.impulse();
       remember_contact(r, path, overlap);
     }
@@ -180,7 +182,7 @@ struct SubstepAcceptance {
     add_segment(b, false, t + last, rest, after, motion, segments);
   }
 
-  // How contacts bear a member from now on. Shortly after a hit nobody knows.
+  // The support of a member from now on. It is unknown shortly after a hit.
   void renew_support(size_t k) {
     const double since = free.h - hits.members[k].clock;
     if (since < law::after_hit * free.h) return;
@@ -214,7 +216,8 @@ struct SubstepAcceptance {
     state.ledger.rolling += hits.by_rolling;
   }
 
-  // First touches of panels and stems, and what they left to their blocks. Stems are touched where
+  // First touches of panels and stems, and the motion of their blocks after it. Stems are touched
+  // where
   // a substep begins, see first_touch().
   void note_touched() {
     if (scene.fixed.panels.empty() && scene.forest.stems.empty()) return;

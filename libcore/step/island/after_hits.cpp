@@ -73,7 +73,7 @@ void stop(const IslandMembers& members, const FreeMotions& free, size_t r, doubl
   note_change(system, r);
 }
 
-// Contact `r` presses nothing: what comes fast is hit, in the next substep where this one did not
+// Contact `r` presses nothing: a fast approach is hit, in the next substep where this one did not
 // find it.
 void wait_for_hit(size_t r, IslandSystem& system) {
   const IslandRow row = row_of(system, r);
@@ -126,7 +126,7 @@ void find_pressed(const IslandSystem& system, size_t n_members,
 }
 
 /// The part of the substep over which the contacts of a pair press: all of it where something
-/// pressed one of its bodies before, else what is left after their last hit.
+/// pressed one of its bodies before, else the rest after their last hit.
 struct PairRest {
   double length = 0;  // [s]
   bool has_b = false;
@@ -152,8 +152,8 @@ PairRest rest_of(const HitLooks& looks, const IslandSystem& system, size_t p,
   return rest;
 }
 
-// Where a body's impulses act that press it in the middle of `rest`: there they and what they move
-// have the same moment, so that angular momentum is kept.
+// Point where an impulse on a body acts that presses it in the middle of `rest`: there impulse and
+// moved momentum have the same moment, so that angular momentum is kept.
 Vec3 place_of_impulse(const PlacedMotion& end, double rest) {
   return end.position - rest / 2 * end.velocity;
 }

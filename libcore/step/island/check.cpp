@@ -1,5 +1,5 @@
-// Stage 8 of an island's step: does the substep hold, or is it made again, shorter or with other
-// contacts? Reads alone; what it finds is in SubstepEnd.
+// Stage 8 of an island's step: accepts the substep, or requests it again, shorter or with different
+// contacts. Reads alone; its findings are in SubstepEnd.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +21,7 @@ using std::size_t;
 using law::after_hit, law::deep_share, law::sunk, law::most_rounds_in_substep, law::most_halvings,
     law::most_repetitions;
 
-/// Checks a substep; a struct so that its parts share what they all read.
+/// Checks a substep; a struct so that its parts share common data.
 struct SubstepCheck {
   const Scene& scene;
   const State& state;
@@ -120,7 +120,7 @@ struct SubstepCheck {
                              : scene.ground.classes[contact.ground_class];
   }
 
-  // The faces of the bonds and what they carry; whether that is more than one of them holds.
+  // The faces of the bonds and their loads; whether one of them is overloaded.
   [[nodiscard]] bool overloads_bonds() const {
     end.bond_faces.clear();
     if (!system.has_bonds) return false;
@@ -145,9 +145,9 @@ struct SubstepCheck {
     return !std::all_of(end.bond_faces.begin(), end.bond_faces.end(), holds);
   }
 
-  // --- what gives way --------------------------------------------------------------------------
+  // --- yielding bodies -------------------------------------------------------------------------
 
-  // What the blocks do to the fixed bodies that give way.
+  // Pushes of the blocks on yielding fixed bodies.
   void find_pushes() const {
     end.pushes.clear();
     if (!anything_yields(scene)) return;
@@ -166,7 +166,7 @@ struct SubstepCheck {
 
   // --- accuracy --------------------------------------------------------------------------------
 
-  // What the substep may err by, over the way of the mass that moves.
+  // Estimated error of the substep, over the displacement of the moving mass.
   [[nodiscard]] double error_over_way() const {
     if (free.t == 0) return 0;
     MeanError error;
@@ -254,8 +254,8 @@ WayError error_of_member(const Scene& scene, const State& state, const IslandMem
 }
 
 // Path per time of the points of contact `r` that its impulse works on, over the substep: their
-// mean velocity without and with contacts, less what gravity does to a change of velocity in the
-// rest of the substep.
+// mean velocity without and with contacts, less the effect of gravity on a change of velocity in
+// the rest of the substep.
 Vec3 path_of_impulse(const IslandMembers& members, const FreeMotions& free,
                      const IslandSystem& system, const SubstepHits& hits, size_t r) {
   const KeptContact& contact = system.contacts[r];
@@ -294,7 +294,7 @@ Motion end_of(const IslandMembers& members, const FreeMotions& free, const Islan
   out.pose.attitude =
       (rotation_by(end.displacement[k].tail<3>()) * s.free.pose.attitude).normalized();
   out.angular_momentum += system.island.mass[k].bottomRightCorner<3, 3>() * dv.tail<3>();
-  // what presses later does so where what pressed earlier has moved the member
+  // later impulses act where earlier ones have moved the member
   const Vec3 by_times = end.displacement[k].head<3>() - free.h / 2 * dv.head<3>();
   out.angular_momentum -= members.numbers[k].mass * by_times.cross(dv.head<3>());
   return out;

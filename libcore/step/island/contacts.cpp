@@ -15,7 +15,8 @@ namespace {
 
 using std::size_t;
 
-// Sets what the motion of the points says of a contact: they move by `moved` relative to each other
+// Sets the data of a contact that follow from the motion of its points: they move by `moved`
+// relative
 // within the substep without contact forces, and with `slip` at its start.
 void set_motion(const Vec3& normal, double gap, const Vec3& arm, const Vec3& drift,
                 const Vec3& moved, const Vec3& slip, ContactRow& row) {
@@ -34,7 +35,7 @@ double approach_of(const ContactRow& row, double h) {
   return std::min(row.speed_start, row.normal.dot(row.free_move) / h);
 }
 
-// Whether block a touched what has this name in the last step.
+// Whether block a touched a body of this name in the last step.
 bool knows_body(const State& state, int a, int name) {
   const std::vector<ContactMemory>& memory = state.memory[a];
   return std::any_of(memory.begin(), memory.end(),
@@ -55,7 +56,7 @@ struct Meeting {
   BlockNumbers numbers;  ///< of A, but sizes, stiffness and touching gap are the pair's
 };
 
-/// Makes the contacts of a substep; a struct so that its parts share what they all read.
+/// Makes the contacts of a substep; a struct so that its parts share common data.
 struct ContactMaker {
   const Scene& scene;
   const State& state;
@@ -107,7 +108,8 @@ struct ContactMaker {
     contact.pair = static_cast<int>(system.island.pairs.size()) - 1;
     contact.gap_free = contact.gap_start + along_path;
     contact.approach = std::min(contact.speed_start, along_path / free.h);
-    // what comes from so far that it must be fast, wherever another hit throws it, waits too
+    // a contact that comes from so far that it must be fast, wherever another hit throws it, waits
+    // too
     const BlockNumbers& c = members.of(contact.a);
     contact.waits =
         contact.memory < 0 && !never_waits &&
@@ -218,9 +220,9 @@ struct ContactMaker {
     return meeting;
   }
 
-  // Takes over what `memory` holds; false where it is not this contact's. What comes fast is met by
-  // a hit: where it is still apart; where a hit left the memory; and where other features are found
-  // far deeper than those of the memory were, at the other end of the block perhaps.
+  // Takes over `memory`; false where it is not this contact's. A fast approach is met by a hit:
+  // where it is still apart; where a hit left the memory; and where other features are found far
+  // deeper than those of the memory were, at the other end of the block perhaps.
   bool inherit_from(const PairManifold& m, const PairPoint& point, int memory, double approach,
                     const BlockNumbers& c, ContactRow& row) const {
     if (memory < 0) return false;
@@ -276,7 +278,7 @@ struct ContactMaker {
   }
 
   // A point on a fixed body: for the solver, on the ground. `n_closing`: points of the manifold
-  // that close within the substep; they share the force with which it gives way.
+  // that close within the substep; they share the force at which it yields.
   void add_fixed_point(const PairManifold& m, const PairPoint& point, int memory, int n_closing) {
     const size_t k = members.at(m.block_a);
     const Substep& s = free.substeps[k];
@@ -301,8 +303,8 @@ struct ContactMaker {
 
     const double approach = approach_of(row, s.h);
     const Yielding* yielding = giving_way(scene, fixed, n);
-    if (yielding != nullptr) c.sag = 0;  // its force is what that gives way at
-    // what gives way is pressed for many steps
+    if (yielding != nullptr) c.sag = 0;  // its force is the limit of the yielding body
+    // a yielding body is pressed for many steps
     if (!inherit_from(m, point, memory, yielding != nullptr ? 0 : approach, c, row))
       row.offset = std::max(0.0, -row.gap_start);
     set_law(scene, c, s.h, mobility_at(members, free, k, row.arm, n), approach, row);

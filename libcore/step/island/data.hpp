@@ -35,16 +35,17 @@ namespace talus {
 
 // --- of a step ---------------------------------------------------------------------------------
 
-/// Scratch of who wakes with whom, and who falls asleep.
+/// Scratch for waking together, and for falling asleep.
 struct SleepScratch {
-  std::vector<int> blocks, woken;            ///< that are to wake; that did, with what bonds hold
-  std::vector<std::pair<int, int>> touches;  ///< of blocks asleep, both ways
+  std::vector<int> blocks, woken;            ///< that are to wake; that did, with their bonded
+                                             ///< neighbours
+  std::vector<std::pair<int, int>> touches;  ///< of blocks asleep, in both orders
   std::vector<std::uint8_t> is_known;        ///< among `blocks`                        (n_blocks)
   std::vector<int> sleepers;                 ///< that fall asleep
-  std::vector<int> borne, beside_motion;     ///< that others press; that press what moves
+  std::vector<int> borne, beside_motion;     ///< that other blocks press; that press moving blocks
 };
 
-/// Which blocks meet, and what they meet. Bodies are those of Blocks::hulls.
+/// Which blocks meet, and the bodies that they meet. Bodies are those of Blocks::hulls.
 struct PairSearch {  // clang-format off
   // form_islands for all blocks; 2 find_pairs anew for those of an island
   std::vector<Pose> poses;                  ///< at the start of the step or substep     (n_bodies)
@@ -54,7 +55,7 @@ struct PairSearch {  // clang-format off
   std::vector<std::uint8_t> moving, awake;  ///<                                         (n_blocks)
   std::vector<std::uint8_t> absent;         ///< 1: touches nothing; empty: none      (n_blocks)
   std::vector<std::uint8_t> in_mass;        ///< 1: of a mass; empty: none               (n_blocks)
-  BodyGrid grid;                            ///< the fixed bodies, where they stood first
+  BodyGrid grid;                            ///< the fixed bodies, in their first places
   std::vector<int> shifted;                 ///< bodies: the fixed ones whose pose is not that
   std::vector<int> near;                    ///< scratch: fixed bodies near a block
   std::int64_t n_fixed_near = 0;            ///< fixed bodies looked at so far, block by block
@@ -90,7 +91,7 @@ struct LoneBefore {
 struct UntouchedScratch {  // clang-format off
   std::vector<std::uint8_t> alone;   ///< 1: moved already, as a lone block       (n_blocks)
   std::vector<int> blocks;           ///< those of the island at hand that may move alone
-  std::vector<LoneBefore> before;    ///< what they were; grows to the largest island
+  std::vector<LoneBefore> before;    ///< their state before; grows to the largest island
 };  // clang-format on
 
 // --- of an island in a step --------------------------------------------------------------------
@@ -100,7 +101,7 @@ struct IslandMembers {  // clang-format off
   std::vector<int> blocks;                  ///< ascending
   std::vector<BlockNumbers> numbers;        ///<                                         (n_members)
   std::vector<int> place;                   ///< of a body in `blocks`, -1: not in it    (n_bodies)
-  std::vector<int> moving;                  ///< blocks that do not stand, ascending
+  std::vector<int> moving;                  ///< blocks that are not at rest, ascending
   bool is_small = false;                    ///< the island's matrix is cheap to factor
   bool is_soft = false;                     ///< no load makes its contacts stiffer
   bool locates_hits = false;                ///< a hit ends the substep, as of a lone block
@@ -115,10 +116,10 @@ struct IslandMembers {  // clang-format off
   [[nodiscard]] bool moves(int b) const { return place[b] >= 0 && !of(b).stands; }
 };
 
-/// Mass of a block over that with which it stands as fast as the ground: nothing feels the rest.
+/// Mass of a block over that with which it counts as fixed: nothing feels the rest.
 inline constexpr double share_of_standing_mass = std::numeric_limits<double>::epsilon();
 
-/// What two members press each other with over a substep, on the mean.
+/// Mean load between two members over a substep.
 struct PairPress {
   int a = 0, b = 0;  ///< blocks
   Vec6 on_a, on_b;   ///< force, and couple about its centroid [N, N m]
@@ -177,11 +178,12 @@ struct MemberMotion {
   PlacedMotion placed;
 };
 
-/// A member between two of its hits. Until its first what bore it in the substep before goes on.
+/// Free flight of a member between two hits. Until its first hit, the support of the substep before
+/// continues to act.
 struct FlyingMember {
   Motion motion;               ///< at `clock`
   double clock = 0;            ///< its last hit, from the start of the substep [s]
-  Vec3 borne = Vec3::Zero();   ///< acceleration by what bears it [m/s2]
+  Vec3 borne = Vec3::Zero();   ///< acceleration by its support [m/s2]
   double borne_until = 0;      ///< from the start of the substep [s]
   Vec3 torque = Vec3::Zero();  ///< of loads [N m]
   bool was_hit = false;
@@ -211,7 +213,7 @@ struct PathToHit {
   Motion start, stop;         ///< just after `begin`, just before `end`
 };
 
-/// 6 find_hits: what is hit, when, and how the members move with that.
+/// 6 find_hits: the contacts hit, their times, and the motion of the members from then on.
 struct SubstepHits {  // clang-format off
   std::vector<std::size_t> contacts_hit;    ///< in the order in which they were found
   std::vector<FlyingMember> members;        ///<                                         (n_members)
@@ -222,7 +224,7 @@ struct SubstepHits {  // clang-format off
   std::vector<ImpactContact> impulses;      ///< of blocks that may break or be crushed, else none
   std::vector<Vec3> bond_impulse;           ///< of contacts with bonds, by hits [N s]; empty: none
   double dissipated = 0;                    ///< by hits, but for friction [J]
-  double by_friction = 0;                   ///< ... by friction and by what bore members [J]
+  double by_friction = 0;                   ///< ... by friction and by the support of members [J]
   double by_rolling = 0;                    ///< ... by resistance to rolling [J]
   int n_hits = 0;                           ///< contacts hit, and how often
   int passes = 0;                           ///< of their solutions
@@ -256,10 +258,10 @@ struct SubstepHits {  // clang-format off
 struct SubstepEnd {  // clang-format off
   // 8 check_substep
   std::vector<Vec6> displacement;           ///< by contact                              (n_members)
-  std::vector<BondFace> bond_faces;         ///< and what they carry                     (n_bonded)
-  double error = 0;                         ///< estimated, as a share of the way [-]
-  std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
-  std::vector<PairPress> presses;           ///< where they tell who sleeps
+  std::vector<BondFace> bond_faces;         ///< and their loads                        (n_bonded)
+  double error = 0;                         ///< estimated, as a share of the displacement [-]
+  std::vector<YieldPush> pushes;            ///< on yielding fixed bodies
+  std::vector<PairPress> presses;           ///< where needed to find who sleeps
   std::vector<Vec6> load_change;            ///< of those asleep                        (n_members)
   SleepScratch sleep;                         ///< its `blocks` have to be awake in it
   // 9 accept
@@ -283,7 +285,7 @@ struct SubstepVerdict {
 struct SubstepTries {
   // of the substep
   int halvings = 0;              ///< because it did not converge
-  int used_up_cuts = 0;          ///< at the time when what gives way is used up
+  int used_up_cuts = 0;          ///< at the time when a yielding body is used up
   std::vector<BondFace> broken;  ///< bonds that it breaks
   // of the step
   double last_h = 0;   ///< length of the substep before, or of the step [s]
@@ -307,7 +309,7 @@ struct IslandScratch {
   StageClock* clock = nullptr;  ///< where the stages' times are wanted; no part of a run
 };
 
-// --- what the stages ask of these --------------------------------------------------------------
+// --- access for the stages ---------------------------------------------------------------------
 
 /// Row of contact `r` for the solver.
 [[nodiscard]] inline IslandRow row_of(IslandSystem& system, std::size_t r) {
@@ -324,12 +326,12 @@ struct IslandScratch {
   return {first, first + static_cast<std::size_t>(of.row_end - of.row_begin)};
 }
 
-/// The next solution cannot go on from what the last one made of contact `r`.
+/// The next solution cannot continue from the last one's result for contact `r`.
 inline void note_change(IslandSystem& system, std::size_t r) {
   system.island.pairs[system.contacts[r].pair].changed = true;
 }
 
-/// Presses on a fixed body that gives way.
+/// Presses on a yielding fixed body.
 [[nodiscard]] inline bool gives_way(const IslandSystem& system, std::size_t r) {
   const ConstIslandRow row = row_of(system, r);
   return row.normal_limit() < no_normal_limit && row.state() != ContactState::open;

@@ -1,3 +1,4 @@
+// Looks at pairs of an island: when they may be hit, and which contacts touch then.
 #include "step/island/hit_looks.hpp"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ bool bears(const State& state, int b) {
                      [](const ContactMemory& m) { return m.normal_force > 0; });
 }
 
-// What bears member k goes on until its first hit, or until it would begin to drive it.
+// The support of member k continues until its first hit, or until it would begin to drive it.
 void set_borne(const State& state, const IslandMembers& members, const Substep& s, size_t k,
                FlyingMember& flying) {
   const BlockNumbers& c = members.numbers[k];
@@ -167,8 +168,8 @@ double HitLooks::size_of(size_t p) const {
   return pair.b < 0 ? a : std::min(a, members.numbers[pair.b].radius);
 }
 
-// Approach above which a pair is hit at `time`: what touches when the substep begins, and closed
-// slowly in the one before, is located; later ones end this substep.
+// Approach above which a pair is hit at `time`: a contact that touches when the substep begins, and
+// closed slowly in the one before, is located; later ones end this substep.
 double HitLooks::hit_speed(size_t k, double time) const {
   const BlockNumbers& c = members.numbers[k];
   return time == 0 ? c.located_speed : c.resting_speed;
@@ -363,7 +364,7 @@ void HitLooks::look_at(const PairLook& look) const {
   const PlacedMotion& a = member_at(ka, look.time).placed;
   const PlacedMotion* b =
       pair.b < 0 ? nullptr : &member_at(static_cast<size_t>(pair.b), look.time).placed;
-  // what comes fast enough to be hit: what was hit already, or slides, tells nothing of its time
+  // contacts fast enough to be hit: one that was hit already, or slides, does not give the time
   constexpr double none = std::numeric_limits<double>::infinity();
   const double resting = hit_speed(ka, look.time);
   double least = none, approach_of_least = 0;

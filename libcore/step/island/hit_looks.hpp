@@ -1,5 +1,5 @@
 // libcore/step/island/hit_looks.hpp
-// When pairs of an island may be hit within its substep, and what touches when they are: the looks
+// When pairs of an island may be hit within its substep, and which contacts touch then: the looks
 // of stage 6. Between its hits a member moves freely; a pair is looked at when the gaps of its rows
 // say that it may be hit, and where it is then, its features are searched anew.
 // theory 1.12, "6 Hits" in docs/theory/theory.md
@@ -12,7 +12,7 @@
 
 namespace talus {
 
-/// What looks read, and what they fill: a struct so that its parts share that.
+/// Input and results of looks: a struct so that its parts share them.
 struct HitLooks {
   const Scene& scene;
   const State& state;
@@ -28,7 +28,7 @@ struct HitLooks {
   void begin() const;
   /// Motion of member k at `time`, not before its last hit.
   [[nodiscard]] Motion motion_of(std::size_t k, double time) const;
-  /// The same, kept for who asks next for the same time.
+  /// The same, kept for the next query at the same time.
   [[nodiscard]] const MemberMotion& member_at(std::size_t k, double time) const;
   /// A look at pair `p` as its rows say from `from` on, if they say that it may be hit; not before
   /// `not_before`.

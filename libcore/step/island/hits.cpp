@@ -1,6 +1,6 @@
-// Stage 6 of an island's step: what its members hit on their way, in order of time. What is hit at
-// the same time is solved together, only what approaches; what that drives into others is hit at
-// the same time again, until nothing approaches.
+// Stage 6 of an island's step: the hits of its members in order of time. Contacts hit at the same
+// time are solved together, only those that approach; contacts that close by this are hit at the
+// same time again, until nothing approaches.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ using std::size_t;
 
 using law::most_hits, law::most_pair_hits;
 
-/// Finds the hits of a substep; a struct so that its parts share what they all fill.
+/// Finds the hits of a substep; a struct so that its parts share common data.
 struct HitPhase {
   const HitLooks& looks;
   const IslandMembers& members;
@@ -25,7 +25,7 @@ struct HitPhase {
   int rounds = 0;
   size_t hit_since = 0;  // members that the rounds of this time hit
 
-  // The pairs that may be hit by the motion with what bears the members.
+  // The pairs that may be hit by the motion with the supports of members.
   void look_first() const {
     size_t last = system.island.pairs.size();
     for (const size_t r : system.waiting) {
@@ -139,7 +139,7 @@ struct HitPhase {
     return body;
   }
 
-  // Work of what bore member k on its way to its first hit, where it has motion `before`.
+  // Work of the support of member k until its first hit, where it has motion `before`.
   [[nodiscard]] double work_of_bearing(size_t k, double time, const Motion& before) const {
     const FlyingMember& flying = hits.members[k];
     Vec3 way = before.pose.position - flying.motion.pose.position;

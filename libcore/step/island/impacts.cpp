@@ -33,7 +33,7 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
   if (!members.is_small) {
     settings.tolerance = std::clamp(relative_tolerance * fastest(free), negligible * by_gravity,
                                     island_tolerance * by_gravity);
-    // a pile at rest is solved to far below what gravity does: good directions spare it steps
+    // a pile at rest is solved to far below the effect of gravity: good directions spare it steps
     settings.linear_tolerance =
         std::clamp(settings.tolerance / by_gravity, law::relative_tolerance, island_tolerance);
   }
@@ -90,7 +90,7 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
   };
   for (int round = 0; round < most_rounds_in_substep; ++round) {
     if (!solve_on(round > 0)) return;
-    // at the start nobody knows what contacts bear
+    // at the start the loads of contacts are unknown
     const int settlings = round == 0 && free.t == 0 ? most_rounds_in_substep : 0;
     for (int i = 0; i < settlings && stiffen_to_load(members, free.h, system); ++i)
       if (!solve_on(true)) return;

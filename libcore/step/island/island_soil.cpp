@@ -1,3 +1,4 @@
+// Couples, friction and drag of yielding ground over a substep of an island.
 #include "step/island/island_soil.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // libcore/step/island/island_soil.hpp
-// Where ground that gives way (step/soil.hpp), and friction between blocks that follows the speed,
-// come in over a substep of an island. Nothing is done where no class asks for it.
+// The terms of yielding ground (step/soil.hpp), and of friction between blocks that follows the
+// speed,
+// over a substep of an island. Nothing is done where no class asks for it.
 #pragma once
 
 #include <span>
@@ -16,7 +17,7 @@ bool renew_friction(const Scene& scene, const State& state, const PairSearch& se
                     const IslandMembers& members, const FreeMotions& free, const SubstepHits& hits,
                     IslandSystem& system);
 
-/// Stage 9: work of couples, and the ways that members have slid.
+/// Stage 9: work of couples, and the distances that members have slid.
 void end_soil(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
               const IslandSystem& system, const SubstepHits& hits, State& state);
 /// ... and whether the ground presses member k at the end.

@@ -1,4 +1,4 @@
-// Stages 1 and 3 of an island's step: who belongs to it, and how stiff their contacts are.
+// Stages 1 and 3 of an island's step: its members, and the stiffness of their contacts.
 #include <algorithm>
 #include <cmath>
 
@@ -67,14 +67,14 @@ void see_size(const Scene& scene, const State& state, const PairSearch& search,
   members.is_small = n <= few_blocks || is_column;
 }
 
-// What a contact gives must not grow with what lies above it, with the step, or with small blocks:
-// a tower of springs leans by the sum of what they give, and buckles. So a contact at rest is as
-// stiff as its load of the last step asks for an overlap of `sag`, whatever that takes. Contacts
-// that slip, open or bear little stay soft, and all of a large island of which a block moves or has
+// The sag of a contact must not grow with the load from above, with the step, or with small blocks:
+// a tower of springs leans by the sum of their sags, and buckles. So a contact at rest is as stiff
+// as its load of the last step asks for an overlap of `sag`, whatever that takes. Contacts that
+// slip, open or carry little stay soft, and all of a large island of which a block moves or has
 // left its place: stiff ones that close press a small block with forces far beyond its weight, and
 // take many passes; and a mass that has come to rest would be thrown up by the overlap that is
-// pressed out when it stiffens. A small block may bear a large one: its contacts are as stiff as
-// the heaviest block that it touches asks for before they know what they bear.
+// pressed out when it stiffens. A small block may support a large one: its contacts are as stiff as
+// the heaviest block that it touches asks for before they know their loads.
 void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
                       std::span<const int> manifolds, int eased, IslandMembers& members) {
   members.bearing.clear();

@@ -1,3 +1,4 @@
+// Matches the points of a manifold with the memories of the last step.
 #include "step/island/pair_memories.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Stage 2 of an island's step, and what comes before all islands: which blocks meet, and how long a
+// Stage 2 of an island's step, and the work before all islands: which blocks meet, and how long a
 // substep may be.
 #include <algorithm>
 #include <cmath>
@@ -82,7 +82,7 @@ class OwnShifts final : public ShiftedBodies {
   const State& state_;
 };
 
-// Contacts between the blocks marked in `search.moving`, and of those with others, over `h`.
+// Contacts between the blocks marked in `search.moving`, and of those with unmarked ones, over `h`.
 void search_marked(const Scene& scene, double h, State& state, PairSearch& search) {
   const Blocks& blocks = scene.blocks;
   PairSettings settings;
@@ -117,7 +117,7 @@ void set_motion_ahead(const Scene& scene, int b, const Motion& m, double h, Pair
   search.turn[i] = scene.blocks.shapes.radius[i] * search.rotation[i].norm();
 }
 
-// The fixed bodies where they stood first: they step nowhere.
+// The fixed bodies in their first places: they do not move in a step.
 void place_at_rest(const Scene& scene, PairSearch& search) {
   std::vector<Vec3> centre;
   for (int f = 0; f < n_fixed(scene); ++f) {
@@ -133,7 +133,7 @@ void place_at_rest(const Scene& scene, PairSearch& search) {
   search.shifted.clear();
 }
 
-// Fixed bodies where they are now in the shared world, or else where they stood first. Those that
+// Fixed bodies where they are now in the shared world, or else in their first places. Those that
 // were never pushed are not looked at.
 void place_fixed(const Scene& scene, State& state, PairSearch& search) {
   if (n_fixed(scene) == 0) return;
@@ -149,13 +149,13 @@ void place_fixed(const Scene& scene, State& state, PairSearch& search) {
   }
 }
 
-// Whether the fixed body of a manifold stands for its block.
+// Whether the fixed body of a manifold exists for its block.
 bool stands_for(const Scene& scene, const State& state, const PairManifold& m) {
   return stands(scene, state, world_of(scene, m.block_a), fixed_of(scene, m.block_b));
 }
 
-// Pairs of blocks within reach. Blocks asleep are in the island of what is near them, and join no
-// islands by what is between them.
+// Pairs of blocks within reach. Blocks asleep are in the island of awake ones near them; contacts
+// between sleeping blocks join no islands.
 void join_pairs(const Scene& scene, const State& state, PairSearch& search) {
   search.joined.clear();
   search.joined_manifold.clear();
@@ -175,7 +175,7 @@ void join_pairs(const Scene& scene, const State& state, PairSearch& search) {
 }
 
 // Whether a manifold is between members of which one moves, or of one with a fixed body that
-// stands.
+// exists.
 bool in_island(const Scene& scene, const State& state, const IslandMembers& members,
                const PairManifold& m) {
   if (is_fixed(scene, m.block_b)) return members.moves(m.block_a) && stands_for(scene, state, m);
@@ -216,7 +216,7 @@ double travel_ahead(const Hulls& hulls, const PlacedHulls& placed, const PairSea
   if (travel <= enough) return travel;
   const Box box_a = box_of_part(hulls, placed, m.part_a),
             box_b = box_of_part(hulls, placed, m.part_b);
-  for (int pass = 0; pass < 2; ++pass) {  // what is known after the first makes the box smaller
+  for (int pass = 0; pass < 2; ++pass) {  // the data of the first pass make the box smaller
     const Vec3 around = Vec3::Constant(travel);
     const Vec3 both_low = box_a.low.cwiseMax(box_b.low) - around,
                both_high = box_a.high.cwiseMin(box_b.high) + around;

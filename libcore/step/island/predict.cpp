@@ -28,7 +28,7 @@ void add_predicted(const Scene& scene, const State& state, const BlockNumbers& c
   island.radius.push_back(c.radius);
 }
 
-// The substep of what stands.
+// The substep of a member at rest.
 Substep stand(const Pose& pose, double h) {
   Substep s;
   s.h = h;

@@ -1,5 +1,5 @@
-// Which blocks of an island sleep. One asleep stands as fast as the ground, for as long as the
-// others press it as they did when it fell asleep. A substep that needs it awake is made again.
+// Which blocks of an island sleep. A sleeping block counts as fixed, for as long as its neighbours
+// press it as they did when it fell asleep. A substep that needs it awake is made again.
 #include <algorithm>
 #include <utility>
 
@@ -38,7 +38,7 @@ bool moves_block(const Scene& scene, const State& state, int b, const Vec6& load
          law::least_speed * scene.gravity.norm();
 }
 
-// Appends what a row does, to the pair of the last one where that is the same.
+// Appends the load of a row, to the pair of the last one where that is the same.
 void add_press(int a, int b, const Vec6& on_a, const Vec6& on_b, std::vector<PairPress>& presses) {
   if (presses.empty() || presses.back().a != a || presses.back().b != b)
     presses.push_back({a, b, Vec6::Zero(), Vec6::Zero()});
@@ -46,8 +46,8 @@ void add_press(int a, int b, const Vec6& on_a, const Vec6& on_b, std::vector<Pai
   presses.back().on_b += on_b;
 }
 
-// Of the blocks that have stayed in place, those that fall asleep: something bears them, and what
-// they press and what bonds hold them to has stayed in place, too.
+// Of the blocks that have stayed in place, those that fall asleep: something supports them, and the
+// blocks that they press or are bonded to have stayed in place, too.
 void find_sleepers(const State& state, std::span<const PairPress> presses, SleepScratch& scratch) {
   std::vector<int>&sleepers = scratch.sleepers, &borne = scratch.borne,
   &beside_motion = scratch.beside_motion;

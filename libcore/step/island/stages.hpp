@@ -1,6 +1,6 @@
 // libcore/step/island/stages.hpp
 // The step of an island in nine stages: law talus for blocks within reach of each other. Each stage
-// names what it reads and fills; step_island.cpp is the page that puts them in order. Numbers,
+// names its input and results; step_island.cpp is the page that puts them in order. Numbers,
 // names and equations: docs/theory/theory.md, "One step of an island".
 // theory 1.6, 1.7, 1.10, 1.12, 3.5; docs/developing/design-notes.md
 #pragma once
@@ -20,9 +20,9 @@
 namespace talus {
 
 // --- 1 gather_members (step/island/members.cpp)
-/// Fills `members` but for what follows from their pairs.
+/// Fills `members`, without the data that follow from their pairs.
 void gather_members(const Scene& scene, std::span<const int> blocks, IslandMembers& members);
-/// Members that sleep, or that the step has moved already in the island that woke them, stand.
+/// Members that sleep, or that the step has moved already in the island that woke them, are fixed.
 void let_stand(const State& state, double t_end, IslandMembers& members);
 /// The bodies of `members` are in no island any more.
 void release_members(IslandMembers& members);
@@ -32,14 +32,14 @@ void add_members(const Scene& scene, const State& state, std::vector<int>& block
 
 // --- 2 find_pairs (step/island/pairs.cpp)
 /// Where blocks have each their own world: places the fixed bodies where block `b` has pushed them;
-/// -1: where they stood first, as they are between steps.
+/// -1: in their first places, as they are between steps.
 void place_own_fixed(const Scene& scene, int b, State& state, PairSearch& search);
 
 /// Fills `manifolds` with those of island `k` that form_islands found.
 void take_pairs(const Scene& scene, const State& state, const PairSearch& search, int k,
                 const IslandMembers& members, std::vector<int>& manifolds);
 /// Fills `search` and `manifolds` with the pairs at the poses of now, for at most `h` ahead. Of the
-/// state, what it remembers of pairs. Blocks asleep that members come within reach of join them.
+/// state, its memory of pairs. Blocks asleep that members come within reach of join them.
 void find_pairs(const Scene& scene, double h, State& state, PairSearch& search,
                 IslandMembers& members, std::vector<int>& manifolds);
 /// The longest substep, up to `h`, over which the contacts found at its start still describe the
@@ -71,23 +71,21 @@ void predict(const Scene& scene, const State& state, const IslandMembers& member
 
 // --- 5 make_contacts (step/island/contacts.cpp)
 /// Fills `system` but for the bodies of its island: contacts with the ground, with other members
-/// and with fixed bodies. False: a member is off the known ground. `near_ground`: what each block
-/// may touch there, kept from search to search.
+/// and with fixed bodies. False: a member is off the known ground. `near_ground`: features that
+/// each block may touch there, kept from search to search.
 [[nodiscard]] bool make_contacts(const Scene& scene, const State& state, const PairSearch& search,
                                  std::span<const int> manifolds, const IslandMembers& members,
                                  const FreeMotions& free, const SubstepTries& tries,
                                  std::vector<NearFeatures>& near_ground, ContactMaking& making,
                                  IslandSystem& system);
-/// Time at which a block first touches a fixed body that gives way, h + 1: none does within the
-/// substep.
+/// Time at which a block first touches a yielding fixed body, h + 1: none does within the substep.
 [[nodiscard]] double first_touch(const Scene& scene, const State& state, const IslandSystem& system,
                                  double h);
 
 // --- 6 find_hits (step/island/hits.cpp, hit_looks.cpp, after_hits.cpp)
-/// Fills `hits`: what the members hit on their way through the substep, in order of time, each with
-/// where they are and how they move then. That is part of the motion without contact from now on:
-/// changes `free`, and in `system` bodies and rows of what was hit. `near_ground`, `making`: for
-/// searches of the ground.
+/// Fills `hits`: the hits of members within the substep, in order of time, each with place and
+/// motion after it. That is part of the motion without contact from now on: changes `free`, and in
+/// `system` bodies and rows that were hit. `near_ground`, `making`: for searches of the ground.
 void find_hits(const Scene& scene, const State& state, const PairSearch& search,
                const IslandMembers& members, std::vector<NearFeatures>& near_ground,
                ContactMaking& making, FreeMotions& free, IslandSystem& system, SubstepHits& hits);
@@ -115,7 +113,8 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
                      SubstepHits& hits, IslandWork& solver, StageClock* clock, Solution& solution);
 
 // --- 8 check_substep (step/island/check.cpp)
-/// Fills `end` but for what accept() does: accept, or again with a reason. `making`, `near_ground`:
+/// Fills `end` but for the results of accept(): accept, or again with a reason. `making`,
+/// `near_ground`:
 /// for searches of the ground.
 [[nodiscard]] SubstepVerdict check_substep(const Scene& scene, const State& state,
                                            const PairSearch& search, const IslandMembers& members,
@@ -125,7 +124,7 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
                                            std::vector<NearFeatures>& near_ground,
                                            ContactMaking& making, SubstepEnd& end);
 /// What the forces of member `k` leave, `change` being that of its velocity by contact and
-/// `displacement` that of its centroid. None where nobody knows what pressed before.
+/// `displacement` that of its centroid. None where the previous contact force is unknown.
 [[nodiscard]] WayError error_of_member(const Scene& scene, const State& state,
                                        const IslandMembers& members, const FreeMotions& free,
                                        std::size_t k, const Vec6& change, const Vec3& displacement,
@@ -146,21 +145,21 @@ void set_displacements(double h, const IslandSystem& system, const SubstepHits& 
 [[nodiscard]] Motion end_of(const IslandMembers& members, const FreeMotions& free,
                             const IslandSystem& system, const SubstepEnd& end, std::size_t k);
 
-// --- who sleeps (step/island/sleepers.cpp); the mass step asks too
-/// Whether it matters what the members press each other with: one sleeps, or may soon.
+// --- sleep (step/island/sleepers.cpp); the mass step asks too
+/// Whether the loads between members matter: one sleeps, or may soon.
 [[nodiscard]] bool asks_for_presses(const State& state, const IslandMembers& members);
 void list_presses(const IslandMembers& members, double h, const IslandSystem& system,
                   std::vector<PairPress>& presses);
 /// Adds to the blocks that are to wake those asleep that these touch, and so on: a blow goes
 /// through all of a pile.
 void add_piles(const State& state, SleepScratch& wake);
-/// Adds to the blocks of `end` that are to wake the members asleep that do not carry what they fell
-/// asleep under.
+/// Adds to the blocks of `end` that are to wake the members asleep whose load is not the one under
+/// which they fell asleep.
 void find_woken(const Scene& scene, const State& state, const IslandMembers& members,
                 SubstepEnd& end);
-/// Clears the memory of the members' contacts, but for those between members that stand.
+/// Clears the memory of the members' contacts, but for those between fixed members.
 void forget_contacts(const IslandMembers& members, State& state);
-/// They move with the others, from `t` on.
+/// They move with the rest, from `t` on.
 void wake_members(const Scene& scene, double t, SleepScratch& wake, State& state,
                   IslandMembers& members);
 /// Wakes before a step the blocks asleep of which a neighbour awake is in no island with them any

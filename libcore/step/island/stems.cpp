@@ -1,3 +1,4 @@
+// Stems near a block of an island, and its contacts with them.
 #include "step/island/stems.hpp"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ bool meets(const VerticalCylinder& cylinder, const Vec3& at, double reach) {
          at.z() - reach <= cylinder.top;
 }
 
-// Calls visit(stem, cylinder) for the stems that stand for block `b` and meet the ball; in the
+// Calls visit(stem, cylinder) for the stems that exist for block `b` and meet the ball; in the
 // order of their numbers.
 template <class Visit>
 void for_each_near(const Scene& scene, const State& state, int b, const Vec3& at, double reach,

@@ -1,5 +1,5 @@
 // libcore/step/island/stems.hpp
-// Stems of a forest in the search of an island: which stand near a block, and where they touch it.
+// Stems of a forest in the search of an island: which are near a block, and where they touch it.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -22,13 +22,13 @@ void add_stem_pairs(const Scene& scene, const State& state, double margin, PairS
 [[nodiscard]] double part_by_stem(const Scene& scene, const PairSearch& search,
                                   const PairManifold& m, double thickness);
 
-/// Whether contact `r` presses on a stem that its block ran into: the stem goes on with the block
-/// to where that stops, and does not throw it back.
+/// Whether contact `r` presses on a stem that its block ran into: the stem moves with the block
+/// until that stops, and does not throw it back.
 [[nodiscard]] bool follows_block(const Scene& scene, const IslandMembers& members,
                                  const IslandSystem& system, std::size_t r);
 
 /// Time within a substep of `h` at which the first stem has stopped a block that runs into it,
-/// infinite when none has: what the stem gives at its limit until then is what it gave in all.
+/// infinite when none has: the work of the stem at its limit until then is all of its work.
 [[nodiscard]] double time_to_stop(const Scene& scene, const IslandMembers& members,
                                   const IslandSystem& system, double h);
 

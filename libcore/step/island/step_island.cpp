@@ -118,7 +118,7 @@ void make_substep(const Scene& scene, double t, double h, State& state, Work& wo
 }
 
 // Stops the members that left the known ground; those that stay, and whose numbers did not fail,
-// go on.
+// continue.
 void stop_outsiders(const Scene& scene, double t_end, State& state, Work& work,
                     StepReport& report) {
   IslandMembers& members = work.island.members;
@@ -165,7 +165,7 @@ double prepare_substep(const Scene& scene, int k, bool is_mass, double t, double
   return longest_substep(scene, state, search, w.members, w.manifolds, ahead);
 }
 
-// Gives back what the exact step of a large island held: several times what its mass step needs.
+// Frees the memory of the exact step of a large island: several times the need of its mass step.
 void release_exact_step(IslandScratch& w) {
   constexpr size_t large = 1000;  // members
   if (w.members.size() < large) return;
@@ -216,7 +216,7 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
     t = state.local_time[w.members.moving.front()];
     if (t_end - t < 1e-9 * scene.settings.dt) t = t_end;
     stop_outsiders(scene, t_end, state, work, report);
-    // pairs that are far apart when a long step begins cost the most, and bear nothing yet
+    // pairs that are far apart when a long step begins cost the most, and carry nothing yet
     ahead = (t_end - t) / std::ceil((t_end - t) / (law::substeps_ahead * longest));
   }
   for (const int b : w.members.moving) state.local_time[b] = t_end;

@@ -83,7 +83,7 @@ struct Sight {
   }
 };
 
-/// Checks the islands of a step; a struct so that its parts share what they all read.
+/// Checks the islands of a step; a struct so that its parts share common data.
 struct UntouchedCheck {
   const Scene& scene;
   State& state;
@@ -126,7 +126,7 @@ struct UntouchedCheck {
         std::max(fastest_spin(from.pose.attitude, from.angular_momentum, inertia),
                  fastest_spin(to.pose.attitude, to.angular_momentum, inertia));
     const double unequal = (inertia.maxCoeff() - inertia.minCoeff()) / inertia.minCoeff();
-    // what turns about `along` does not move along it; a body turns its spin by itself, too
+    // a turn about `along` moves nothing along it; free spin turns the spin, too
     const double across = std::max(first.cross(along).norm(), last.cross(along).norm()) +
                           unequal * fastest * fastest * h;
     const double bend = across * fastest * h * h + (last - first).cross(along).norm() * h;

@@ -42,7 +42,7 @@ void renew_friction(const Scene& scene, int b, const Substep& s, const State& st
                     row.friction);
 }
 
-/// Solves the contacts by `solve()` with what the ground does besides.
+/// Solves the contacts by `solve()` with the couples and friction of the ground.
 template <int Dof, class Solve>
 NewtonResult solve_on_soil(const Scene& scene, int b, const Substep& s, const State& state,
                            double t, BlockSystem<Dof>& system, Work& work, Solve&& solve) {
@@ -63,7 +63,7 @@ NewtonResult solve_on_soil(const Scene& scene, int b, const Substep& s, const St
 }
 
 /// Books the work of couples, along the turn on which contacts do theirs (a mean of spins misses
-/// some of the turn that contacts add), and the way slid of the contact that presses most.
+/// some of the turn that contacts add), and the slip distance of the contact that presses most.
 template <int Dof>
 void end_soil(const Scene& scene, int b, const Substep& s, double t, const BlockSystem<Dof>& system,
               const Solved<Dof>& solved, const Work& work, State& state) {

@@ -1,5 +1,5 @@
 // libcore/step/lone/lone_substep.hpp
-// Law talus: the equations of one substep of one block, and what it leaves for the next.
+// Law talus: the equations of one substep of one block, and its memory for the next.
 // in:    the predicted substep and the rows of its contacts
 // out:   the system that newton.hpp solves, the motion at the end, contact memory
 // theory: 1.8, 1.10; docs/developing/design-notes.md
@@ -21,7 +21,7 @@
 namespace talus {
 
 /// Rows of the contacts that the search left in `work.contacts`, of block b with the ground.
-/// `memory`: what the block remembers.
+/// `memory`: the contact memory of the block.
 inline void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                       std::span<const ContactMemory> memory, Work& work) {
   work.rows.resize(work.contacts.size());
@@ -29,7 +29,7 @@ inline void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Su
 }
 
 /// Momentum of the free motion, masses, and the first guess of the velocity at the end: the last
-/// acceleration goes on.
+/// acceleration continues.
 template <int Dof>
 BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                              const State& state) {
@@ -69,7 +69,7 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
   return system;
 }
 
-/// Motion at the end of the substep: the free one corrected by what the contacts changed, with the
+/// Motion at the end of the substep: the free one corrected by the change by contacts, with the
 /// acceleration constant over the substep, D = h (v + v') / 2 (theory 1.8, beta = 1/2).
 template <int Dof>
 struct Solved {
@@ -86,8 +86,8 @@ struct Solved {
 };
 
 /// Turn of a body by the change `spin` of its spin in the middle of a time of 2 `half`, body axes
-/// at its end: `half` times that but for what the body's own spin makes of it. A change of momentum
-/// stays where it is in space while the axes turn past it, and what it has turned the body by
+/// at its end: `half` times that but for the effect of the body's own spin on it. A change of
+/// momentum stays fixed in space while the axes turn past it, and the turn that it has caused
 /// changes the spin again. Without it a fast top nutates too slowly by a part of (spin h)^2.
 inline Vec3 turn_by_change(const BlockNumbers& c, const Vec3& body_spin, const Vec3& spin,
                            double half) {
@@ -102,7 +102,7 @@ template <int Dof>
 Solved<Dof> solved_motion(const BlockNumbers& c, const Substep& s, const BlockSystem<Dof>& system) {
   Solved<Dof> out;
   out.change = (system.velocity - system.free_velocity).template head<6>();
-  if constexpr (Dof == 12) {  // where straining stops, what turned with it goes on turning
+  if constexpr (Dof == 12) {  // where straining stops, its angular momentum stays
     const Vec6 strain_rate = system.velocity.template tail<6>();
     out.change.template tail<3>() +=
         c.per_inertia.cwiseProduct(system.mass.template block<3, 6>(3, 6) *
@@ -123,7 +123,7 @@ Solved<Dof> solved_motion(const BlockNumbers& c, const Substep& s, const BlockSy
 /// the attitude without contact; by the turn that contact adds, a body that spins moves otherwise.
 /// Sets that into the rows' drift, for a solution that ends with `solved`, and returns by how much
 /// it changed there [m/s]. Of the second order in h but for the forces of a hit or a jam. No turn
-/// is followed that would change the spin by half of itself or more.
+/// is followed that would change the spin by half of its size or more.
 inline double follow_turn(const BlockNumbers& c, const Substep& s, const Solved<6>& solved,
                           std::span<const Contact> contacts, std::span<ContactRow> rows) {
   const Vec3 change = solved.change.tail<3>(), spin = s.spin_free + change;
@@ -144,7 +144,7 @@ inline double follow_turn(const BlockNumbers& c, const Substep& s, const Solved<
   return std::sqrt(largest);
 }
 
-/// Keeps in `state` what each contact of `work` hands on to the next step, and books its work.
+/// Keeps in `state` the memory of each contact of `work` for the next step, and books its work.
 template <int Dof>
 void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved, State& state,
               Work& work, int b, StepReport& report) {
@@ -166,8 +166,8 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     state.ledger.contact -= p_n * along * per_h;
     state.ledger.friction -= p_t.dot(moved) * per_h;
     const double offset = std::max(0.0, row.offset - relax);
-    // One that begins to stick within the substep has not been wound up by what it slid before
-    // that; it holds what it bears, like one that slips.
+    // One that begins to stick within the substep has not been wound up by its slip before; it
+    // keeps its load, like one that slips.
     const bool winds_up = row.state == ContactState::stick && row.stuck;
     const Vec3 shear = winds_up ? Vec3(row.shear + moved - along * row.normal)
                                 : Vec3((-c.recovery_time / row.shear_damping) * p_t);

@@ -1,3 +1,4 @@
+// Law talus for one block: substeps, impacts, flights, sliding on a plane, sleep.
 #include "step/lone/step_talus.hpp"
 
 #include <algorithm>
@@ -36,13 +37,13 @@ double first_hit(const BlockNumbers& c, const Substep& s, const Solved<Dof>& sol
 }
 
 // An error in the speed of a contact that is not looked into: this part of the block's speed, and
-// of what gravity does in the substep.
+// of the change by gravity in the substep.
 constexpr double of_speed = 2e-5, of_gravity = 1e-3;
 
 /// Outcome of one attempt at a substep.
 enum class Attempt { done, shorter, impact, flight, left };
 
-/// Everything that advances one block; a struct so that its parts share what they all need.
+/// Everything that advances one block; a struct so that its parts share common data.
 struct Advance {
   const Scene& scene;
   int b;
@@ -53,9 +54,9 @@ struct Advance {
   Contact foreseen = {};      // the one that an attempt found about to hit
   bool is_foreseen = false;   // not yet tried
   bool may_fly = true;        // off for the rest of a step in which a flight met the ground
-  bool was_fast = false;      // the last hit was no slow one, which ends a substep and no more
+  bool was_fast = false;      // the last hit was not a slow one, which only ends a substep
   bool on_plane = false;      // it slides, and in the substep it cannot meet another plane
-  bool breaks_bonds = false;  // of the substep under way; what is left is in work.unbonded
+  bool breaks_bonds = false;  // of the current substep; the intact ones are in work.unbonded
   double last_h = 0;          // of the substep before [s]
   double longest_h = 0;       // the next one is not tried longer, because of its error [s]
   int most_tries =
@@ -102,8 +103,8 @@ struct Advance {
   }
 
   // The contacts' forces. The turn that they add to the block is first taken to be that of the
-  // guess, and they are computed again where it makes their points move otherwise. Where that finds
-  // no forces, as in a jam, those stand that were found for the turn before, or for none.
+  // guess, and they are computed again where it makes their points move otherwise. If no forces are
+  // found, as in a jam, those for the turn before count, or for none.
   template <int Dof>
   NewtonResult solve(const Substep& s, BlockSystem<Dof>& system) {
     const std::span<ContactRow> rows(work.rows);
@@ -235,7 +236,8 @@ struct Advance {
     return hit <= s.h ? Attempt::impact : Attempt::done;
   }
 
-  // What the substep may err by, over the block's way: 0 where nobody knows what pressed before.
+  // Estimated error of the substep, over the block's displacement: 0 where the previous contact
+  // force is unknown.
   [[nodiscard]] double error_over_way(const Substep& s, const Motion& end) const {
     const Vec3& before = state.acceleration[i()];
     if (state.local_time[i()] == 0 || before == scene.gravity || !state.strain.empty()) return 0;
@@ -264,8 +266,8 @@ struct Advance {
                             work.contacts, law::sunk * c.thickness) > 0;
   }
 
-  /// How the ground bears a block: by how many contacts, up to three, and whether one of them holds
-  /// it where it is.
+  /// Support of a block by the ground: the number of contacts, up to three, and whether one of them
+  /// holds it where it is.
   struct Bearing {
     int contacts = 0;
     bool holds = false;
@@ -276,7 +278,7 @@ struct Advance {
     bool operator==(const Bearing&) const = default;
   };
 
-  // Whether the ground bears the block otherwise at the end of the substep than at its start.
+  // Whether the support by the ground differs between the end and the start of the substep.
   [[nodiscard]] bool changes_bearing() const {
     Bearing start, end;
     for (const ContactMemory& memory : state.memory[i()])
@@ -295,7 +297,7 @@ struct Advance {
            scene.settings.accuracy * c.gravity * scene.settings.dt;
   }
 
-  // The faces that are bonded to the ground, and what they carry.
+  // The faces that are bonded to the ground, and their loads.
   template <int Dof>
   void load_bonds(const Substep& s, const Solved<Dof>& solved) {
     work.bond_faces.clear();
@@ -329,8 +331,8 @@ struct Advance {
     state.strain_rate[i()].setZero();
   }
 
-  // Time in which the block moves on by an eighth of a cell, so that what stands out of the ground
-  // there, and keeps it from flying, may be another thing.
+  // Time in which the block moves on by an eighth of a cell, so that the convex feature there which
+  // keeps it from flying may be another one.
   double time_for_another_view() {
     const double cell = scene.ground.trn.cell_size;
     return cell / 8 / (top_speed() + std::sqrt(c.gravity * cell) + 1e-300);
@@ -398,7 +400,7 @@ struct Advance {
     c.located_speed = state.strain.empty() ? located_speed(scene, c, top_speed()) : c.resting_speed;
   }
 
-  // Where gravity alone drives a block that slides, that and what bears it change its path by no
+  // Where gravity alone drives a block that slides, gravity and its support change its path by no
   // more than about half of this.
   double margin_on_plane(double h) const { return c.gravity * h * h + 1e-3 * c.radius; }
 
@@ -418,7 +420,7 @@ struct Advance {
   }
 
   // Near the ground a substep moves no point farther than half a cell and turns the block by at
-  // most half a radian, one that the ground bears by half of that, since forces that turn with a
+  // most half a radian, one that the ground supports by half of that, since forces that turn with a
   // block err by the square of its turn; a needle that rolls at more than 100 radians a step is not
   // followed any closer. A block that slides may go farther, up to `h`, where it meets no other
   // plane or ground.
@@ -442,7 +444,7 @@ struct Advance {
     return (was_hit || asks) && free_fall_only();
   }
 
-  // A block that nothing bears is not looked for on the ground before it may touch it: flights
+  // A block without support is not looked for on the ground before it may touch it: flights
   // follow on each other, each ending nearer to the hit where the block spins, until it touches.
   template <int Dof>
   void run(double t_end) {
@@ -490,7 +492,7 @@ struct Advance {
   }
 };
 
-// A block that something bears and that stays in place is left out until something wakes it.
+// A block that has support and stays in place is left out until something wakes it.
 void put_to_sleep(const Scene& scene, size_t b, State& state) {
   watch_rest(scene, b, state);
   if (state.rest_steps[b] >= law::steps_before_sleep && !state.memory[b].empty())

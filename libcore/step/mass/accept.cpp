@@ -1,5 +1,5 @@
-// Stages 4 and 5 of the mass step: what the impulses come to, and what the step leaves of motion,
-// memory, bodies that give way, and energy.
+// Stages 4 and 5 of the mass step: forces from the impulses, and motion, memory, yielding bodies
+// and energy at the end of the step.
 #include <algorithm>
 #include <cmath>
 
@@ -57,7 +57,7 @@ struct MassEnd {
     return pair.b < 0 ? at(pair.a, row.arm_a) : Vec3(at(pair.a, row.arm_a) - at(pair.b, row.arm_b));
   }
   // Path per time that the impulse works on: the mean of the velocities without and with contact,
-  // less what gravity does to a change of velocity in the second half of the step.
+  // less the effect of gravity on a change of velocity in the second half of the step.
   [[nodiscard]] Vec3 path(const MassPair& pair, const PressedRow& row) const {
     Vec3 path = velocity(pair, row, 0.5);
     path -= free.h / 2 * free.substeps[pair.a].free_acceleration;
@@ -86,7 +86,8 @@ struct MassEnd {
             row.p_n,   path(pair, row), contact.is_hit, contact.yields};
   }
 
-  // What the step may err by, over the way of the mass. A hit counts as if its time were unknown:
+  // Estimated error of the step, over the displacement of the mass. A hit counts as if its time
+  // were unknown:
   // gravity acts before the rebound in part of the step alone.
   [[nodiscard]] double error_over_way(const State& state) const {
     const double h = free.h, by_hit = scene.gravity.norm() * h * h / 2;
@@ -144,7 +145,7 @@ void sum_impulses(const MassEnd& end, std::vector<MassChange>& changes) {
   }
 }
 
-// What the blocks do to the fixed bodies that give way.
+// Pushes of the blocks on yielding fixed bodies.
 void find_pushes(const MassEnd& end, const State& state, const PairSearch& search,
                  std::vector<YieldPush>& pushes) {
   const Scene& scene = end.scene;
@@ -159,7 +160,7 @@ void find_pushes(const MassEnd& end, const State& state, const PairSearch& searc
   });
 }
 
-/// Accepts a step; a struct so that its parts share what they all read and fill.
+/// Accepts a step; a struct so that its parts share common data.
 struct MassAcceptance : MassEnd {
   State& state;
   std::vector<Segment>& segments;
@@ -179,8 +180,8 @@ struct MassAcceptance : MassEnd {
         state);
   }
 
-  // What the exact step would remember of the contact, had it pressed so: it goes on with the same
-  // force, and what overlap that does not need presses nothing.
+  // The memory that the exact step would have of the contact, had it pressed so: it continues with
+  // the same force, and the overlap that it does not need presses nothing.
   void remember(size_t r, const PressedRow& row, double gap_end) {
     const MassContact& contact = w.contacts[r];
     if (contact.is_hit) return;
@@ -222,7 +223,7 @@ struct MassAcceptance : MassEnd {
     }
   }
 
-  // The way that a member slides on ground whose friction follows it.
+  // The distance that a member slides on ground whose friction follows it.
   void slide(size_t k) {
     if (w.ground_pair[k] < 0) return;
     const MassPair& pair = w.system.pairs[w.ground_pair[k]];
@@ -272,7 +273,7 @@ struct MassAcceptance : MassEnd {
     if (!is_finite(motion)) stop_at(s.start, members.block(k), state, report);
   }
 
-  // First touches of panels and stems, and what they left to their blocks.
+  // First touches of panels and stems, and the motion of their blocks after it.
   void note_touched() {
     if (scene.fixed.panels.empty() && scene.forest.stems.empty()) return;
     for_each_pressed([&](size_t r, const MassPair&, const PressedRow& row) {

@@ -1,4 +1,4 @@
-// Stage 2 of the mass step: rows in single precision straight from what the searches found.
+// Stage 2 of the mass step: rows in single precision straight from the results of the searches.
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,7 @@ struct PointMotion {
   double gap = 0, gap_free = 0;  // at the start and at the end [m]
 };
 
-/// Faces of a contact: what it does beyond standing fast.
+/// Faces of a contact: its law beyond firm contact.
 struct Faces {
   double friction = 0, restitution = 0;
   double resting_speed = 0;
@@ -39,7 +39,7 @@ struct Faces {
   bool yields = false;
 };
 
-/// Makes contacts of a mass; a struct so that its functions share what they all read.
+/// Makes contacts of a mass; a struct so that its functions share common data.
 struct MassMaker {
   const Scene& scene;
   const State& state;
@@ -128,10 +128,9 @@ struct MassMaker {
     return 1 / (compliance * W * members.of(contact.a).recovery_time * free.h);
   }
 
-  // Overlap that presses nothing: what the last step left of it, or what a new contact begins with.
-  // A contact that was softer, since it comes from the exact step, keeps its force: what it was
-  // pressed in beyond that presses nothing. It is pressed out slowly, so that nothing is lifted;
-  // what is deep faster.
+  // Overlap that presses nothing: the rest of the last step's, or that of a new contact. A contact
+  // that was softer, since it comes from the exact step, keeps its force: further overlap presses
+  // nothing. It is pressed out slowly, so that nothing is lifted; deep overlap faster.
   [[nodiscard]] double offset_of(const Vec3& n, const PointMotion& motion, const Faces& faces,
                                  const ContactMemory* then, const MassContact& contact) const {
     double left = then != nullptr ? then->offset : std::max(0.0, -motion.gap);
@@ -151,12 +150,12 @@ struct MassMaker {
                                const MassContact& contact) const {
     if (contact.is_hit) return faces.restitution * approach;
     if (motion.gap >= 0) return motion.gap / free.h;
-    if (faces.yields) return 0;  // the overlap of what gave way presses nothing
+    if (faces.yields) return 0;  // the overlap of a yielding body presses nothing
     return std::min(0.0, motion.gap + offset_of(n, motion, faces, then, contact)) / recovery_time;
   }
 
-  // Adds the row of a contact that moves so; the rest of `contact` is filled. `then`: what it
-  // continues, or none.
+  // Adds the row of a contact that moves so; the rest of `contact` is filled. `then`: the memory
+  // that it continues, or none.
   void add_row(const Vec3& normal, const PointMotion& motion, const Faces& faces,
                const ContactMemory* then, MassContact& contact) {
     const Vec3& n = normal;
@@ -365,8 +364,8 @@ struct MassMaker {
     return faces;
   }
 
-  // Points that close within the step share the force at which the body gives way; it resists from
-  // when it is touched on.
+  // Points that close within the step share the force at which the body yields; it resists from its
+  // first touch on.
   void yield_to(const Yielding& yielding, const PairManifold& m, const MassMember& a,
                 const PointMotion& at, Faces& faces) const {
     int n_closing = 0;
@@ -389,7 +388,7 @@ struct MassMaker {
     compliance = mass_compliance(
         scene, state.mass.empty() ? MassShare{} : state.mass[members.moving.front()]);
   }
-  // Members [from, to), and what they have with the ground.
+  // Members [from, to), and their contacts with the ground.
   void add_members(size_t from, size_t to) {
     for (size_t k = from; k < to && out.outsider < 0; ++k) {
       set_member(k);

@@ -13,7 +13,7 @@
 
 namespace talus {
 
-/// Where a member is and how it moves without contact, as its contacts with others ask.
+/// Where a member is and how it moves without contact, for its contacts with other members.
 struct MassMember {
   Vec3 at = Vec3::Zero();             ///< centroid at the start [m]
   Vec3 middle = Vec3::Zero();         ///< ... and between start and free end [m]
@@ -21,7 +21,7 @@ struct MassMember {
   Mat3 turned = Mat3::Zero();         ///< rotation from start to free end, less identity
   Vec3 velocity_start, velocity_end;  ///< [m/s]
   Vec3 spin_start, spin_end;          ///< local axes [rad/s]
-  // Contacts turn it at mid-step: what they do is exact there whatever its moments of inertia.
+  // Contacts turn it at mid-step: their effect is exact there whatever its moments of inertia.
   Quat attitude = Quat::Identity();  ///< at mid-step
   Vec3 momentum;                     ///< ... angular, without contact [kg m2/s]
   Vec3 spin;                         ///< ... local axes [rad/s]
@@ -37,8 +37,8 @@ struct MassContact {
   double gap_free = 0;     ///< at the end of the step without contact [m]
   double speed_start = 0;  ///< normal velocity at the start [m/s]
   float slip_speed = 0;    ///< of its point when the step begins [m/s]
-  bool is_hit = false;     ///< it closes faster than what rests, and rebounds
-  bool yields = false;     ///< the other side gives way
+  bool is_hit = false;     ///< it closes faster than a contact at rest, and rebounds
+  bool yields = false;     ///< the other side yields
 };
 
 /// What the contacts did to a member.
@@ -47,7 +47,7 @@ struct MassChange {
   Vec3 couple = Vec3::Zero();     ///< about `middle` [N m s]
   Vec3 velocity = Vec3::Zero();   ///< change [m/s]
   Vec3 spin = Vec3::Zero();       ///< change [rad/s]
-  Vec3 by_ground = Vec3::Zero();  ///< impulse of ground and of what stands fast [N s]
+  Vec3 by_ground = Vec3::Zero();  ///< impulse of the ground and of fixed bodies [N s]
   bool pressed = false;           ///< by a contact
   bool on_ground = false;         ///< ... with the ground
   bool was_hit = false;
@@ -79,8 +79,8 @@ struct MassScratch {  // clang-format off
   MassResult solved;
   // 4 check, 5 accept
   std::vector<MassChange> changes;          ///<                                        (n_members)
-  std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
-  double error = 0;                         ///< estimated, as a share of the way [-]
+  std::vector<YieldPush> pushes;            ///< on yielding fixed bodies
+  double error = 0;                         ///< estimated, as a share of the displacement [-]
 };  // clang-format on
 
 }  // namespace talus

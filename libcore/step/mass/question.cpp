@@ -83,7 +83,7 @@ void bar_from_mass(const Scene& scene, const IslandMembers& members, State& stat
 bool moves_as_mass(const Scene& scene, const IslandMembers& members, State& state) {
   const double by_gravity = scene.gravity.norm() * scene.settings.dt;
   if (!may_be_mass(scene, members, state)) return leave(members, 0, state);
-  MassShare all;  // what the members say together
+  MassShare all;  // of all members together
   int n_in_mass = 0;
   if (!state.mass.empty()) {
     all.calm = calm_steps(scene);

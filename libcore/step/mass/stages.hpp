@@ -1,12 +1,13 @@
 // libcore/step/mass/stages.hpp
 // The mass step: an island of which many blocks move, in five stages. The exact step
-// (step/island/stages.hpp) follows hits event by event and solves for forces to far below what
-// gravity does; a mass that moves needs neither. step_mass.cpp is the page that puts the stages in
+// (step/island/stages.hpp) follows hits event by event and solves for forces to far below the
+// effect of gravity; a moving mass needs neither. step_mass.cpp is the page that puts the stages in
 // order. Laws are those of the exact step, through the same functions: ground and its rows
-// (step/substep.hpp), pairs, fences, stems, soil, drag. What is simpler:
+// (step/substep.hpp), pairs, fences, stems, soil, drag. Simplifications:
 // - a contact that closes fast rebounds within the step, once: a hit is not passed on in turn;
 // - all contacts have one stiffness;
-// - forces are found to what the last sweep changes, see law numbers in solver/mass_numbers.hpp.
+// - forces are found to within the change by the last sweep, see law numbers in
+// solver/mass_numbers.hpp.
 // docs/theory/theory.md, "One step of a mass"
 #pragma once
 
@@ -62,7 +63,7 @@ void note_solution(const Scene& scene, const IslandMembers& members, double h, c
 // --- 2 make_mass_contacts (step/mass/contacts.cpp)
 /// Longest substep, up to `h`, in which no point goes by more than 2 law::deep_share of the
 /// thickness relative to a neighbour, or past the side of a stem; a long one by half of that, on
-/// the ground too, since what a hit throws at others is seen only in the next.
+/// the ground too, since a body that a hit throws at another is seen only in the next.
 [[nodiscard]] double longest_mass_substep(const Scene& scene, const PairSearch& search,
                                           const IslandMembers& members,
                                           std::span<const int> manifolds, double h);
@@ -88,7 +89,8 @@ void list_presses(const IslandMembers& members, double h, const MassScratch& w,
 
 // --- 5 accept_mass (step/mass/accept.cpp)
 /// Fills motion, memory, yielding bodies and ledger of the state, the segments, and the report.
-/// The memory is that of the exact step, which can go on from it, as this step can from that one's.
+/// The memory is that of the exact step, which can continue from it, as this step can from that
+/// one's.
 void accept_mass(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
                  const MassScratch& w, State& state, std::vector<Segment>& segments, DeepWork& deep,
                  StepReport& report);

@@ -18,13 +18,13 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
                        Work& work, StepReport& report);
 
 /// Whether an island is a mass from the start of a run, when nothing moves yet and no contact knows
-/// what it carries: tries the first substep, of `h`, with as many sweeps as let support rise
+/// its load: tries the first substep, of `h`, with as many sweeps as let support rise
 /// through all layers of blocks. Where that settles it asks leaves_as_mass(); else the run begins
 /// exact.
 [[nodiscard]] bool begins_as_mass(const Scene& scene, double h, State& state, Work& work);
 
-/// Nominal steps that the next step takes at once: two, once most of what moves is in masses that
-/// such steps follow as well as the accuracy asks for, for law::patience substeps; else one.
+/// Nominal steps that the next step takes at once: two, once most of the moving mass is in masses
+/// that such steps follow as well as the accuracy asks for, for law::patience substeps; else one.
 [[nodiscard]] int next_stride(const Scene& scene, const State& state);
 
 }  // namespace talus
