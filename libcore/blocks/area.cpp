@@ -1,3 +1,4 @@
+// Areas in plan: rings, points and cells inside them, checks.
 #include "blocks/area.hpp"
 
 #include <algorithm>

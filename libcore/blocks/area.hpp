@@ -1,5 +1,5 @@
 // libcore/blocks/area.hpp: public
-// Areas in plan: rings, what lies in them, what is wrong with them.
+// Areas in plan: rings, points inside them, checks of rings.
 #pragma once
 
 #include <vector>

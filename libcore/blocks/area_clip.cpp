@@ -1,3 +1,4 @@
+// Clips the triangles of a TRN by an area into convex pieces.
 #include "blocks/area_clip.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // From the cells of a cut mass to blocks: cells that no joint parts are one block, slivers go to a
 // neighbour, and each block becomes convex or keeps its exact shape.
 // in:    cell complex, joints, bed
-// out:   block set with first contact pairs, and what became of the volume
+// out:   block set with first contact pairs, and a balance of the volume
 #pragma once
 
 #include <string>

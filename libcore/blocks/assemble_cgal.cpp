@@ -15,7 +15,7 @@
 namespace talus {
 namespace {
 
-// Rock that no joint parts: cells joined through walls, and what they add up to.
+// Rock that no joint parts: cells joined through walls, and the sum of their moments.
 struct CellPiece {
   std::vector<int> cells;
   Moments sum;
@@ -150,7 +150,7 @@ std::vector<int> merge_slivers(const std::vector<CellPiece>& pieces, const Conta
       continue;
     }
     ++report.n_merged;
-    report.merged_volume += pieces[p].sum.volume;  // what it took in has been counted
+    report.merged_volume += pieces[p].sum.volume;  // cells merged earlier have been counted
     parent[p] = best;
     sum[best] = joined(sum[best], sum[p]);
     for (const auto& [q, area] : area_with[p]) {
@@ -276,8 +276,8 @@ class Assembler {
   }
 
   // Convex blocks keep apart by their rooms, but a block that stays exact may hold rock in the room
-  // of another: slivers of that joint cell, or what reaches past the middle between blocks of one
-  // joint cell. A convex block that stands in such rock stays exact too.
+  // of another: slivers of that joint cell, or rock that reaches past the middle between blocks of
+  // one joint cell. A convex block in such rock stays exact too.
   void keep_clear_of_exact(std::vector<Draft>& drafts) const {
     std::vector<std::vector<int>> in_joint_cell(complex_.leaves.size());
     std::vector<int> exact;
@@ -364,7 +364,7 @@ class Assembler {
     const double whole = moments(body.shell).volume;
     for (const auto& group : reader_.convex_groups(cells, tolerance_)) {
       Polyhedron part = reader_.shell(group);
-      // Dust that rounding leaves between parts is in the shell, but is no part to collide with.
+      // Dust that rounding leaves between parts is in the shell, but is not a part to collide with.
       if (check_surface(part).fault != SurfaceFault::none || moments(part).volume < 1e-12 * whole)
         continue;
       name_faces(part, joints_);
@@ -381,13 +381,13 @@ class Assembler {
     return largest;
   }
 
-  // Edges of convex parts of a block of this volume are no shorter [m].
+  // Least length of edges of convex parts of a block of this volume [m].
   double min_edge(double volume) const {
     if (options_.exact) return 0;
     return options_.min_edge < 0 ? 1e-3 * std::cbrt(volume) : options_.min_edge;
   }
 
-  // The leaf, cut off half way to the other pieces in it.
+  // The leaf, cut off half-way to the other pieces in it.
   Polyhedron room_of(const Share& own, const std::vector<Share>& in_leaf) const {
     Polyhedron room = complex_.leaves[own.leaf];
     name_faces(room, joints_);
@@ -405,8 +405,8 @@ class Assembler {
     return room;
   }
 
-  // What the piece's joint cell leaves it to be convex in, leaf by leaf; what it took in is shared
-  // out by volume.
+  // The space in the piece's joint cell in which it may be convex, leaf by leaf; the volume of
+  // merged cells is shared out by volume.
   std::vector<ConvexTask> convex_tasks(const CellPiece& piece, int number,
                                        const std::vector<std::vector<Share>>& shares_in,
                                        double volume) const {

@@ -1,3 +1,4 @@
+// Curvature of a sloping local base level (SLBL), from its sag or from usual scenarios.
 #include "blocks/base_level.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Factor of safety of a mass that moves as one over its bed, by columns.
 #include "blocks/bed_equilibrium.hpp"
 
 #include <algorithm>

@@ -4,8 +4,9 @@
 // out:   F and the azimuth of the motion for which it is smallest
 // refs:  Hungr 1987, Hungr et al. 1989 (simplified Janbu in three dimensions)
 //
-// Every column is in vertical equilibrium, so a steep rise at the foot bears with its full normal
-// force. F says little of the share that goes: parts of a mass may leave what holds the rest.
+// Every column is in vertical equilibrium, so a steep rise at the foot supports with its full
+// normal force. F says little of the part that fails: parts of a mass may leave the part that holds
+// the rest.
 #pragma once
 
 #include <span>

@@ -1,3 +1,4 @@
+// Adds bodies to a block set, gives them back, and checks the set.
 #include "blocks/block_set.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace talus {
 namespace {
 
-// The faces of `body` into a table of faces; its vertex 0 stands at `first_vertex` of the set.
+// Appends the faces of `body` to a table of faces; its vertex 0 is at `first_vertex` of the set.
 void append_faces(const Polyhedron& body, int first_vertex, std::vector<int>& vertices,
                   std::vector<int>& begin, std::vector<int>& tags) {
   for (int f = 0; f < n_faces(body); ++f) {

@@ -1,5 +1,5 @@
 // libcore/blocks/block_set.hpp: public
-// The blocks of a site as flat arrays: what talus-blocks writes and talus-dda moves.
+// The blocks of a site as flat arrays: written by talus-blocks, moved by talus-dda.
 // in:    the cut rock mass, meshes or shapes
 // out:   bodies at rest, in place, relative to `origin`; see docs/reference/formats.md for the HDF5
 // names
@@ -34,7 +34,7 @@ struct BlockSet {  // clang-format off
   std::vector<std::string> material_names;   ///< names of [material.*]               (n_materials)
   std::vector<std::string> joint_set_names;  ///< names of [joints.*]                 (n_joint_sets)
 
-  // geometry; vertices stand block by block
+  // geometry; vertices are ordered by block
   std::vector<Vec3> vertices;              ///< local coordinates [m]                     (n_vertices)
   std::vector<int> block_vertex_begin{0};  ///< vertices of block b: [b], [b + 1)         (n_blocks + 1)
   // shells
@@ -91,9 +91,8 @@ void add_body(BlockSet& set, const Body& body);
 [[nodiscard]] Polyhedron block_shell(const BlockSet& set, int b);
 [[nodiscard]] Polyhedron convex_part(const BlockSet& set, int p);
 
-/// What block b looks like from outside: its shell where that is one connected surface, as of
-/// blocks that were kept exact; else its convex parts, since nothing but that they stand together
-/// says that they are one body.
+/// Outer surfaces of block b: its shell where that is one connected surface, as of blocks that were
+/// kept exact; else its convex parts, since only their common place says that they are one body.
 [[nodiscard]] std::vector<Polyhedron> block_surfaces(const BlockSet& set, int b);
 
 /// Names the first promise of this header that `set` breaks (sizes, indices, order, finite numbers,

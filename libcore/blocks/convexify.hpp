@@ -28,7 +28,8 @@ struct ConvexOptions {
 
 /// The convex block; without faces when nothing of it is left. Its volume is that of the task where
 /// the room allows. Lies above `bed` everywhere to within the tolerance, and within the room. Faces
-/// on the terrain side carry face_terrain, those on the bed face_failure, the others their tag.
+/// on the terrain side carry face_terrain, those on the bed face_failure, all further ones their
+/// tag.
 [[nodiscard]] Polyhedron made_convex(const ConvexTask& task, const Trn& bed,
                                      const ConvexOptions& options);
 

@@ -67,8 +67,8 @@ std::vector<Facet> facets_below(const Trn& bed, const Polyhedron& body) {
   return facets;
 }
 
-// Supporting planes of the body at its faces that look down or sideways, and at its box: what lies
-// outside of one has nothing of the body in it or below it.
+// Supporting planes of the body at its faces that look down or sideways, and at its box: a facet
+// outside of one has no part of the body at it or below it.
 std::vector<Plane> lower_planes(const Polyhedron& body) {
   std::vector<Plane> planes;
   for (int f = 0; f < n_faces(body); ++f) {
@@ -93,7 +93,7 @@ void leave_out_cleared(std::vector<Facet>& facets, const Polyhedron& body, doubl
   });
 }
 
-// The part of the body that stands in the rock below the facet.
+// The part of the body in the rock below the facet.
 Polyhedron overlap(const Polyhedron& body, const Facet& facet, double tolerance) {
   const bool is_clear = std::all_of(body.vertices.begin(), body.vertices.end(), [&](const Vec3& v) {
     return distance(facet.above, v) <= tolerance;
@@ -168,7 +168,7 @@ Polyhedron raised_off_by_steps(Polyhedron body, std::vector<Facet> facets, Choos
   return body;
 }
 
-// The largest convex body above the bed that the ways tried here find.
+// The largest convex body above the bed among those tried here.
 Polyhedron raised_off(const Polyhedron& body, const Trn& bed, const Vec3& mean_normal,
                       double tolerance) {
   if (n_faces(body) == 0) return body;
@@ -274,7 +274,7 @@ std::vector<Vec3> corners_of(const Polyhedron& body, int f) {
   return corners;
 }
 
-// Where the block was divided, or where the line of a side of the source goes on into it.
+// Where the block was divided, or where the line of a side of the source continues into it.
 bool may_part_a_block(int face_tag) {
   return face_tag == face_internal || face_tag == face_source_side;
 }
@@ -295,7 +295,7 @@ bool meet(const Polyhedron& one, const Polyhedron& other, double tolerance) {
   return false;
 }
 
-// Where the bed rises between the parts of a block, each may have been cut off from the others.
+// Where the bed rises between the parts of a block, each may have been cut off from the rest.
 bool hang_together(const std::vector<Polyhedron>& bodies, double tolerance) {
   std::vector<bool> reached(bodies.size(), false);
   std::vector<size_t> next = {0};

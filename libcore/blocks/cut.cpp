@@ -1,3 +1,4 @@
+// Cells of a cut mass as polyhedra.
 #include "blocks/cut.hpp"
 
 #include <unordered_map>
@@ -11,7 +12,7 @@ std::vector<Polyhedron> cells_as_polyhedra(const CellComplex& complex) {
   int current = -1;
   for (size_t f = 0; f < complex.face_dart.size(); ++f) {
     Polyhedron& cell = cells[complex.face_cell[f]];
-    if (complex.face_cell[f] != current) local.clear();  // faces stand cell by cell
+    if (complex.face_cell[f] != current) local.clear();  // faces are ordered by cell
     current = complex.face_cell[f];
     loop.clear();
     int d = complex.face_dart[f];

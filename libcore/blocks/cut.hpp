@@ -40,20 +40,20 @@ struct CellComplex {  // clang-format off
   std::vector<int> cell_leaf;        ///< leaf that the cell lies in                      (n_cells)
   std::vector<Polyhedron> leaves;    ///< joint cells, convex, within the box of the mass; cut by
                                      ///< the sides of the outline that cross them     (n_leaves)
-  std::vector<int> leaf_joint_cell;  ///< joint cell of each leaf; a joint cell's leaves stand together
+  std::vector<int> leaf_joint_cell;  ///< joint cell of each leaf; leaves are ordered by joint cell
   int n_uncut = 0;                   ///< cells that a joint should have cut and could not; 0 is sound
 };  // clang-format on
 
 /// One cell as a convex polyhedron; face_tag = CutFace or joint.
 [[nodiscard]] std::vector<Polyhedron> cells_as_polyhedra(const CellComplex& complex);
 
-/// Cuts the mass inside `area`; without rings, all that lies between ground and bed. Rock on both
-/// sides of the line of a side that ends in a joint cell, as at a re-entrant corner, hangs together
+/// Cuts the mass inside `area`; without rings, all rock between ground and bed. Rock on both sides
+/// of the line of a side that ends in a joint cell, as at a re-entrant corner, hangs together
 /// through a cut_wall there. Vertices nearer to a joint than 1e-8 of the mass's diagonal lie on it,
 /// which makes joints that coincide with grid lines, with the bed or with each other harmless.
 ///
 /// A joint with discs cuts a joint cell only when its discs cover all of its section there, so
-/// that what it does not separate stays in one piece, whatever the order of the joints.
+/// that rock which it does not separate stays in one piece, whatever the order of the joints.
 [[nodiscard]] CellComplex cut_mass(const Trn& ground, const Trn& bed, const Area& area,
                                    const std::vector<Joint>& joints,
                                    const ProgressFunction& progress = {});

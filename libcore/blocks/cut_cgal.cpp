@@ -55,7 +55,7 @@ using Leaf = JointCell<Piece>;
 
 // --- the mass as sewn columns ------------------------------------------------------------------
 
-// Builds one column after the other and sews its walls to those that stand already.
+// Builds one column after the other and sews its walls to those of earlier columns.
 class ColumnBuilder {
  public:
   ColumnBuilder(Lcc& lcc, const Trn& ground, const Trn& bed, double thin)
@@ -157,7 +157,7 @@ class ColumnBuilder {
       if (loop.made_by == cut_wall) sew_wall(loop);
   }
 
-  // The neighbour column runs around the same wall the other way.
+  // The neighbour column runs around the same wall in the opposite sense.
   void sew_wall(const Loop& loop) {
     for (std::size_t k = 0; k < loop.keys.size(); ++k) {
       const std::size_t from = loop.keys[k], to = loop.keys[(k + 1) % loop.keys.size()];
@@ -558,7 +558,7 @@ CellComplex cut_mass(const Trn& ground, const Trn& bed, const Area& outline,
   // The joint cells reach above the ground, where blocks made convex may need the room.
   const Vec3 room = Vec3::Constant(0.05 * diagonal);
   root.body = box(low - room, high + room, cut_wall);
-  // Whole joints stand first in the list of candidates.
+  // Through-going joints come first in the list of candidates.
   for (const bool is_through : {true, false})
     for (int j = 0; j < static_cast<int>(joints.size()); ++j)
       if (joints[j].is_through == is_through) root.candidates.push_back(j);

@@ -1,3 +1,4 @@
+// Lifts a failure surface until no rock ahead blocks the mass.
 #include "blocks/daylight_envelope.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ struct Lifting {
   }
 };
 
-// What stands ahead of `place`, carried back to it; `own` where nothing does.
+// The highest rock ahead of `place`, carried back to it; `own` where there is none.
 double lifted_height(const Lifting& lift, const Vec2& place, double own) {
   const double step = lift.ground.cell_size / 2;
   double highest = own;
@@ -94,7 +95,7 @@ Trn lifted_to_daylight(const Trn& ground, const Area& area, Trn bed,
     if (is_inside) z = std::min(top, lifted_height(lift, place, z));
   });
   // Beside the area nodes were lowered so that the bed reaches its outline. At the foot it comes
-  // out there; at the back and the sides it goes on as deep as it is inside.
+  // out there; at the back and the sides it continues as deep as it is inside.
   each_lowered([&](const Vec2& place, bool is_inside, double& z, double top, int r, int c) {
     if (is_inside) return;
     const bool is_foot =

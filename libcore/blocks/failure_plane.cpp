@@ -1,3 +1,4 @@
+// Lays a failure plane of a joint set so that it daylights along the foot of the source.
 #include "blocks/failure_plane.hpp"
 
 #include <Eigen/Geometry>

@@ -50,7 +50,7 @@ struct PlaneAtFoot {
 [[nodiscard]] PlaneAtFoot plane_at_foot(const Trn& ground, const Area& area, const Attitude& plane,
                                         const Vec3& point);
 
-/// What stands before a mass at a point of its foot, whatever its failure surface.
+/// The step of rock ahead of a mass at a point of its foot, whatever its failure surface.
 struct FootStep {
   Vec2 place = Vec2::Zero();  ///< on the outline [m]
   double height = 0;          ///< of the ground ahead above the bed where rock ends, 0 or more [m]

@@ -1,3 +1,4 @@
+// Tells whether the values of a failure raster are elevations or depths.
 #include "blocks/failure_raster.hpp"
 
 #include <algorithm>
@@ -49,7 +50,7 @@ double spread(const std::vector<double>& values) {
   return percentile(values, 0.84) - percentile(values, 0.16);
 }
 
-// Elevations have the relief of the ground: below it they change less than by themselves.
+// Elevations have the relief of the ground: below it they change less than on their own.
 bool has_relief_of_ground(const ValuesInside& values) {
   std::vector<double> below;
   for (std::size_t i = 0; i < values.raster.size(); ++i)

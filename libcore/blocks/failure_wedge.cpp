@@ -1,3 +1,4 @@
+// Lays a wedge of two joint sets so that it daylights along the foot of the source.
 #include "blocks/failure_wedge.hpp"
 
 #include <algorithm>
@@ -79,7 +80,7 @@ Laid measured(const std::vector<Levels>& nodes, Laid laid) {
   return laid;
 }
 
-// Of all ways to clear the foot by either plane that with the most rock above both.
+// Of all combinations of planes that clear the foot, the one with the most rock above both.
 Laid lay(std::vector<Levels> foot, const std::vector<Levels>& nodes) {
   std::sort(foot.begin(), foot.end(),
             [](const Levels& a, const Levels& b) { return a.first < b.first; });

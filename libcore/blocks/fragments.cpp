@@ -1,3 +1,4 @@
+// Cuts blocks into a tree of pieces before anything moves.
 #include "blocks/fragments.hpp"
 
 #include <Eigen/Geometry>
@@ -46,7 +47,7 @@ Extent extent_along(const Polyhedron& body, const Vec3& direction) {
   return extent;
 }
 
-/// Adds pieces to a set; a struct so that its parts share what they read and fill.
+/// Adds pieces to a set; a struct so that its parts share common data.
 struct Splitter {
   BlockSet& set;
   const SplitSettings& settings;
@@ -68,7 +69,7 @@ struct Splitter {
     return cut;
   }
 
-  // The two pieces of body b, and what is known of them.
+  // The two pieces of body b, and their records.
   void add_pieces(int b, const Cut& cut, const Polyhedron& first, const Polyhedron& second) {
     const auto i = static_cast<size_t>(b);
     const int n = n_blocks(set);

@@ -1,8 +1,9 @@
 // libcore/blocks/fragments.hpp: public
-// Into what a block may break: a tree of pieces, two a cut, cut before anything moves by planes
-// through the blocks. Each piece is a body of the block set; it is not there until its parent
-// breaks. in:    convex blocks out:   the same set with the pieces behind them, and who came from
-// whom along which plane
+// The pieces into which a block may break: a binary tree, cut before anything moves by planes
+// through the blocks. Each piece is a body of the block set; it does not exist until its parent
+// breaks.
+// in:    convex blocks
+// out:   the same set with the pieces behind them, and the parent and cut plane of each
 //
 // Binary cuts and not Voronoi cells: they have the 7 faces and 9 vertices of natural fragments
 // (Domokos et al. 2020).

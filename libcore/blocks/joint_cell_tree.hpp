@@ -2,11 +2,11 @@
 // The binary tree of joint cells: which joint divides which of them, and in what order.
 // in:    one joint cell around the mass with all pieces of rock, joints, the sides of the outline
 // of
-//        the mass, and what cuts a piece
+//        the mass, and a cutter of pieces
 // out:   the joint cells that no joint divides any more, each cut by the sides that cross it into
 //        convex leaves, with their pieces
 //
-// Within the module, for cut_cgal.cpp: there stands how a piece is kept and cut.
+// Within the module, for cut_cgal.cpp, which keeps and cuts the pieces.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct JointCell {
 ///   is_covered(piece, j)         whether the joint's discs cover its section through the piece
 ///   cut(piece, j, inner, outer)  cuts it in two; false when it could not be done
 ///   mark_faces_on(piece, j)      makes faces that lie on the joint the joint's
-/// `tolerance`: what is nearer to a joint lies on it [m].
+/// `tolerance`: points nearer to a joint lie on it [m].
 template <class Piece, class Cutter>
 class JointCellTree {
  public:
@@ -54,7 +54,7 @@ class JointCellTree {
 
   /// Finished joint cells go to `leaves`, each with its pieces.
   void grow(Leaf root, std::vector<Leaf>& leaves) {
-    std::vector<std::pair<Leaf, double>> open;  // with the share of the work that it stands for
+    std::vector<std::pair<Leaf, double>> open;  // with its share of the work
     open.emplace_back(std::move(root), 1.0);
     double done = 0;
     while (!open.empty()) {
@@ -91,7 +91,7 @@ class JointCellTree {
     return s < 0 ? s : n_joints() + s;
   }
 
-  // Sides first that leave the rock whole: they may spare it the others.
+  // Sides first that leave the rock whole: they may spare it the remaining ones.
   int take_side(Leaf& leaf) {
     if (leaf.sides.empty()) return -1;
     auto at = std::find_if(leaf.sides.begin(), leaf.sides.end(),

@@ -1,3 +1,4 @@
+// Joint sets: from dip, spacing and scatter to planes, and from measured orientations to sets.
 #include "blocks/joint_sets.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -26,7 +27,7 @@ std::pair<Vec3, Vec3> frame_across(const Vec3& axis) {
 // in.
 double half_square(const JointSet& set, double radius) { return radius + set.disc_diameter / 2; }
 
-// Centres of discs on a unit of area: what they leave whole of it is 1 - persistence.
+// Centres of discs on a unit of area: they leave the share 1 - persistence of it whole.
 double disc_density(const JointSet& set) {
   const double disc_radius = set.disc_diameter / 2;
   return -std::log1p(-set.persistence) / (pi * disc_radius * disc_radius);
@@ -176,7 +177,8 @@ double expected_discs(const JointSet& set, double radius) {
 }
 
 double expected_cells(const std::vector<JointSet>& sets, const MassMeasure& mass) {
-  // Along a direction: half of what all faces show is what is seen, as each line enters and leaves.
+  // Along a direction: the visible area is half of that of all faces, as each line enters and
+  // leaves.
   const auto area_along = [&](const Vec3& direction) {
     double shown = 0;
     for (const Vec3& area : mass.area_vectors) shown += std::abs(area.dot(direction));

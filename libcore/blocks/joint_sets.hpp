@@ -45,10 +45,10 @@ struct Joint {
 };
 
 /// Unit normal of a plane that dips so, upward: (sin d sin a, sin d cos a, cos d). Components below
-/// 1e-15 are exactly 0, so that vertical and axis-parallel joints are what they are called.
+/// 1e-15 are exactly 0, so that vertical and axis-parallel joints are exactly so.
 [[nodiscard]] Vec3 pole(double dip, double dip_direction);
 
-/// Dip and dip direction of a plane by its normal, either way up [rad].
+/// Dip and dip direction of a plane by its normal, of either sign [rad].
 struct Attitude {
   double dip = 0, dip_direction = 0;
 };
@@ -62,9 +62,9 @@ struct Attitude {
 
 /// The joints of set number `index` that cross the ball around `centre`.
 ///
-/// Planes follow each other along the mean normal from `offset` on, both ways. Open discs are a
-/// Boolean model: centres at random with density -ln(1 - persistence) / (pi r^2), which leaves the
-/// share `persistence` of the plane open.
+/// Planes follow each other along the mean normal from `offset` on, in both directions. Open discs
+/// are a Boolean model: centres at random with density -ln(1 - persistence) / (pi r^2), which
+/// leaves the share `persistence` of the plane open.
 [[nodiscard]] std::vector<Joint> draw_joints(const JointSet& set, int index, const Vec3& centre,
                                              double radius, std::uint64_t seed);
 
@@ -72,7 +72,7 @@ struct Attitude {
 struct MassMeasure {
   double volume = 0;               ///< [m3]
   std::vector<Vec3> vertices;      ///< of its surface [m]
-  std::vector<Vec3> area_vectors;  ///< of the faces of its surface, either way round [m2]
+  std::vector<Vec3> area_vectors;  ///< of the faces of its surface, of either sign [m2]
   double plan_area = 0;            ///< [m2]
   double max_depth = 0;            ///< vertical [m]
 };
@@ -81,8 +81,8 @@ struct MassMeasure {
 [[nodiscard]] double expected_discs(const JointSet& set, double radius);
 
 /// Mean number of joint cells in a mass, taking every joint as through-going; 1 at least. Sets of
-/// which less than one joint is expected to cross the mass are left out. Of the others, with
-/// spacings s and normals n, what there is of the first kind is counted:
+/// which less than one joint is expected to cross the mass are left out. For the rest, with
+/// spacings s and normals n, the first kind that exists is counted:
 /// - points where joints of three sets meet: volume times |n1 . (n2 x n3)| / (s1 s2 s3),
 /// - prisms of two sets: area of the mass seen along them times |n1 x n2| / (s1 s2),
 /// - slabs of one set: width of the mass along its normal over s,

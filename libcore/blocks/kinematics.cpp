@@ -1,3 +1,4 @@
+// Kinematic analysis: shares of a slope's face that are free to slide or topple.
 #include "blocks/kinematics.hpp"
 
 #include <Eigen/Geometry>
@@ -52,7 +53,7 @@ bool is_lateral(const Attitude& plane, const Vec3& face) {
   return angle_between(plane.dip_direction, aspect_of(face)) <= lateral_limit_deg * degree;
 }
 
-// A set that columns can stand on and move out from: it dips out of the slope, less steeply.
+// A set on whose planes columns can rest and move out: it dips out of the slope, less steeply.
 bool is_base(const Attitude& plane, const Vec3& face) {
   return is_lateral(plane, face) && plane.dip < slope_of(face);
 }

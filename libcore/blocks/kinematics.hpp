@@ -5,8 +5,8 @@
 // out:   shares by area, with their spread where attitudes scatter
 // refs:  Goodman 1989; Hocking 1976 (sliding on one plane of a wedge); Wyllie and Mah 2004
 //
-// It looks at the face alone. What holds a mass is the bed at its foot: a slope that is free all
-// over by these shares may stand. docs/tools/talus-check.md
+// It looks at the face alone. A mass is held by the bed at its foot: a slope that is free all over
+// by these shares may be stable. docs/tools/talus-check.md
 #pragma once
 
 #include <string>
@@ -31,12 +31,12 @@ struct FacePiece {
 /// The ground in the area.
 [[nodiscard]] std::vector<FacePiece> face_in(const Trn& ground, const Area& area);
 
-/// Azimuth of the steepest way down of a face [rad].
+/// Azimuth of the steepest descent of a face [rad].
 [[nodiscard]] double aspect_of(const Vec3& normal);
 /// Angle between two azimuths, 0 to pi [rad].
 [[nodiscard]] double angle_between(double azimuth, double other);
 
-/// The way down the dip of a plane: unit.
+/// The direction down the dip of a plane: unit.
 [[nodiscard]] Vec3 dip_vector(double dip, double dip_direction);
 
 /// Plane sliding: the plane daylights in the face and is steeper than friction [rad].
@@ -49,7 +49,8 @@ struct Wedge {
   Vec3 line = Vec3::Zero();  ///< their intersection, unit, downward; zero where they are parallel
   double plunge = 0, trend = 0;  ///< of the line [rad]
   double factor = 0;             ///< friction over driving force along the line [-]
-  bool on_both = false;          ///< both planes bear; else the rock slides on one of them alone
+  bool on_both = false;          ///< both planes are in contact; else the rock slides on one of
+                                 ///< them alone
 };
 /// `friction`: tangents.
 [[nodiscard]] Wedge wedge_of(const Attitude& first, const Attitude& second, double first_friction,
@@ -63,7 +64,7 @@ struct Wedge {
 struct KinematicSet {
   std::string name;
   Attitude mean;
-  std::vector<Attitude> draws;  ///< attitudes that stand for it; empty: the mean alone
+  std::vector<Attitude> draws;  ///< attitudes drawn for it; empty: the mean alone
   double friction = 0;          ///< tangent
 };
 /// Attitudes of a set with Fisher scatter about its mean, the same for the same set.

@@ -1,3 +1,4 @@
+// Outlines in plan of the rock above failure planes.
 #include "blocks/mass_outline.hpp"
 
 #include <cmath>

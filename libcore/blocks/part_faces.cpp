@@ -1,3 +1,4 @@
+// Covered faces, common volume and connection of the convex parts of a body.
 #include "blocks/part_faces.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Scales bodies, sets them on the ground and finds their overlaps.
 #include "blocks/placed_bodies.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace talus {
 namespace {
 
-// Faces that touch share what rounding of their coordinates leaves.
+// Faces that touch overlap by the rounding of their coordinates.
 constexpr double rounding_share = 1e-6;
 
 struct Box {

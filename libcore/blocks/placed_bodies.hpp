@@ -1,7 +1,7 @@
 // libcore/blocks/placed_bodies.hpp: public
 // Bodies from elsewhere as a group: scaled together, set on the ground, looked at for overlaps.
-// in:    bodies as they stand in their mesh, or a shape; the ground
-// out:   the same bodies at their place, and what is odd about them
+// in:    bodies as their mesh has them, or a shape; the ground
+// out:   the same bodies at their place, and doubts about them
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ struct BodyOverlaps {
   int n = 0;                 ///< pairs that share more than rounding explains
   double largest_share = 0;  ///< of the smaller body's volume
   std::array<int, 2> worst{};
-  /// A body that was inside-out and stands in another one: a cavity, and the body around it.
+  /// A body that was inside-out and lies in another one: a cavity, and the body around it.
   std::optional<std::array<int, 2>> cavity;
 };
 /// `were_turned`: bodies whose surface was inside-out.                               (n_bodies)

@@ -1,3 +1,4 @@
+// Start points of bodies along lines and over areas, and their height above ground.
 #include "blocks/placement.hpp"
 
 #include <Eigen/Geometry>

@@ -15,7 +15,7 @@ namespace talus {
 [[nodiscard]] std::vector<Vec2> points_along(const std::vector<Vec2>& line, double spacing);
 
 /// Ground that releases rocks: triangles whose middle lies in the area, of all ground without
-/// rings. Points stand only where it is as steep as this.
+/// rings. Points are only where it is as steep as this.
 struct ReleaseArea {
   Area area;
   double min_slope = 0;  ///< [rad]

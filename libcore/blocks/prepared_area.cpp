@@ -1,3 +1,4 @@
+// An area prepared for many queries of points and crossings.
 #include "blocks/prepared_area.hpp"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ void PreparedArea::add_crossings(const Vec2& from, const Vec2& to,
   const size_t last = band_of(std::max(from.y(), to.y()));
   for (size_t band = band_of(std::min(from.y(), to.y())); band <= last; ++band)
     for (const auto& [a, b] : bands_[band]) {
-      // both ends of the side on one side of the way: it is not crossed
+      // both ends of the side on one side of the segment: it is not crossed
       const double left_a = cross(way, a - from), left_b = cross(way, b - from);
       if (left_a * left_b > 0 || left_a == left_b) continue;
       const double share = cross(a - from, b - a) / cross(way, b - a);

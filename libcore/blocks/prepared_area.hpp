@@ -9,14 +9,14 @@
 
 namespace talus {
 
-/// Says of points what contains(area, point) does. The sides that matter at the height of a point
-/// are known beforehand.
+/// Gives for points the result of contains(area, point). The sides that matter at the height of a
+/// point are known beforehand.
 class PreparedArea {
  public:
   explicit PreparedArea(const Area& area);
   [[nodiscard]] bool contains(const Vec2& point) const;
-  /// Adds where the straight way from one point to another may cross the border, as shares of the
-  /// way; all crossings are among them, perhaps repeatedly.
+  /// Adds where the straight segment from one point to another may cross the border, as shares of
+  /// it; all crossings are among them, perhaps repeatedly.
   void add_crossings(const Vec2& from, const Vec2& to, std::vector<double>& shares) const;
   /// Sides that contains() looks at for a point.
   [[nodiscard]] std::size_t n_looked_at(const Vec2& point) const;

@@ -1,3 +1,4 @@
+// Which blocks can leave a mass, by projections on joint pyramids, round by round.
 #include "blocks/removability.hpp"
 
 #include <Eigen/Geometry>
@@ -28,7 +29,7 @@ bool leaves(const Vec3& direction, double force, std::span<const RestPlane> plan
   });
 }
 
-// The mode with these planes bearing, if it is the projection; keeps that of the largest
+// The mode of contact with these planes, if it is the projection; keeps that of the largest
 // resistance.
 void consider(const Vec3& direction, std::vector<int> bearing, double resistance, double force,
               std::span<const RestPlane> planes, BlockMode& best, bool& found) {
@@ -178,7 +179,7 @@ struct Peeling {
   }
 };
 
-// Lets go what goes, round by round, beginning with `candidates`; the blocks that went, in order.
+// Removes free blocks, round by round, beginning with `candidates`; the removed blocks in order.
 std::vector<int> peel(Peeling& state, std::vector<int> candidates, int first_round,
                       std::vector<BlockMode>* modes) {
   std::vector<int> all;

@@ -1,14 +1,14 @@
 // libcore/blocks/removability.hpp: public
-// Which blocks of a mass can leave it, in which order, and which of them hold the others.
+// Which blocks of a mass can leave it, in which order, and which of them hold the rest.
 // in:    the planes that a block rests on, with the directions that they leave it, and its weight
-// out:   whether it can move at all, the way it goes, its factor of safety; the order of going
+// out:   whether it can move at all, its direction, its factor of safety; the order of removal
 // refs:  Goodman and Shi 1985 (block theory, theorem of removability); Moreau 1962 (the projection
 //        on a cone, which is all modes of the vector method at once)
 //
-// A plane k leaves a block the half space n_k . v >= 0. What all planes leave is its joint pyramid.
-// The block goes along the projection of the active force on that pyramid, and the planes that bear
-// then are those that it slides on. Pushing and turning are left out: what is found to stay may
-// still be pushed away by what stands behind it.
+// A plane k leaves a block the half space n_k . v >= 0. The intersection of these is its joint
+// pyramid. The block moves along the projection of the active force on that pyramid, and slides on
+// the planes that are in contact then. Pushing and turning are left out: a block that is found to
+// stay may still be pushed away by blocks behind it.
 #pragma once
 
 #include <span>
@@ -31,21 +31,21 @@ struct RestPlane {
 
 /// How a block goes under a force.
 struct BlockMode {
-  Vec3 direction = Vec3::Zero();  ///< projection of the force on what is left free [N]; 0: stays
-  std::vector<int> bearing;       ///< planes that bear: none: it falls or is lifted; one; two
+  Vec3 direction = Vec3::Zero();  ///< projection of the force on the free directions [N]; 0: stays
+  std::vector<int> bearing;       ///< planes in contact: none: it falls or is lifted; one; two
   double driving = 0;             ///< length of `direction` [N]
-  double resistance = 0;          ///< friction and cohesion of the bearing planes [N]
+  double resistance = 0;          ///< friction and cohesion of these planes [N]
   [[nodiscard]] bool is_free() const { return driving > 0; }
   [[nodiscard]] bool goes() const { return driving > resistance; }
   /// Resistance over driving force; infinity for a block that nothing drives.
   [[nodiscard]] double factor() const;
 };
 
-/// The mode of a block between `planes` under `force`. Where more than two planes bear, the forces
-/// between them are not unique: the largest resistance is taken.
+/// The mode of a block between `planes` under `force`. Where more than two planes are in contact,
+/// the forces between them are not unique: the largest resistance is taken.
 [[nodiscard]] BlockMode block_mode(const Vec3& force, std::span<const RestPlane> planes);
 
-/// A plane of a block and what lies behind it.
+/// A plane of a block and the block behind it.
 struct BlockContact {
   int other = -1;  ///< the block there; -1: rock or ground that stays
   RestPlane plane;
@@ -67,10 +67,10 @@ struct FaceFriction {
 /// Planes whose normals lie within one degree taken as one, with their mean friction by area.
 [[nodiscard]] std::vector<RestPlane> merged(std::span<const BlockContact> contacts);
 
-/// A block that stays, and what would go if it alone were taken away.
+/// A block that stays, and the effect of removing it alone.
 struct Lock {
   int block = 0;
-  double freed = 0;  ///< weight of others that would go, share of all [-]
+  double freed = 0;  ///< weight of further blocks that would leave, share of all [-]
 };
 
 struct PeelOff {
@@ -78,10 +78,11 @@ struct PeelOff {
   std::vector<BlockMode> mode;  ///< when it went, or at the end                       (n_blocks)
   double share = 0;             ///< weight that went, share of all [-]
   double locked_share = 0;      ///< weight that friction does not hold: no direction is left [-]
-  std::vector<Lock> locks;      ///< by what they hold, most first; those that hold nothing left out
+  std::vector<Lock> locks;      ///< by the weight that they hold, most first; those that hold
+                                ///< nothing left out
 };
 
-/// Lets go, round by round, each block that slides or falls off what has not gone. `weight` [N].
+/// Removes, round by round, each block that slides or falls off the remaining ones. `weight` [N].
 [[nodiscard]] PeelOff peel_off(std::span<const std::vector<BlockContact>> contacts,
                                std::span<const double> weight);
 

@@ -1,3 +1,4 @@
+// Draws sizes of single rocks from a law of magnitude and frequency.
 #include "blocks/rock_draws.hpp"
 
 #include <cmath>

@@ -4,7 +4,7 @@
 
 namespace talus {
 
-/// So few that what they touch stays in the cache.
+/// So few that their data stay in the cache.
 inline constexpr int rocks_at_a_time = 16;
 
 }  // namespace talus

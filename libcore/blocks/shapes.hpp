@@ -22,7 +22,7 @@ namespace talus {
 /// Convex hull of `n_points` points at random on an ellipsoid with these axes [m].
 [[nodiscard]] Polyhedron rock(const Vec3& axes, int n_points, Random& random);
 
-/// What a shape is made of; each reads what it needs.
+/// Dimensions of shapes; each uses those that it needs.
 struct ShapeSize {
   Vec3 extents = Vec3::Ones();  ///< of box, EOTA block, rock; prism: diameter, length [m]
   int n_sides = 6;              ///< of a prism
@@ -32,7 +32,7 @@ struct ShapeSize {
 /// A shape as the site file names it.
 struct ShapeKind {
   const char* name;
-  int n_extents;  ///< numbers that size_m takes, unless one stands for all
+  int n_extents;  ///< numbers that size_m takes, unless one is given for all
   Polyhedron (*make)(const ShapeSize&, Random&);
 };
 [[nodiscard]] const std::vector<ShapeKind>& shape_kinds();

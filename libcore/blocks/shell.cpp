@@ -1,3 +1,4 @@
+// Surfaces of groups of cells, and groups of cells with convex unions.
 #include "blocks/shell.hpp"
 
 #include <Eigen/Geometry>
@@ -28,7 +29,7 @@ struct Sheet {
   const Vec3& point(int h) const { return (*points)[vertex[h]]; }
 };
 
-// Takes the edge of h and its twin out of the loops that they stand in.
+// Takes the edge of h and its twin out of their loops.
 void remove_edge(Sheet& s, int h) {
   const int t = s.twin[h];
   const int before_h = s.previous[h], after_h = s.next[h];
@@ -280,7 +281,7 @@ bool fits(const Group& inner, const Group& outer, const Plane& between, double t
 }  // namespace
 
 // Two convex bodies that meet in a plane have a convex union when each lies within the other's
-// remaining planes: what lies within all of them is then one body or the other.
+// remaining planes: a point within all of them is then in one body or the other.
 std::vector<std::vector<int>> ShellReader::convex_groups(const std::vector<int>& cells,
                                                          double tolerance_m) {
   const CellComplex& c = complex_;

@@ -1,3 +1,4 @@
+// Fits sizes of blocks to return periods.
 #include "blocks/size_fit.hpp"
 
 #include <algorithm>

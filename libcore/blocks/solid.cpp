@@ -1,3 +1,4 @@
+// Makes a solid body of a surface: checks it and divides it into convex parts.
 #include "blocks/solid.hpp"
 
 #include <Eigen/Geometry>
@@ -27,7 +28,7 @@ struct Patch {
   Plane plane;
 };
 
-// Convex faces stay whole, others become triangles. Faces are flat (with_flat_faces).
+// Convex faces stay whole, the rest becomes triangles. Faces are flat (with_flat_faces).
 void add_patches(const Polyhedron& body, int f, std::vector<Patch>& patches) {
   const Plane plane = plane_through(face_centroid(body, f), face_normal(body, f));
   if (plane.normal.squaredNorm() == 0) return;
@@ -98,7 +99,7 @@ Polyhedron clip_soundly(const Polyhedron& cell, const Plane& plane, double toler
   return convex_hull(kept.vertices, face_internal);
 }
 
-// Cuts `cell` by the planes of the patches in it; what lies inside all of them is a part. A patch
+// Cuts `cell` by the planes of the patches in it; the space inside all of them is a part. A patch
 // whose plane has cut is used up, so every branch of the tree ends.
 void grow(const Polyhedron& cell, std::vector<Patch> patches, double tolerance,
           std::vector<Polyhedron>& parts) {

@@ -17,7 +17,7 @@ namespace talus {
 [[nodiscard]] Polyhedron with_joined_faces(const Polyhedron& surface);
 
 /// The same body with vertices in the order of their coordinates, faces beginning at their first
-/// vertex and in the order of their vertices: what does not depend on how it was made.
+/// vertex and in the order of their vertices: independent of how it was made.
 [[nodiscard]] Polyhedron in_standard_order(const Polyhedron& body);
 
 /// Largest distance of a corner of face f from the face's plane [m].
@@ -26,8 +26,8 @@ namespace talus {
 /// The surface with faces that are less even than `tolerance` [m] cut into triangles.
 [[nodiscard]] Polyhedron with_flat_faces(const Polyhedron& body, double tolerance);
 
-/// Two faces that cut through or touch each other away from what they share; nothing when there are
-/// none. Exact for the coordinates as they stand.
+/// Two faces that cut through or touch each other away from common vertices; nothing when there are
+/// none. Exact for the given coordinates.
 [[nodiscard]] std::optional<std::pair<int, int>> find_self_intersection(const Polyhedron& surface);
 
 /// Of two convex bodies [m3].
@@ -44,9 +44,9 @@ namespace talus {
 
 /// A surface as a body of material 0, at rest. Polygons that are not flat, as rounded coordinates
 /// leave them, say how well the surface is known: a body that is convex but for that becomes its
-/// convex hull; of others such polygons become triangles. Refuses with InputError what is open, not
-/// a manifold, flat, not finite or cuts through itself, saying where; a surface that is inside-out
-/// is turned, and `was_turned` says so.
+/// convex hull; of other bodies such polygons become triangles. Refuses with InputError a surface
+/// that is open, not a manifold, flat, not finite or cuts through itself, saying where; a surface
+/// that is inside-out is turned, and `was_turned` says so.
 [[nodiscard]] Body make_solid(const Polyhedron& surface, const Where& where, bool& was_turned);
 
 /// The same of surfaces that are the convex parts of one body, kept as they are. Refuses also parts

@@ -44,7 +44,7 @@ std::vector<SurfacePiece> pieces_of(const Polyhedron& surface) {
 }
 
 // Pieces that share an edge collide when they lie on top of each other, those that share a corner
-// when the far edge of one meets the other; others when they have a point in common.
+// when the far edge of one meets the other; separate ones when they have a point in common.
 bool collide(const Polyhedron& surface, const SurfacePiece& a, const SurfacePiece& b) {
   const auto at = [&](int v) { return point(surface.vertices[v]); };
   std::vector<int> shared, rest_a, rest_b;

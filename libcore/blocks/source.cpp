@@ -1,3 +1,4 @@
+// The source: its area, its failure surface, and the mass between that and the ground.
 #include "blocks/source.hpp"
 
 #include <Eigen/Geometry>

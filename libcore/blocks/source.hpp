@@ -5,7 +5,7 @@
 // out:   the bed: the same TRN, lowered to the failure surface below all of the polygon
 // refs:  Jaboyedoff et al. 2004 (sloping local base level)
 //
-// The mass is what lies between the two TRNs inside the polygon, whose sides are its vertical
+// The mass lies between the two TRNs inside the polygon, whose sides are its vertical
 // walls. Both are linear on the same triangles, so it is a sum of prisms, and the blocks lie on
 // their bed without a gap. Outside of the polygon the bed comes back to the ground within a cell.
 #pragma once
@@ -61,7 +61,7 @@ struct SourceMass {
 [[nodiscard]] SourceMass find_source(const Trn& ground, const Area& area,
                                      const SourceOptions& options, const Where& where);
 
-/// The mass over another bed, which is not above the ground; what find_source() counted stays.
+/// The mass over another bed, which is not above the ground; counts of find_source() are kept.
 /// Throws InputError where nothing lies over it.
 [[nodiscard]] SourceMass mass_over(const Trn& ground, const Area& area, SourceMass mass, Trn bed,
                                    const Where& where);
