@@ -17,8 +17,8 @@ enum class Contents { vectors, rasters };
 [[nodiscard]] std::string source_in(const SourcePath& path, Contents contents,
                                     std::vector<std::string>& remarks);
 
-/// The way out where several rasters are given for one: `command` makes one of tiles. Where two lie
-/// over one another they are no tiles, and one is to be named. `rasters`: as GDAL names them;
+/// The remedy where several rasters are given for one: `command` makes one of tiles. Where two lie
+/// over one another they are not tiles, and one is to be named. `rasters`: as GDAL names them;
 /// `names`: as the user would.
 [[nodiscard]] std::string way_to_one_raster(const std::vector<std::string>& rasters,
                                             const std::vector<std::string>& names,

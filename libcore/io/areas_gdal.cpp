@@ -1,3 +1,4 @@
+// Checks polygons as they are read, and unites those that overlap.
 #include "io/areas_gdal.hpp"
 
 #include <ogrsf_frmts.h>

@@ -1,5 +1,5 @@
 // libcore/io/areas_gdal.hpp: public
-// Polygons as they are read: each one by itself is sound, and what overlaps is one area.
+// Polygons as they are read: each one is sound on its own, and overlapping ones are one area.
 // in:    polygons of a vector source, or the corners of one
 // out:   polygons that share no ground
 // refs:  OGC Simple Features (validity), GEOS through OGR
@@ -29,7 +29,7 @@ struct Uniting {
 };
 
 /// Makes one polygon of those that overlap, touch or lie in one another, so that no place is in
-/// two. A polygon that stands alone stays as it is, with all its points. All must be sound
+/// two. A polygon apart from the rest stays as it is, with all its points. All must be sound
 /// (check_polygon). Throws InputError at `where` when the union fails.
 Uniting unite_polygons(std::vector<std::unique_ptr<OGRPolygon>>& polygons, const Where& where);
 

@@ -1,3 +1,4 @@
+// A scene of blocks and ground at one moment, with names, and the choice of its file format.
 #include "io/block_scene.hpp"
 
 #include "io/mesh.hpp"

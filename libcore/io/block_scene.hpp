@@ -28,7 +28,7 @@ struct BlockScene {
   std::vector<SceneBody> ground;  ///< one, or none
   Vec3 origin = Vec3::Zero();     ///< map coordinates of the local zero [m]
   std::string crs_wkt;            ///< empty when unknown
-  std::string source;             ///< what made it, in words
+  std::string source;             ///< tool and run of its origin, in words
   double time = 0;                ///< [s]
 };
 
@@ -38,7 +38,7 @@ struct BlockScene {
 /// The known triangles of a terrain as one open surface, local to `origin`.
 [[nodiscard]] SceneBody ground_body(const Trn& trn, const Vec3& origin);
 
-/// "block_000012": what the files call block 12.
+/// "block_000012": the name of block 12 in files.
 [[nodiscard]] std::string block_name(int block);
 
 /// Writes to `path`, synced. Equal scenes give equal bytes. Throws InputError when it cannot be

@@ -1,3 +1,4 @@
+// Writes and reads block sets as HDF5 files.
 #include "io/blocks_hdf5.hpp"
 
 #include <array>

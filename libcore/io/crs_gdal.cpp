@@ -1,3 +1,4 @@
+// Coordinate reference systems: names, parts and comparison of plans and heights.
 #include "io/crs_gdal.hpp"
 
 #include <cpl_conv.h>

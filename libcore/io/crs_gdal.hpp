@@ -20,7 +20,7 @@ namespace talus {
 /// For GDAL, x east and y north. Throws InputError for a text that is not WKT of a system.
 [[nodiscard]] OGRSpatialReference parsed_crs(const std::string& crs_wkt);
 
-/// WKT2:2019 of what a user writes: "EPSG:31287", a PROJ string, WKT, the name of a file. "none"
+/// WKT2:2019 of a user's text: "EPSG:31287", a PROJ string, WKT, the name of a file. "none"
 /// gives an empty text: local metres without a place on the map. Throws InputError that names
 /// `option` when it is not understood.
 [[nodiscard]] std::string crs_from_user(const std::string& user_text, const std::string& option);
@@ -65,8 +65,8 @@ namespace talus {
 [[nodiscard]] std::string with_heights(const std::string& plan, const std::string& vertical,
                                        const Where& where);
 
-/// The system `plan` with the heights of `other`, where that says them: what something is in that
-/// was reprojected in plan. Throws InputError when `plan` says another system of heights.
+/// The system `plan` with the heights of `other`, where that names them: the system of data that
+/// were reprojected in plan. Throws InputError when `plan` says another system of heights.
 [[nodiscard]] std::string with_heights_of(const std::string& other, const std::string& plan,
                                           const Where& where);
 
@@ -74,7 +74,7 @@ namespace talus {
 /// operation leads to another system.
 [[nodiscard]] bool has_unknown_datum(const std::string& crs_wkt);
 
-/// Whether points cannot stand in the geographic system that their file names: a latitude above 90
+/// Whether points cannot be in the geographic system that their file names: a latitude above 90
 /// degrees or a longitude above 360. A GeoJSON without `crs` says degrees whatever it holds. False
 /// for other systems.
 [[nodiscard]] bool is_beyond_degrees(const std::string& crs_wkt, const std::vector<Vec3>& points);

@@ -1,3 +1,4 @@
+// Lists the files of a data set and computes their common digest.
 #include "io/data_files_gdal.hpp"
 
 #include <cpl_string.h>
@@ -37,7 +38,7 @@ std::vector<std::string> files_of(const std::string& path, unsigned kind) {
   return files;
 }
 
-// Whether it says where and what the values are, beside statistics.
+// Whether it says where the values are or what they mean, beside statistics.
 bool bears_on_values(const std::string& aux_file) {
   const std::string content = read_file(aux_file);
   for (const char* mark : {"<SRS", "<GeoTransform", "<NoDataValue", "<GCPList", "<Scale", "<Offset",

@@ -1,3 +1,4 @@
+// Collects GDAL's messages instead of printing them.
 #include "io/errors_gdal.hpp"
 
 #include <cpl_conv.h>

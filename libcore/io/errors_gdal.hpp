@@ -1,5 +1,5 @@
 // libcore/io/errors_gdal.hpp: public
-// Keeps GDAL from printing and holds what it would have said, for our own messages.
+// Keeps GDAL from printing and holds its messages for our own.
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ class GdalErrors {
   [[nodiscard]] const std::string& failure() const { return failure_; }
   /// The first warning, likewise.
   [[nodiscard]] const std::string& warning() const { return warning_; }
-  /// Throws InputError for a file that was not written, or not without a failure; it says what may
-  /// be wrong: the folder, or the disk.
+  /// Throws InputError for a file that was not written, or not without a failure; it says the
+  /// likely cause: the folder, or the disk.
   void check_written(const std::string& path, bool is_written) const;
   void note(bool is_failure, bool is_warning, const char* message);  ///< called by GDAL
 

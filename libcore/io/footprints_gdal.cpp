@@ -1,3 +1,4 @@
+// Writes plan views of blocks as layers of a GeoPackage.
 #include "io/footprints_gdal.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Writes features as layers of a GeoPackage, each with its style for QGIS.
 #include "io/geopackage_gdal.hpp"
 
 #include <cpl_conv.h>

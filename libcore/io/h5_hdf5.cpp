@@ -1,3 +1,4 @@
+// Writes and reads HDF5: arrays with dimensions, units and names; attributes; checks.
 #include "io/h5_hdf5.hpp"
 
 #include <hdf5.h>
@@ -331,14 +332,14 @@ void H5Writer::attribute(const std::string& object, const std::string& name,
   Impl::put(impl_->object(object), name, H5T_IEEE_F64LE, space, value.data());
 }
 
-// From where HDF5 keeps the file: a copy would double what a large one needs.
+// From HDF5's own memory: a copy would double the memory for a large file.
 void H5Writer::save(const std::string& path) {
   require(H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) >= 0, "completing the file");
   const ssize_t size = H5Fget_file_image(impl_->file, nullptr, 0);
   void* handle = nullptr;
   require(size > 0 && H5Fget_vfd_handle(impl_->file, H5P_DEFAULT, &handle) >= 0, "taking the file");
   const std::span bytes(*static_cast<unsigned char**>(handle), static_cast<std::size_t>(size));
-  // The file says that it is open: what H5Fget_file_image() takes out of its copy.
+  // The file is marked as open: a mark that H5Fget_file_image() removes from its copy.
   constexpr std::size_t version = 8, open_flags = 20;
   require(bytes[version] < 2, "a file of the first format");
   std::fill_n(bytes.begin() + open_flags, 4, 0);
@@ -353,8 +354,8 @@ struct H5Reader::Impl {
   Id file;
   std::size_t most_bytes = 0;  // no array can be longer: deflate packs 1032 to 1 at best
 
-  // A link to another file, and values that stand in one, are none that Talus writes: whoever gives
-  // such a file wants another one read.
+  // Talus writes no links to other files, and no values in them: whoever gives such a file wants
+  // another one read.
   void check_links() const {
     const auto found = [](hid_t, const char* name, const H5L_info_t* link, void* to) -> herr_t {
       if (link->type == H5L_TYPE_HARD) return 0;

@@ -4,8 +4,8 @@
 //
 // Writing builds the whole file in memory, without time stamps, so that equal content gives equal
 // bytes and no half-written HDF5 file ever reaches the disk. Reading checks type, rank and extent
-// of every array before it takes memory for it. Behind the HDF5 file stands the SHA-256 of its
-// bytes; a file without, or with another, is not opened.
+// of every array before it takes memory for it. A SHA-256 of the HDF5 bytes is appended to the
+// file; a file without, or with another, is not opened.
 #pragma once
 
 #include <cstdint>
@@ -69,8 +69,8 @@ class H5Writer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Opens a file for reading. Every function throws InputError naming file and object for what is
-/// missing, of another type or shape, or cannot be read.
+/// Opens a file for reading. Every function throws InputError naming file and object when the
+/// object is missing, of another type or shape, or cannot be read.
 class H5Reader {
  public:
   explicit H5Reader(const std::string& path);

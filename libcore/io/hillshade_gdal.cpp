@@ -1,3 +1,4 @@
+// Writes a shaded picture of a terrain.
 #include "io/hillshade_gdal.hpp"
 
 #include <cpl_string.h>

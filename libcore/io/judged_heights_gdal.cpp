@@ -1,3 +1,4 @@
+// Digest of heights that a tool has judged, in the metadata of a terrain file.
 #include "io/judged_heights_gdal.hpp"
 
 #include <gdal_priv.h>

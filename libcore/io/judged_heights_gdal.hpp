@@ -2,7 +2,7 @@
 // Heights that a tool has judged: the terrain file names them by a digest, so that no later tool
 // judges them again. Heights that were changed since have another digest, and are judged.
 // in:    an elevation raster
-// out:   whether its heights were judged; what the user accepted in them
+// out:   whether its heights were judged; the doubts that the user accepted
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ inline constexpr double terrain_nodata = -9999;
 inline constexpr const char* judged_tag = "HEIGHTS_JUDGED";     ///< digest of the heights
 inline constexpr const char* accepted_tag = "DOUBTS_ACCEPTED";  ///< places, in words
 
-/// SHA-256 of the lattice and of the numbers that stand in the file. The place on the map does not
+/// SHA-256 of the lattice and of the numbers in the file. The place on the map does not
 /// count: a raster that is moved keeps its heights.
 class HeightsDigest {
  public:

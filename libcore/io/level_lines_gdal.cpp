@@ -31,7 +31,8 @@ Dataset raster_of(const SampledField& field) {
   return raster;
 }
 
-// Whether a point lies between two known samples; GDAL goes on for half a spacing behind the last.
+// Whether a point lies between two known samples; GDAL continues for half a spacing behind the
+// last.
 bool is_known(const SampledField& field, const Vec2& p) {
   constexpr double rounding = 1e-5;
   const Vec2 at = (p - field.corner).cwiseProduct(Vec2(1, field.north)) / field.spacing;

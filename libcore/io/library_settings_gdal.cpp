@@ -1,3 +1,4 @@
+// Switches off settings of GDAL and PROJ that would change the data read.
 #include "io/library_settings_gdal.hpp"
 
 #include <cpl_conv.h>
@@ -35,7 +36,7 @@ const Names& network_of_gdal() {
   return begins;
 }
 
-// PROJ, SpatiaLite and a driver look into the environment by themselves.
+// PROJ, SpatiaLite and a driver read the environment on their own.
 bool is_of_others(const std::string& name) {
   static const Names kept = {"PROJ_DATA", "PROJ_LIB", "PROJ_USER_WRITABLE_DIRECTORY",
                              "PROJ_SKIP_READ_USER_WRITABLE_DIRECTORY"};
@@ -62,8 +63,8 @@ std::map<std::string, std::string> environment() {
   return settings;
 }
 
-// PROJ's own defaults in place of what a proj.ini says (network, the algorithm of UTM); other files
-// are found where PROJ looks for them.
+// PROJ's own defaults in place of the settings of a proj.ini (network, the algorithm of UTM); other
+// files are found where PROJ looks for them.
 const char* find_no_settings(PJ_CONTEXT* /*context*/, const char* name, void* /*data*/) {
   return std::strcmp(name, "proj.ini") == 0 ? "/dev/null" : nullptr;
 }

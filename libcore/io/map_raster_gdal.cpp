@@ -1,3 +1,4 @@
+// Writes results as cloud-optimised GeoTIFF.
 #include "io/map_raster_gdal.hpp"
 
 #include <cpl_string.h>
@@ -42,7 +43,7 @@ void set_statistics(GDALRasterBand& band, const std::vector<float>& value, float
   band.SetStatistics(low, high, mean, std::sqrt(std::max(0.0, sum_sq / n - mean * mean)));
 }
 
-// Tiles no larger than a small raster: what stands out over its edge is compressed as well.
+// Tiles no larger than a small raster: the part of a tile beyond its edge is compressed as well.
 int tile_size_of(const MapRaster& raster) {
   constexpr int step = 16;  // tiles are whole multiples of it
   const int longest = std::max(raster.n_cols, raster.n_rows);

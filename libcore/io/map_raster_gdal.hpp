@@ -1,5 +1,5 @@
 // libcore/io/map_raster_gdal.hpp: public
-// Results as rasters: cloud-optimised GeoTIFF with bands that say what they hold.
+// Results as rasters: cloud-optimised GeoTIFF with named and described bands.
 // in:    bands of cells from north to south, west to east, one after the other
 // out:   COG (deflate, overviews without averaging)
 #pragma once
@@ -36,7 +36,7 @@ struct MapRaster {
   /// after band, so that memory holds one.
   std::function<std::vector<float>(std::size_t band)> values;
   std::vector<std::pair<std::string, std::string>> tags;  ///< of the whole file, e.g. RUN_ID
-  /// Bands are bytes that stand for something, 255: nodata, not floats.
+  /// Bands are bytes that are codes, 255: nodata, not floats.
   bool is_codes = false;
   std::vector<std::pair<int, std::array<std::uint8_t, 4>>> colours = {};  ///< of codes, of band 1
   [[nodiscard]] float nodata_value() const { return is_codes ? nodata_of_codes : nodata; }

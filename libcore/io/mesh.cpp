@@ -1,3 +1,4 @@
+// Reads mesh files of any format and divides them into bodies.
 #include "io/mesh.hpp"
 
 #include <algorithm>

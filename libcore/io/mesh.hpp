@@ -2,7 +2,7 @@
 // Bodies from mesh files: OBJ, PLY (text and binary), OFF, STL (text and binary); one or many a
 // file.
 // in:    any bytes; everything is checked before it is believed
-// out:   one surface for each body of the file, as it stands there
+// out:   one surface for each body of the file, unchanged
 #pragma once
 
 #include <string>
@@ -21,13 +21,13 @@ struct MeshBody {
   Polyhedron
       surface;  ///< coordinates of the file; face_tag is 0; without faces when parts are given
   std::vector<Polyhedron> parts{};  ///< those that an OBJ file names, in their order; else empty
-  int object = 0;                   ///< the `o` of the file that it stands in, from 1; 0: none
+  int object = 0;                   ///< the `o` of the file that it is in, from 1; 0: none
 };
 
 /// A run of faces under one name: of an `o` or `g` of an OBJ file, or of a solid of an STL file.
 struct MeshGroup {
   std::string name{};
-  int object = 0;  ///< the `o` that it stands in, from 1; 0: none
+  int object = 0;  ///< the `o` that it is in, from 1; 0: none
   int part = -1;   ///< k where it is group NAME_part_k of object NAME; else -1
 };
 
@@ -38,11 +38,11 @@ struct Mesh {
   std::vector<std::string> object_names{};  ///< of object 1, 2 ...
 };
 
-/// Parsers of the formats; `path` is what messages say. They throw InputError with file and line
-/// (or what was being read) for anything that is not the format, names a vertex that does not
-/// exist, is not finite, or ends early. Faces with fewer than three different vertices are refused
-/// too; so is an OBJ object that has parts (groups NAME_part_0, NAME_part_1 ... of object NAME) and
-/// faces outside of them, leaves a number out, or has its parts in another object.
+/// Parsers of the formats; `path` is its name in messages. They throw InputError with file and line
+/// (or the element that was being read) for anything that is not the format, names a vertex that
+/// does not exist, is not finite, or ends early. Faces with fewer than three different vertices are
+/// refused too; so is an OBJ object that has parts (groups NAME_part_0, NAME_part_1 ... of object
+/// NAME) and faces outside of them, leaves a number out, or has its parts in another object.
 [[nodiscard]] Mesh parse_obj(const std::string& bytes, const std::string& path);
 [[nodiscard]] Mesh parse_ply(const std::string& bytes, const std::string& path);
 [[nodiscard]] Mesh parse_off(const std::string& bytes, const std::string& path);
@@ -51,8 +51,8 @@ struct Mesh {
 /// The bodies of a mesh, in the order of their first faces: an object with parts, otherwise faces
 /// that hang together through edges.
 ///
-/// Closed bodies of the file's own vertices stand as they are, so that bodies which touch, in
-/// faces, edges or vertices at equal coordinates, stay apart. What is open so has its vertices at
+/// Closed bodies of the file's own vertices stay as they are, so that bodies which touch, in faces,
+/// edges or vertices at equal coordinates, stay apart. Surfaces that are open so have vertices at
 /// equal coordinates joined, within an object of the file first and then over the whole file: many
 /// formats and programs repeat them for each face. Of bodies that touch along a whole edge then,
 /// each keeps the faces about its own material. Of parts, each is closed by its own vertices, or
@@ -63,7 +63,7 @@ struct Mesh {
 [[nodiscard]] std::vector<MeshBody> read_mesh(const std::string& path);
 
 /// What bodies of a file may be instead, a line each: several bodies in one object move apart, and
-/// so do bodies that are named like parts where there is no object of that name.
+/// so do bodies that are named like parts where the object of that name is missing.
 [[nodiscard]] std::vector<std::string> doubts_about(const std::vector<MeshBody>& bodies);
 
 /// A body as the text of an OBJ file, coordinates with 17 digits: an object of one surface, or of

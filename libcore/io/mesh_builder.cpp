@@ -1,3 +1,4 @@
+// Collects vertices and polygons of a mesh file and checks them.
 #include "io/mesh_builder.hpp"
 
 #include <utility>

@@ -1,5 +1,5 @@
 // libcore/io/mesh_builder.hpp
-// What the parsers of mesh formats fill: vertices as they stand in the file, polygons checked.
+// Collector for the parsers of mesh formats: vertices as in the file, polygons checked.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class MeshBuilder {
   [[nodiscard]] std::int64_t n_file_vertices() const {
     return static_cast<std::int64_t>(mesh_.surface.vertices.size());
   }
-  /// Throws InputError when there is no face.
+  /// Throws InputError when it has no face.
   [[nodiscard]] Mesh finished(const std::string& path);
 
  private:

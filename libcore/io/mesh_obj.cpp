@@ -102,7 +102,7 @@ class ObjParser {
     line_of_group_.push_back(where.line);
   }
 
-  // A part that stands in another object than its own would be a body by itself.
+  // A part inside another object than its own would be a separate body.
   void check_places(const Mesh& mesh) const {
     for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
       const MeshGroup& group = mesh.groups[g];

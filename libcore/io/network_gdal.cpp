@@ -1,3 +1,4 @@
+// Keeps GDAL from network access and from files that nobody named.
 #include "io/network_gdal.hpp"
 
 #include <cpl_conv.h>
@@ -140,7 +141,7 @@ bool is_virtual_data(const std::string& begin) {
   return false;
 }
 
-// The text of a virtual data set, which may also stand in place of its name; "" for other files.
+// The text of a virtual data set, which may also be given in place of its name; "" for other files.
 std::string virtual_text(const std::string& name) {
   if (name.find('<') != std::string::npos && is_virtual_data(name)) return name;
   VSIStatBufL stat;

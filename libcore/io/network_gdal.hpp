@@ -1,5 +1,5 @@
 // libcore/io/network_gdal.hpp: public
-// Files of strangers must not make GDAL ask other machines, or read what nobody named.
+// Foreign files must not make GDAL contact other machines, or read files that nobody named.
 // in:    network_is_allowed() (base/network.hpp)
 #pragma once
 
@@ -21,8 +21,8 @@ void check_virtual(const std::string& path);
 /// Throws InputError where a data base (SQLite, GeoPackage) has virtual tables that read files.
 void check_tables(GDALDataset& database, const std::string& path);
 
-/// The way out where no driver opens a file: what to do about a format that forbid_network() takes
-/// out, else `otherwise`.
+/// The remedy where no driver opens a file: for a format that forbid_network() takes out, else
+/// `otherwise`.
 [[nodiscard]] std::string way_to_open(const std::string& path, const std::string& otherwise);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// Makes smaller pictures of a raster that keep its extreme values.
 #include "io/overview.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // libcore/io/overview.hpp: public
-// Smaller pictures of a raster that keep what matters in it: means would hide the fastest block.
+// Smaller pictures of a raster that keep its extremes: means would hide the fastest block.
 // in:    cells from north to south, west to east
 // out:   fewer cells, each with one value of those below it
 #pragma once

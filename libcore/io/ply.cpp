@@ -1,3 +1,4 @@
+// Reads vertices and faces of a PLY file, text or binary.
 #include "io/ply.hpp"
 
 #include <array>
@@ -14,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are taken as they stand");
 
 struct Type {
-  std::size_t size = 0;  // 0: there is no such type
+  std::size_t size = 0;  // 0: not a known type
   bool is_real = false, is_unsigned = false;
 };
 
@@ -132,7 +133,7 @@ class Numbers {
     return static_cast<double>(static_cast<std::int64_t>(raw << n_unused) >> n_unused);
   }
 
-  // Bytes of a number, at least: as a word it takes two, with what parts it from the next.
+  // Bytes of a number, at least: as a word it takes two, with the separator from the next.
   [[nodiscard]] std::size_t least_bytes(const Type& type) const { return is_text_ ? 2 : type.size; }
 
   // Refuses a count that the rest of the file cannot hold, before anything is made room for.

@@ -1,3 +1,4 @@
+// Unites polygons and makes areas along lines.
 #include "io/polygons_gdal.hpp"
 
 #include <ogr_geometry.h>
@@ -107,7 +108,7 @@ std::vector<std::vector<std::vector<Vec2>>> buffer_of(const std::vector<Vec2>& l
 
 std::vector<Ring> rim_of(const std::vector<Ring>& footprints, double gap) {
   constexpr double seen = 0.02;
-  constexpr int quadrant = 4;  // pieces of a round corner, which the way back takes off again
+  constexpr int quadrant = 4;  // pieces of a round corner, which the buffer back removes again
   using Shape = std::unique_ptr<OGRGeometry>;
   OGRMultiPolygon pieces;  // each on its own: together their time would grow with its square
   for (const Ring& footprint : footprints)

@@ -18,7 +18,7 @@ namespace talus {
 [[nodiscard]] OGRPolygon polygon_of(const std::vector<Vec2>& ring);
 
 /// The union of simple rings that meet edge to edge up to `tolerance` [m]. Corners within
-/// `tolerance` of a straight side are left out, and so are rings that are no wider than it.
+/// `tolerance` of a straight side are left out, and so are rings as narrow as it.
 [[nodiscard]] std::vector<std::vector<std::vector<Vec2>>> union_of(
     const std::vector<std::vector<Vec2>>& pieces, double tolerance);
 

@@ -1,3 +1,4 @@
+// Opens a raster and checks its band, mask and place on the map.
 #include "io/raster_bands_gdal.hpp"
 
 #include <gdal_priv.h>

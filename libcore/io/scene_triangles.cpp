@@ -1,3 +1,4 @@
+// Triangles of all bodies of a scene, and numbers as bytes of a file.
 #include "io/scene_triangles.hpp"
 
 #include "base/write_bytes.hpp"

@@ -1,5 +1,5 @@
 // libcore/io/scene_vtp.cpp
-// A scene as PolyData of VTK (XML, raw appended numbers): what ParaView and VTK open as one moment.
+// A scene as PolyData of VTK (XML, raw appended numbers): one moment for ParaView and VTK.
 #include "base/text.hpp"
 #include "io/scene_triangles.hpp"
 

@@ -1,3 +1,4 @@
+// Computes and checks the seal of a file: the SHA-256 of its bytes.
 #include "io/seal.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Classes, colours and labels of results for QGIS styles, pages and legends.
 #include "io/style.hpp"
 
 #include <cmath>

@@ -23,7 +23,7 @@ struct RasterStyle {
   std::string title;                    ///< in QGIS: name of the band, with the unit
   std::vector<StyleClass> classes;      ///< ascending; the last limit is infinite, but of codes
   std::string remark = {};              ///< that no picture may lack; empty: none
-  std::vector<std::string> notes = {};  ///< paragraphs of a page: what the map rests on
+  std::vector<std::string> notes = {};  ///< paragraphs of a page: basis of the map
   std::string heading = {};             ///< of a page, in words
   std::string legend = {};              ///< above the classes of a page, in words, with the unit
 };

@@ -1,3 +1,4 @@
+// Tags of rasters and GeoPackages, such as RUN_ID.
 #include "io/tags_gdal.hpp"
 
 #include <gdal_priv.h>

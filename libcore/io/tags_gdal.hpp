@@ -1,5 +1,5 @@
 // libcore/io/tags_gdal.hpp: public
-// What a raster or GeoPackage says of itself: the tags that the tools write, e.g. RUN_ID.
+// Tags that the tools write into rasters and GeoPackages, e.g. RUN_ID.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace talus {
 
 struct BandTags {
   std::string name, unit;
-  std::string meaning;  ///< what a value of it is
+  std::string meaning;  ///< meaning of its values
 };
 struct RasterTags {
   std::string shown;  ///< tag SHOWN_BAND: the name of a band

@@ -1,3 +1,4 @@
+// Writes and reads a TIN as binary PLY.
 #include "io/tin_ply.hpp"
 
 #include <algorithm>
@@ -100,7 +101,7 @@ class EntryWriter {
   std::vector<char> buffer_;
 };
 
-// Calls visit(bytes, n_bytes) for what stands behind the header, in order.
+// Calls visit(bytes, n_bytes) for the data after the header, in order.
 template <class Visit>
 void for_each_entry(const Tin& tin, const Visit& visit) {
   for (const Vec3& point : tin.points) {

@@ -1,3 +1,4 @@
+// Digest of a terrain: ties blocks and runs to their ground.
 #include "io/trn_digest.hpp"
 
 #include <array>

@@ -1,3 +1,4 @@
+// Writes and reads the terrain file (GeoTIFF).
 #include "io/trn_file_gdal.hpp"
 
 #include <cpl_string.h>

@@ -19,7 +19,7 @@ struct TrnFileOptions {
 
 /// Writes a tiled, deflated GeoTIFF of Float64 node elevations, AREA_OR_POINT=Point, nodata -9999,
 /// to `path`, byte by byte the same for the same TRN and options. The file says that its heights
-/// were judged: who writes a TRN has judged it, or made it from one that was. Throws InputError
+/// were judged: the writer of a TRN has judged it, or made it from one that was. Throws InputError
 /// when it cannot be written whole.
 void write_trn(const std::string& path, const Trn& trn, const TrnFileOptions& options = {});
 
