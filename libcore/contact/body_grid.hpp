@@ -24,8 +24,8 @@ struct BodyGrid {  // clang-format off
 
 [[nodiscard]] BodyGrid make_body_grid(std::span<const Vec3> centre, std::span<const double> radius);
 
-/// Replaces `near` by the bodies in the columns of `box`, ascending: at least those
-/// whose ball meets it. All of them where `box` is not finite.
+/// Replaces `near` by the bodies in the columns of `box`, ascending: at least those whose ball
+/// meets it. All of them where `box` is not finite.
 void find_near(const BodyGrid& grid, const Box& box, std::vector<int>& near);
 
 }  // namespace talus

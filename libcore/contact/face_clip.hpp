@@ -50,8 +50,7 @@ struct ClipScratch {
 
 /// Fills the scratch anew: `reference`, and `polygon` with the part of the incident face that lies
 /// above the reference face, seen along its normal. Points within 1e-6 of the smaller thickness of
-/// a side
-/// count as on it.
+/// a side count as on it.
 FaceFrame clip_incident_face(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair,
                              ClipScratch& scratch);
 

@@ -8,7 +8,6 @@
 // was drawn for a run as a whole, further runs are simply further rocks. Such rocks share the
 // ground and the forest below the cell that they come from, in every run: each release cell is a
 // cluster, over all runs.
-// cell is a cluster, over all runs.
 #pragma once
 
 #include <span>

@@ -82,8 +82,7 @@ struct OneContact {
 ///
 /// A couple that stops a spin jumps to the other side of its bound where a step of Newton has gone
 /// past the stop, and back. So where the couple that the last step reckoned with, less the couple
-/// that
-/// would stop the spin now, is within the bound, the part aims at holding.
+/// that would stop the spin now, is within the bound, the part aims at holding.
 inline void evaluate_part(const Vec3& spin, const AngularRow& row, double cap, CouplePart& part) {
   const Vec3 reckoned = part.aims ? Vec3(-row.damping * spin) : part.couple;
   const double speed = spin.norm();

@@ -72,8 +72,8 @@ void inherit(const ContactMemory& memory, int index, bool same_features, const M
              const BlockNumbers& c, ContactRow& row);
 
 /// Whether a contact that a hit left deep in its other side, and that carries nothing, approaches
-/// so
-/// fast again that it has to be hit anew: farther in than 2 % of the thickness in a substep of `h`.
+/// so fast again that it has to be hit anew: farther in than 2 % of the thickness in a substep of
+/// `h`.
 [[nodiscard]] bool comes_back_fast(const ContactMemory& memory, double approach, double h,
                                    const BlockNumbers& c);
 

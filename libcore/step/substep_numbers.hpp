@@ -22,8 +22,7 @@ struct BlockNumbers {
   Vec3 per_inertia = Vec3::Zero();  ///< [1/(kg m2)]
   /// Where contacts are as stiff as their load asks, with those above for the whole mass: k_n of
   /// one that carries little and of one that nothing makes stiffer [N/m]; the overlap under its
-  /// load,
-  /// 0: all have `stiffness` [m]; the speed of slip or of opening from which it does not rest
+  /// load, 0: all have `stiffness` [m]; the speed of slip or of opening from which it does not rest
   /// [m/s].
   double least_stiffness = 0, most_stiffness = 0, sag = 0, slow = 0;
   bool stands = false;  ///< island: counts as fixed, since it sleeps

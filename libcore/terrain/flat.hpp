@@ -54,11 +54,10 @@ struct MendingPoints {
 /// Points with heights that mend the triangles marked `flat` (find_flat_triangles): a plate under
 /// tension through the contours, over the flat triangles and over the triangles that share with
 /// them a level edge that is not a contour. The tension grows with the slope s of the ground around
-/// as
-/// (s / interval)^2: a slope dies out within the distance in which it would reach the next contour,
-/// which is missing. Heights stay strictly within half an interval of a flat triangle, and between
-/// the heights of the corners of a sloping one, so no point passes the next contour. Leaves the
-/// mesh without neighbors and constrained, which are as large as the solution.
+/// as (s / interval)^2: a slope dies out within the distance in which it would reach the next
+/// contour, which is missing. Heights stay strictly within half an interval of a flat triangle, and
+/// between the heights of the corners of a sloping one, so no point passes the next contour. Leaves
+/// the mesh without neighbors and constrained, which are as large as the solution.
 [[nodiscard]] MendingPoints mend_flat_triangles(TriangleMesh& mesh,
                                                 const std::vector<std::uint8_t>& flat,
                                                 const FlatMending& mending,

@@ -217,8 +217,7 @@ struct SubstepAcceptance {
   }
 
   // First touches of panels and stems, and the motion of their blocks after it. Stems are touched
-  // where
-  // a substep begins, see first_touch().
+  // where a substep begins, see first_touch().
   void note_touched() {
     if (scene.fixed.panels.empty() && scene.forest.stems.empty()) return;
     for (size_t r = 0; r < system.contacts.size(); ++r) {

@@ -1,7 +1,6 @@
 // libcore/step/island/island_soil.hpp
 // The terms of yielding ground (step/soil.hpp), and of friction between blocks that follows the
-// speed,
-// over a substep of an island. Nothing is done where no class asks for it.
+// speed, over a substep of an island. Nothing is done where no class asks for it.
 #pragma once
 
 #include <span>

@@ -114,8 +114,7 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
 
 // --- 8 check_substep (step/island/check.cpp)
 /// Fills `end` but for the results of accept(): accept, or again with a reason. `making`,
-/// `near_ground`:
-/// for searches of the ground.
+/// `near_ground`: for searches of the ground.
 [[nodiscard]] SubstepVerdict check_substep(const Scene& scene, const State& state,
                                            const PairSearch& search, const IslandMembers& members,
                                            const FreeMotions& free, const IslandSystem& system,

@@ -87,8 +87,7 @@ struct MassEnd {
   }
 
   // Estimated error of the step, over the displacement of the mass. A hit counts as if its time
-  // were unknown:
-  // gravity acts before the rebound in part of the step alone.
+  // were unknown: gravity acts before the rebound in part of the step alone.
   [[nodiscard]] double error_over_way(const State& state) const {
     const double h = free.h, by_hit = scene.gravity.norm() * h * h / 2;
     MeanError error;
