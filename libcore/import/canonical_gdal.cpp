@@ -1,3 +1,4 @@
+// Writes and reads the sealed GeoPackage of imported data.
 #include "import/canonical_gdal.hpp"
 
 #include <gdal_priv.h>
@@ -97,7 +98,7 @@ GeometryType type_of(InputRole role) {
                                          : GeometryType::multi_polygon;
 }
 
-// Sections of one layer stand in it one after the other, each with the number of its source.
+// Sections of one layer follow one another in it, each with the number of its source.
 void add_shapes(std::int64_t source, const RequestedLayer& requested, const VectorShapes& shapes,
                 std::vector<VectorLayer>& layers) {
   auto layer = std::find_if(layers.begin(), layers.end(), [&requested](const VectorLayer& known) {

@@ -1,5 +1,5 @@
-// The part of import/raw_inputs_gdal.hpp that looks whether heights can be, by themselves and
-// beside those of other layers.
+// The part of import/raw_inputs_gdal.hpp that checks whether heights are plausible, on their own
+// and beside those of other layers.
 #include <ogrsf_frmts.h>
 
 #include <algorithm>

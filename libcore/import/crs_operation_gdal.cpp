@@ -1,3 +1,4 @@
+// Finds and applies the coordinate operation between two systems, in plan and in height.
 #include "import/crs_operation_gdal.hpp"
 
 #include <ogr_spatialref.h>
@@ -312,7 +313,7 @@ std::string heights_name(const std::string& vertical_wkt) {
 
 namespace {
 
-// Of what is written without a system of heights, but with a third axis above the ellipsoid.
+// For a system that names no system of heights, but has a third axis above the ellipsoid.
 bool is_ellipsoidal(const std::string& crs) {
   if (crs.empty()) return false;
   const GdalErrors errors;

@@ -30,7 +30,7 @@ struct CrsOperation {
   double better_accuracy_m = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The best operation in plan for what lies in `window` (coordinates of `from`). Throws InputError
+/// The best operation in plan for data in `window` (coordinates of `from`). Throws InputError
 /// at `where` when there is none but a ballpark one and that is not accepted: the finding names the
 /// grid that is missing, or the system whose datum is not known.
 [[nodiscard]] CrsOperation find_operation(const std::string& from, const std::string& to,
@@ -87,7 +87,7 @@ inline constexpr const char* ellipsoidal_heights = "ellipsoidal";
 /// What to call heights in a message.
 [[nodiscard]] std::string heights_name(const std::string& vertical_wkt);
 
-/// `crs` with heights in what the user says that they are in (WKT, or ellipsoidal_heights, which
+/// `crs` with heights in the system that the user states (WKT, or ellipsoidal_heights, which
 /// leaves `crs` as it is). Throws InputError when `crs` says another system of heights.
 [[nodiscard]] std::string with_stated_heights(const std::string& crs, const std::string& vertical,
                                               const Where& where);

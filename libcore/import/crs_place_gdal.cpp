@@ -1,3 +1,4 @@
+// Checks whether coordinates fit their system, and guesses which system they fit.
 #include "import/crs_place_gdal.hpp"
 
 #include <geodesic.h>
@@ -70,7 +71,7 @@ std::optional<Area> area_of(const OGRSpatialReference& srs) {
 
 class Ground {
  public:
-  // A zone of UTM is one projection on both sides of the equator, where northings go on.
+  // A zone of UTM is one projection on both sides of the equator, where northings continue.
   explicit Ground(const std::string& crs_wkt, bool on_both_sides_of_equator = false)
       : srs_(parse_plan(crs_wkt)), wkt_(crs_wkt) {
     if (srs_.IsLocal() || srs_.IsGeocentric()) return;
@@ -258,7 +259,7 @@ std::string extent_words(const MapWindow& w) {
          " to " + text(w.y_max, 10);
 }
 
-// --- what it looks like --------------------------------------------------------------------------
+// --- likely readings -----------------------------------------------------------------------------
 
 // Something that coordinates may be instead, and how to say or mend it.
 struct Guess {
@@ -424,7 +425,7 @@ class Guesses {
   }
 
   // The number of the zone in millions before the easting, or missing there. Only the number of
-  // this very zone is one: any other stands for another projection, which no shift brings here. Nor
+  // this very zone is one: any other means another projection, which no shift brings here. Nor
   // does the lack of one tell zones of Gauss and Krueger from those of UTM.
   [[nodiscard]] std::optional<Guess> zone_number() const {
     const double zone = first_million();

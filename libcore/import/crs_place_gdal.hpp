@@ -1,8 +1,8 @@
 // libcore/import/crs_place_gdal.hpp: public
-// Whether coordinates can be what their system says: inside its area of use, with x to the east and
-// y to the north, metres that are metres; and what they look like where they cannot.
-// in:    a system, the extent of what was read, the system that is computed in
-// out:   nothing; a warning; or InputError with the finding and the way out
+// Whether coordinates fit their system: inside its area of use, with x to the east and y to the
+// north, metres that are metres; and their likely reading where they do not.
+// in:    a system, the extent of the data, the system of the computation
+// out:   nothing; a warning; or InputError with the finding and a remedy
 // refs:  Snyder (1987), Map projections (scale factors)
 #pragma once
 
@@ -34,7 +34,7 @@ struct DegreeWindow {
 /// near the poles.
 [[nodiscard]] std::string utm_zone(const std::string& crs_wkt, const Vec2& longitude_latitude);
 
-/// Why a CRS cannot be computed in, and what to reproject to.
+/// Why a CRS cannot be used for computing, and the system to reproject to.
 struct CrsProblem {
   std::string finding;  ///< "the CRS is EPSG:4326 (WGS 84), in degrees, expected ..."; empty: none
   std::string mend_to;  ///< UTM zone of the place, "EPSG:32632"; empty when it cannot be told
@@ -42,27 +42,29 @@ struct CrsProblem {
 };
 
 /// Geographic and geocentric systems, feet in plan or in height have a problem; projected and local
-/// systems in metres have none (what their metres are worth: check_place). `place` is any point of
+/// systems in metres have none (check_place judges the metres). `place` is any point of
 /// the data in this CRS, x (east, longitude) first.
 [[nodiscard]] CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place);
 
-/// What was read, and how the person who gave it can say what it is.
+/// Extent of the data, and how the user can say what they are.
 struct CrsExtent {
   std::string crs_wkt;           ///< of the coordinates; empty: local, nothing is checked
-  MapWindow extent;              ///< of what was read; of a raster the outer edges of its cells
-  std::string work_wkt{};        ///< system that is computed in; empty: crs_wkt
+  MapWindow extent;              ///< of the data; of a raster the outer edges of its cells
+  std::string work_wkt{};        ///< system of the computation; empty: crs_wkt
   bool has_crs_option = false;   ///< the tool has --crs and --t-srs for this file
   bool has_unit_option = false;  ///< and --unit-m
   bool is_raster = false;
   std::string layer{}, geometry_column{};  ///< of a vector source, for commands
-  std::string way_to_other_crs{};  ///< of what is not reprojected, the code of the system follows
-  std::string crs_said_in{};  ///< what says the CRS of coordinates in no vector source or raster
+  std::string way_to_other_crs{};  ///< for data that are not reprojected; the code of the system
+                                   ///< follows
+  std::string crs_said_in{};  ///< source of the CRS of coordinates that are in no vector source or
+                              ///< raster
 };
 
 /// Throws InputError at `where` when the coordinates lie far outside the area that their system, or
 /// the one computed in, is made for, when x does not run to the east and y to the north, or when a
-/// metre on the map is not within 1 % of one on the ground. The finding says what they would fit:
-/// x and y exchanged, degrees, feet, millimetres, zone numbers before the eastings ... In
+/// metre on the map is not within 1 % of one on the ground. The finding says which reading would
+/// fit: x and y exchanged, degrees, feet, millimetres, zone numbers before the eastings ... In
 /// doubt are places somewhat outside, and a grid north far from north.
 void check_place(const CrsExtent& place, const Where& where, std::vector<Doubt>& doubts);
 

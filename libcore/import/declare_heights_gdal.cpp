@@ -1,4 +1,4 @@
-// The part of import/raw_inputs_gdal.hpp that asks where the heights of each layer stand: in the
+// The part of import/raw_inputs_gdal.hpp that finds the heights of each layer: in the
 // geometries' Z or in a field.
 #include <ogrsf_frmts.h>
 
@@ -16,7 +16,7 @@
 namespace talus {
 namespace {
 
-// What files write where they know no height is no height, whatever its unit.
+// The value of a file for an unknown height is not a height, whatever its unit.
 void check_known(const RawLayer& layer, const std::string& from) {
   const Polylines& lines = layer.lines;
   for (int l = 0; l < lines.n_lines(); ++l)
@@ -43,7 +43,7 @@ bool is_level(const Polylines& lines, std::size_t line) {
 }
 
 // Z and a field that both look like elevations must say the same: else one is in other units. A Z
-// that is no number, or changes along a line, says nothing of the field, and a field of zeros
+// that is not a number, or changes along a line, says nothing of the field, and a field of zeros
 // nothing at all.
 void check_same_elevation(const RawLayer& layer) {
   const Polylines& lines = layer.lines;
@@ -79,7 +79,7 @@ void check_same_elevation(const RawLayer& layer) {
   }
 }
 
-// No height is known of the splines of a drawing, of lines without Z, or of those whose Z is no
+// Heights are unknown for the splines of a drawing, lines without Z, and lines whose Z is not a
 // number.
 InputError without_heights(const RawLayer& layer) {
   const OpenLayer& source = layer.source;
@@ -111,9 +111,9 @@ InputError without_heights(const RawLayer& layer) {
                                                   : ""));
 }
 
-// Whether the heights stand in the field rather than in Z: the user says so, or Z tells nothing.
-// Contours stand at several heights; a lake or a single spot at one, but not with all Z at 0.
-// Refuses parts that have neither.
+// Whether the heights are in the field and not in Z: the user says so, or Z tells nothing. Contours
+// have several heights; a lake or a single spot has one, but not with all Z at 0. Refuses parts
+// that have neither.
 bool stand_in_field(const RawLayer& layer) {
   const HeightRange z = heights_of(layer.lines);
   const bool by_user = !layer.source.ref.elevation_field.empty();
@@ -126,8 +126,8 @@ bool stand_in_field(const RawLayer& layer) {
   return false;
 }
 
-// Z where the field is taken: what it says must not be something else. A Z at one height says
-// nothing, and a field that the user names is meant, but for one that is called Z.
+// Z where the field is taken: it must not contradict the field. A Z at one height says nothing, and
+// a field that the user names is meant, but for one that is called Z.
 void check_z_beside_field(const RawLayer& layer) {
   const HeightField& field = *layer.field;
   const bool is_looked_at =
@@ -165,7 +165,7 @@ void take_z(const RawLayer& layer) {
   if (layer.field && !layer.field->is_z()) check_same_elevation(layer);
 }
 
-// What was taken, and what was passed over.
+// The features that were taken, and those passed over.
 void note_layer(const RawLayer& layer, std::vector<std::string>& notes) {
   const LayerReading& taken = layer.taken;
   if (layer.is_of_site()) return;

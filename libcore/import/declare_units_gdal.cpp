@@ -1,4 +1,4 @@
-// The part of import/raw_inputs_gdal.hpp that asks what a unit of each layer is, in plan and
+// The part of import/raw_inputs_gdal.hpp that finds the unit of each layer, in plan and
 // height.
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
@@ -20,7 +20,7 @@
 namespace talus {
 namespace {
 
-// The ways to take a drawing in the unit of its header, and in metres whatever that says.
+// The remedies for a drawing: take it in the unit of its header, or in metres whatever that says.
 DrawingWays ways_of(const RawLayer& layer, const DrawingUnit& unit) {
   const std::string metres = unit.metres > 0 ? text(unit.metres) : "METRES";
   if (!layer.is_of_site()) {
@@ -36,8 +36,8 @@ DrawingWays ways_of(const RawLayer& layer, const DrawingUnit& unit) {
   return {scaled(metres), scaled("1")};
 }
 
-// Metres in one unit of the coordinates as they stand in the source; 1 also where the CRS has the
-// unit of the drawing, which takes care of it in plan.
+// Metres in one unit of the coordinates of the source; 1 also where the CRS has the unit of the
+// drawing, which takes care of it in plan.
 double plan_unit_of(const RawLayer& layer, const std::string& crs, ImportReading& reading) {
   const std::string drawing = layer.source.dataset->GetDescription();
   const double by_user_m = layer.source.ref.unit_m;
@@ -61,8 +61,8 @@ double width_m(const RawLayer& layer, const std::string& crs) {
   return std::isnan(unit_m) ? 0 : std::max(w.x_max - w.x_min, w.y_max - w.y_min) * unit_m;
 }
 
-// Metres in one unit of the heights that were read: what the user says, or their system of heights,
-// which stands in `crs`.
+// Metres in one unit of the heights that were read: by the user, or by their system of heights in
+// `crs`.
 double height_unit_of(const RawLayer& layer, const std::string& crs, double by_user_m,
                       ImportReading& reading) {
   if (by_user_m > 0) return by_user_m;

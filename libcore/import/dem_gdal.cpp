@@ -1,3 +1,4 @@
+// Reads elevation rasters as rows of nodes: place, units, nodata, reprojection.
 #include "import/dem_gdal.hpp"
 
 #include <cpl_conv.h>
@@ -59,7 +60,7 @@ struct HeightSample {
   void add(double z) { low = std::min(low, z), high = std::max(high, z); }
 };
 
-// Of some 256 x 256 cells, as they stand in the file.
+// Of some 256 x 256 cells, with the numbers of the file.
 HeightSample sample_of(GDALDataset& dataset) {
   constexpr int most = 256;
   GDALRasterBand& band = *dataset.GetRasterBand(1);
@@ -117,7 +118,7 @@ void check_unit_of_heights(GDALDataset& dataset, const std::string& crs, const M
                             "--vertical-crs EPSG:5703 (NAVD88), or the code of their system"));
 }
 
-// The lattice of the cell centres; refuses what no TRN can stand on.
+// The lattice of the cell centres; refuses rasters that no TRN can be made of.
 GridFrame frame_of_raster(GDALDataset& dataset, const std::string& path) {
   const std::array<double, 6> g = north_up_place(dataset, path, CellKind::heights);
   const int n_cols = dataset.GetRasterXSize(), n_rows = dataset.GetRasterYSize();
@@ -150,8 +151,8 @@ CPLStringList words_of(const std::vector<std::string>& words) {
   return list;
 }
 
-// A virtual raster of elevations that says unknown cells by NaN, with a ring of them around: what
-// is interpolated from it is unknown where an unknown cell has a share.
+// A virtual raster of elevations that says unknown cells by NaN, with a ring of them around: a
+// value interpolated from it is unknown where an unknown cell has a share.
 Dataset with_unknown_ring(GDALDataset& source, const std::string& name) {
   std::array<double, 6> g{};
   source.GetGeoTransform(g.data());
@@ -192,7 +193,7 @@ Dataset warp(GDALDataset& source, const std::string& path, const CrsOperation& o
   return warped;
 }
 
-// A virtual raster that reprojects what is read from it. Exact transformation (-et 0): the default
+// A virtual raster that reprojects the rows read from it. Exact transformation (-et 0): the default
 // eighth of a cell is a metre of height on a steep slope. Both systems are in plan alone: heights
 // stay as they are. The cells are those that GDAL proposes for the raster without its ring.
 Dataset reprojected(GDALDataset& source, GDALDataset& ringed, const std::string& path,
@@ -439,7 +440,7 @@ void for_each_row(const DemFile& dem, const RowResampler& part, const ProgressFu
   }
 }
 
-// Refuses an area of one value that stands far off the cells beside it.
+// Refuses an area of one value that differs much from the cells beside it.
 void refuse_lone_level(const DemFile& dem, const RowResampler& part,
                        const std::set<double>& values) {
   const double step = impossible_step(dem.frame().cell_size);

@@ -27,7 +27,7 @@ namespace talus {
 /// What the user says about a DEM. It is reprojected bilinearly, at the file's resolution; where an
 /// unknown cell has a share, the value is unknown.
 struct DemOptions : SystemsByUser {
-  bool accepts_doubts = false;      ///< areas of one value that stand far off are ground
+  bool accepts_doubts = false;      ///< areas of one value far off their neighbours are ground
   bool crs_may_be_missing = false;  ///< no CRS and none given means local metres
   bool has_heights = true;          ///< false: other numbers, to which no rule of heights applies
   /// Part that is read, in map coordinates: only this must lie where the CRS is used. Not looked at
@@ -35,13 +35,13 @@ struct DemOptions : SystemsByUser {
   MapWindow window{-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL};
 };
 
-/// What was done on the way in.
+/// Report of reading.
 struct DemReading {
   std::vector<std::string> notes;  ///< sentences: which operation took it to another system
   std::vector<Doubt> doubts;
 };
 
-/// An open elevation raster. Reads only what is asked for, so that it may be larger than memory.
+/// An open elevation raster. Reads only the requested rows, so that it may be larger than memory.
 class DemFile {
  public:
   /// Throws InputError when the raster cannot be opened, holds several rasters, has not exactly one
@@ -59,7 +59,7 @@ class DemFile {
   [[nodiscard]] const DemReading& reading() const { return reading_; }
   /// By the options, or because the file's heights were judged (judged_heights_gdal.hpp).
   [[nodiscard]] bool accepts_doubts() const;
-  /// What stands in the file for an elevation.
+  /// The number in the file for an elevation.
   [[nodiscard]] double raw_of(double z) const { return (z - offset_) / scale_; }
   /// With its place on the map.
   [[nodiscard]] Where where_of_cell(int row, int col) const {
@@ -67,7 +67,7 @@ class DemFile {
   }
 
   /// Elevations of n_rows x n_cols nodes from (row, col) on, NaN = unknown [m]. Throws InputError
-  /// with the place for a file that ends early and for values that are no elevations: infinite,
+  /// with the place for a file that ends early and for values that are not elevations: infinite,
   /// beyond +-9,000 m, or one of the usual nodata values while the file declares another or none.
   void read(int row, int n_rows, int col, int n_cols, double* elevation) const;
 
@@ -102,8 +102,8 @@ class DemFile {
 /// Elevations of `dem` on the nodes of `frame`, which is in the CRS of `dem`: area-weighted means
 /// where the cell grows, bilinear where it shrinks, copies where the nodes are the DEM's own
 /// (RowResampler). Reads the rows and columns that the frame needs, strip by strip. Throws
-/// InputError for an area of one value that stands far off what is beside it (lone_levels.hpp),
-/// unless the DEM accepts doubts.
+/// InputError for an area of one value far off its neighbours (lone_levels.hpp), unless the DEM
+/// accepts doubts.
 [[nodiscard]] std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
                                            const ProgressFunction& progress = {});
 

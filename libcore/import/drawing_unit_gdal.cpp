@@ -1,3 +1,4 @@
+// Reads the unit of a drawing from its DXF header.
 #include "import/drawing_unit_gdal.hpp"
 
 #include <cpl_conv.h>
@@ -22,7 +23,7 @@ struct CloseFile {
 
 constexpr double us_foot = 1200.0 / 3937;
 
-// Codes of $INSUNITS; those left out are no lengths that maps are drawn in.
+// Codes of $INSUNITS; those left out are not lengths that maps are drawn in.
 struct UnitCode {
   int code;
   double metres;

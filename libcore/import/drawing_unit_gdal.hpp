@@ -18,7 +18,7 @@ struct DrawingUnit {
   std::string name;   ///< "feet"
 };
 
-/// Reads the header. A file that is no DXF drawing says nothing.
+/// Reads the header. A file that is not a DXF drawing says nothing.
 [[nodiscard]] DrawingUnit drawing_unit(const std::string& path);
 
 /// What to warn of: a header that says inches. GDAL (up to 3.10) and QGIS write that into every
@@ -30,9 +30,9 @@ struct DrawingWays {
   std::string as_said, as_metres;
 };
 
-/// Metres in one unit of a drawing: what the user says (not 0), else 1. Throws InputError at
+/// Metres in one unit of a drawing: the unit of the user (not 0), else 1. Throws InputError at
 /// `where` when the user says nothing and the header says another unit than that of the plan: a
-/// metre, or `plan_unit_m` of the CRS. `extent`: of the coordinates as they stand in the file.
+/// metre, or `plan_unit_m` of the CRS. `extent`: of the coordinates in the file.
 [[nodiscard]] double scale_of_drawing(const std::string& path, double user_unit_m,
                                       double plan_unit_m, const Where& where,
                                       const MapWindow& extent, const DrawingWays& ways);

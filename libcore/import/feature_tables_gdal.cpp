@@ -1,3 +1,4 @@
+// Reads attributes of layers as tables, and digests of their features.
 #include "import/feature_tables_gdal.hpp"
 
 #include <gdal_priv.h>
@@ -75,7 +76,7 @@ std::string digest_of_features(const std::string& path, const std::string& layer
   hash.add(crs.c_str(), crs.size() + 1);
   for (const auto& feature : *open) {
     const OGRGeometry* const geometry = feature->GetGeometryRef();
-    if (geometry == nullptr) continue;  // whoever reads the layer says so
+    if (geometry == nullptr) continue;  // readers of the layer report it
     std::vector<unsigned char> bytes(geometry->WkbSize());
     geometry->exportToWkb(wkbNDR, bytes.data(), wkbVariantIso);
     hash.add(bytes.data(), bytes.size());

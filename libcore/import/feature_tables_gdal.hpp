@@ -1,5 +1,5 @@
 // libcore/import/feature_tables_gdal.hpp: public
-// Layers as tables of their attributes, and what a digest of their features is.
+// Layers as tables of their attributes, and digests of their features.
 // in:    a vector source
 // out:   names and values as text
 #pragma once
@@ -35,8 +35,8 @@ struct FeatureTable {
                                              const std::string& where,
                                              const std::vector<std::string>& attributes);
 
-/// WKT of what a raster, or the first layer of a vector source, is in; empty where it says none.
-/// Throws InputError when the source cannot be opened.
+/// WKT of the system of a raster, or of the first layer of a vector source; empty where it says
+/// none. Throws InputError when the source cannot be opened.
 [[nodiscard]] std::string crs_of_source(const std::string& path);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// Finds and reads the field of a layer that may hold its heights.
 #include "import/height_field_gdal.hpp"
 
 #include <ogrsf_frmts.h>

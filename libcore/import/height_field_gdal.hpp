@@ -17,14 +17,14 @@ namespace talus {
 
 class HeightField {
  public:
-  /// Nothing where no field has a usual name. Throws InputError when there is no such field as the
-  /// user names.
+  /// Nothing where no field has a usual name. Throws InputError when the field that the user
+  /// names is missing.
   [[nodiscard]] static std::optional<HeightField> find(const OpenLayer& source);
 
   void add(const OpenLayer& source, const OGRFeature& feature);  ///< of a part, while it is visited
-  /// Of each part. Throws InputError for an empty value or one that is no height, for text that may
-  /// have a point between thousands, and where another field with a usual name that varies says
-  /// something else.
+  /// Of each part. Throws InputError for an empty value or one that is not a height, for text that
+  /// may have a point between thousands, and where another field with a usual name that varies
+  /// contradicts it.
   [[nodiscard]] const std::vector<double>& heights(const OpenLayer& source) const;
   /// NaN where a part has none; not judged.
   [[nodiscard]] const std::vector<double>& values() const { return values_; }
@@ -49,7 +49,7 @@ class HeightField {
   std::vector<std::vector<int>> others_;  // by layer: further fields with a usual name
   bool by_user_ = false, may_be_z_ = false;
   std::vector<double> values_;
-  std::optional<InputError> problem_;  // of the first value that is no height
+  std::optional<InputError> problem_;  // of the first value that is not a height
   ThousandsDoubt thousands_;
   std::map<std::string, Rival> rivals_;
 };

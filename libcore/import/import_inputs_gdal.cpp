@@ -1,3 +1,4 @@
+// The import of all vector data: each question in turn, to all layers of a request.
 #include "import/import_inputs_gdal.hpp"
 
 #include <cmath>

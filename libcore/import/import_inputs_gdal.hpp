@@ -1,7 +1,7 @@
 // libcore/import/import_inputs_gdal.hpp: public
-// One way in for vector data of any source that OGR reads: contour maps, points of the ground,
-// points to hold it against, and what stands on it. Each question (which layer, where are the
-// heights, which system, which units, can it be) is put once, to all layers of a request.
+// The only import of vector data, from any source that OGR reads: contour maps, points of the
+// ground, reference points, and objects on the ground. Each question (which layer, where are the
+// heights, which system, which units, is it plausible) is put once, to all layers of a request.
 // in:    a request
 // out:   metres, x to the east, y to the north, z in one system of heights
 #pragma once
@@ -24,8 +24,8 @@ namespace talus {
 /// text of them, and a file of talus-import that was changed since.
 [[nodiscard]] ContourMap import_map(const InputsRequest& request, ImportReading& reading);
 
-/// All that a site is made from: its ground, without points where the request has none, and what
-/// stands on it, in the order of the request.
+/// The inputs of a site: its ground, without points where the request has none, and the objects on
+/// it, in the order of the request.
 struct Imported {
   ContourMap map;
   std::vector<VectorShapes> shapes;
@@ -39,7 +39,7 @@ struct Imported {
 /// SHA-256 of all coordinates of a map.
 [[nodiscard]] std::string map_digest(const ContourMap& map);
 
-/// Points with a height in map coordinates, in `crs_wkt` [m]: what a terrain is held against. A
+/// Points with a height in map coordinates, in `crs_wkt` [m]: reference for a terrain. A
 /// missing CRS, of the source or in `crs_wkt`, means the same one. Throws InputError.
 [[nodiscard]] std::vector<Vec3> import_reference_points(const LayerRef& ref,
                                                         const std::string& crs_wkt,

@@ -13,7 +13,7 @@
 namespace talus {
 namespace {
 
-// "1050", "1050 m", "1050,5"; other text is no label of a height.
+// "1050", "1050 m", "1050,5"; other text is not the label of a height.
 bool parse_label(std::string words, double& height) {
   while (!words.empty() && (words.back() == 'm' || words.back() == ' ')) words.pop_back();
   return parse_decimal(words, height);
@@ -34,7 +34,7 @@ std::vector<Vec3> labels_with_heights(const RawLayer& labels, std::vector<std::s
   return found;
 }
 
-// Labels stand beside the lines only where both are in one system and one unit.
+// Labels are beside the lines only where both are in one system and one unit.
 void check_labels_beside(const RawLayer& contours, const RawLayer& labels) {
   if (!contours.own_crs.empty() && !labels.own_crs.empty() &&
       !same_crs(contours.own_crs, labels.own_crs))
@@ -78,7 +78,7 @@ void check_labelled(const std::string& path, const Polylines& lines, const Label
                    "give each contour a label, or leave such contours in another layer");
 }
 
-// A Z that tells the lines apart must say what their labels say.
+// A Z that tells the lines apart must agree with their labels.
 void check_z_beside_labels(const RawLayer& contours, const std::string& path,
                            const std::vector<double>& heights) {
   const HeightRange z = heights_of(contours.lines);

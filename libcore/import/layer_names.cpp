@@ -1,3 +1,4 @@
+// Compares names of layers with patterns.
 #include "import/layer_names.hpp"
 
 #include <fnmatch.h>

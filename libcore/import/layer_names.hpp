@@ -12,7 +12,7 @@ namespace talus {
 
 [[nodiscard]] bool is_pattern(const std::string& name);
 
-/// Whether `name` is what the pattern says.
+/// Whether `name` matches the pattern.
 [[nodiscard]] bool matches(const std::string& pattern, const std::string& name);
 
 /// Whether a filter names a field, in any case.

@@ -75,7 +75,7 @@ class PartReader {
     descend(*linear, feature);
   }
 
-  // What stands on a sheet of paper has no place on the map.
+  // Features on a sheet of paper have no place on the map.
   bool is_wanted(const OGRFeature& feature) {
     const std::string name = text_field(feature, source_.drawing_field.c_str());
     if (std::find(drawing_layers_.begin(), drawing_layers_.end(), name) == drawing_layers_.end())

@@ -1,3 +1,4 @@
+// Magnitudes of the quantities that were read.
 #include "import/layer_reading.hpp"
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 
 namespace talus {
 
-/// An answer that the import gave, and what it rests on.
+/// An answer of the import, and its reason.
 struct Decision {
   std::string question;  ///< "unit of heights"
   std::string answer;    ///< "0.3048 m"
@@ -33,7 +33,7 @@ struct LayerReading {
   std::string file;   ///< as it was named
   std::string layer;  ///< or layers, "index, intermediate"
   std::string where;  ///< filter; empty: all features
-  std::string noun;   ///< of what was taken: "polygon"
+  std::string noun;   ///< of the features: "polygon"
   std::int64_t n_features = 0;
   int n_parts = 0;                   ///< points, lines or polygons as they were read
   int n_passed_over = 0;             ///< parts of another kind in the same layer

@@ -1,3 +1,4 @@
+// Tells which geometries are lines, points or areas.
 #include "import/layer_shapes_gdal.hpp"
 
 #include <ogr_geometry.h>

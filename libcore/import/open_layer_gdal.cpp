@@ -1,3 +1,4 @@
+// Opens the layers of a vector source by name or by shape.
 #include "import/open_layer_gdal.hpp"
 
 #include <ogrsf_frmts.h>
@@ -116,7 +117,7 @@ void choose_by_shape(OpenLayer& source) {
       if (test(*layer)) source.layers.push_back(layer);
   };
   if (source.dataset->GetLayerCount() == 1)
-    source.layers.push_back(source.dataset->GetLayer(0));  // its features say what is wrong
+    source.layers.push_back(source.dataset->GetLayer(0));  // its features show the fault
   else
     take_if([shape](OGRLayer& layer) { return holds(layer, shape); });
   if (source.layers.empty() && shape == LayerShape::polygon) take_if(holds_closed_line);

@@ -1,6 +1,6 @@
 // libcore/import/open_layer_gdal.hpp
 // The layers of a vector source that are read, and their parts of one shape.
-// in:    a source and what it is read for
+// in:    a source and the purpose of reading it
 // out:   layers chosen by name or by shape; a call a part. Messages name file, layer and feature
 #pragma once
 
@@ -24,7 +24,7 @@ class OGRLayer;
 
 namespace talus {
 
-/// How heights stand in a layer: none are asked for, one a line, or one a point.
+/// Heights of a layer: not needed, one a line, or one a point.
 enum class HeightsOf { nothing, level_lines, points };
 
 /// What a source is read for.
@@ -33,7 +33,7 @@ struct LayerRole {
   const char* name;        ///< of its parts, for messages: "contours"
   const char* input = "";  ///< that options are for: "contours", "spots"; empty: none is
   HeightsOf heights = HeightsOf::nothing;
-  bool is_of_texts = false;  ///< of a drawing its texts are read, else what is no text
+  bool is_of_texts = false;  ///< of a drawing its texts are read, else all but texts
 };
 
 [[nodiscard]] LayerRole role_of(InputRole role);
@@ -48,7 +48,7 @@ struct OpenLayer {
   std::string name;    ///< of the layers, for messages: "index, intermediate"
   std::string filter;  ///< in effect; empty: none
   bool is_drawing = false;
-  /// DXF, DGN: the one OGR layer holds all of the drawing's layers, whose names stand in a field.
+  /// DXF, DGN: the one OGR layer holds all of the drawing's layers, whose names are in a field.
   std::string drawing_field;
   std::vector<std::string> wanted;  ///< of those; empty: the only one that holds the shape
   std::vector<std::string> remarks;
@@ -85,7 +85,7 @@ void for_each_part(OpenLayer& source,
 /// What for_each_part() has found.
 [[nodiscard]] LayerReading reading_of(const OpenLayer& source);
 
-/// Sentences on its filter, its remarks and what was passed over.
+/// Sentences on its filter, its remarks and the features passed over.
 void add_remarks(const LayerReading& taken, std::vector<std::string>& notes);
 
 /// Throws InputError.

@@ -1,3 +1,4 @@
+// Reads points from a text file, a row a point.
 #include "import/point_table.hpp"
 
 #include <algorithm>
@@ -140,7 +141,7 @@ void read_numbers(PointTable& table) {
       thousands[c].add(words[c]);
     }
   }
-  // stays as text, so that who takes it for heights asks what it means
+  // stays as text, so that a reader of heights asks for its meaning
   for (std::size_t c = 0; c < n_columns; ++c)
     if (thousands[c].is_doubtful()) table.is_number[c] = false;
 }

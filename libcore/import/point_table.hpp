@@ -1,7 +1,7 @@
 // libcore/import/point_table.hpp
 // Points in a text file, a row a point, with or without a line of names.
 // in:    the text of a CSV or XYZ file
-// out:   x, y of each row, all columns as they stand
+// out:   x, y of each row, all columns as text
 #pragma once
 
 #include <string>
@@ -26,7 +26,8 @@ struct PointTable {
 /// x and y cannot be told.
 [[nodiscard]] PointTable parse_point_table(const std::string& text, const std::string& file);
 
-/// Whether a column of the first line holds geometries as text (WKT), which are no table of points.
+/// Whether a column of the first line holds geometries as text (WKT), which are not a table of
+/// points.
 [[nodiscard]] bool has_wkt_column(const std::string& text);
 
 }  // namespace talus

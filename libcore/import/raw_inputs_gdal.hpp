@@ -30,7 +30,7 @@ struct RawLayer {
   std::vector<int> polygon;          ///< of each ring; rings of one follow its outline  (n_lines)
   bool has_z = true;                 ///< of every line
   std::int64_t n_flat = 0;           ///< lines without Z
-  std::int64_t n_no_number = 0;      ///< lines with a Z that is no number
+  std::int64_t n_no_number = 0;      ///< lines with a Z that is not a number
   std::optional<HeightField> field;  ///< that may hold the heights
   std::vector<std::vector<std::string>> attributes;  ///< as text; empty: not set   (n_points)
   LayerReading taken;
@@ -52,7 +52,7 @@ struct RawLayer {
 struct RawInputs {
   const InputsRequest& request;
   std::vector<RawLayer> layers;
-  std::string frame;  ///< WKT of what is computed in, from declare_place on; empty: local metres
+  std::string frame;  ///< WKT of the computation, from declare_place on; empty: local metres
   ImportReading reading;
 
   /// The layer that the frame comes from; null: the request says the frame.
@@ -60,12 +60,12 @@ struct RawInputs {
   [[nodiscard]] RawLayer* find(InputRole role);
 };
 
-/// Opens and reads all layers of the request, without an opinion on what they hold. Throws
+/// Opens and reads all layers of the request, without a judgement of their content. Throws
 /// InputError: no such source, no such layer or several that may be meant, nothing of the shape,
 /// missing geometries, polygons that are not sound, coordinates that are not finite.
 [[nodiscard]] RawInputs open_all(const InputsRequest& request);
 
-/// Where the heights of each layer stand: in Z, in a field, or in the labels beside. Throws
+/// Finds the heights of each layer: in Z, in a field, or in the labels beside. Throws
 /// InputError where heights are missing, change along a contour or contradict one another.
 void declare_heights(RawInputs& raw);
 /// As declare_heights() does for contours with labels.
@@ -79,7 +79,7 @@ void declare_plan_units(RawInputs& raw);
 /// none is known, or it cannot be computed in.
 void declare_place(RawInputs& raw);
 
-/// What a unit of the heights is, and what system they are in. Throws InputError where the plan is
+/// Finds the unit of the heights, and their system. Throws InputError where the plan is
 /// in feet and nothing says it of the heights.
 void declare_height_units(RawInputs& raw);
 
@@ -90,8 +90,8 @@ void check_places(RawInputs& raw);
 /// Throws InputError where no operation is known.
 void take_to_frame(RawInputs& raw);
 
-/// Throws InputError for heights that cannot be, with what they would be in other units; `option`
-/// says one, empty: none does.
+/// Throws InputError for implausible heights, with their values in other units; `option` sets one,
+/// empty: none does.
 void check_elevations(const std::vector<Vec3>& points, const Vec3& origin, const Where& where,
                       const std::string& option);
 /// Throws InputError where most heights of a layer are far off those of the contours: mixed units.

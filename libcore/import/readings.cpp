@@ -1,3 +1,4 @@
+// Refusals that list each possible reading of an input, and how to choose it.
 #include "import/readings.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // libcore/import/readings.hpp
-// An input that can be read in several ways is not guessed: it is refused with what each reading
-// would make of this very input, and with the key, option or command that decides.
+// An input that can be read in several ways is not guessed: it is refused with the effect of each
+// reading on this very input, and with the key, option or command that decides.
 #pragma once
 
 #include <string>
@@ -16,15 +16,15 @@ struct Reading {
   std::string way;        ///< "--elevation-unit-m 0.3048"
 };
 
-/// "FINDING: as metres the heights go from 1000 to 1300 m; as feet ...", and the ways as hint.
+/// "FINDING: as metres the heights go from 1000 to 1300 m; as feet ...", with the choices as hint.
 [[nodiscard]] Doubt choice_of(const Where& where, const std::string& finding,
                               const std::vector<Reading>& readings);
 
 /// "the heights go from 304.8 to 396.2 m, 91.4 m over 3.2 km"; `width`: 0 where it is not known
 /// [m].
 [[nodiscard]] std::string rise_words(double low, double high, double width);
-/// Of heights as they stand in a source, in metres and in the unit of a plan that is not in them;
-/// `way_to_metres` says the first.
+/// For heights of a source, in metres and in the unit of a plan that does not apply to them;
+/// `way_to_metres` chooses the first.
 [[nodiscard]] Doubt choice_of_height_unit(const Where& where, double plan_unit_m, double low,
                                           double high, double width, const std::string& way_to_plan,
                                           const std::string& way_to_metres);

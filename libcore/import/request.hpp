@@ -1,6 +1,6 @@
 // libcore/import/request.hpp: public
-// What is asked of the import: the layers of one job, what each is read for, and what the user says
-// of them.
+// A request to the import: the layers of one job, the purpose of each, and the statements of the
+// user on them.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ struct LayerRef {
   double unit_m = 0;  ///< metres in one unit of its coordinates; 0: metres, or as a drawing says
 };
 
-/// What a layer is read for: a part of the ground, points to hold it against, or what stands on it.
+/// The purpose of a layer: a part of the ground, reference points, or objects on the ground.
 enum class InputRole {
   contours,
   points,  ///< of the ground, in place of contours
@@ -40,13 +40,13 @@ struct RequestedLayer {
   InputRole role;
   LayerRef ref;
   std::vector<std::string> fields = {};  ///< attributes to read of site_points
-  // Of what stands on the ground, as talus-import writes it; the parts of the ground have none.
+  // Of objects on the ground, as talus-import writes them; the parts of the ground have none.
   std::string layer = {};    ///< "fences"
   std::string section = {};  ///< of the site file, "fence.valley"
   std::string file = {};     ///< as the section has it
   std::string digest = {};   ///< of the data set; empty: not known
   // Of points that are written in the site file, in place of `ref`:
-  std::vector<Vec3> points = {};  ///< a line, a ring, or points that stand alone
+  std::vector<Vec3> points = {};  ///< a line, a ring, or single points
   std::string crs = {};           ///< WKT; empty: that of the frame
   Where where = {};               ///< in the site file
 };
@@ -58,7 +58,7 @@ struct SystemsByUser {
   std::string crs;         ///< WKT; empty: local metres, no place on the map
   std::string t_srs;       ///< WKT; not empty: reproject to it in plan; heights stay, and so does
                            ///< the system that they are in
-  std::string vertical_crs;  ///< what heights are in that do not say it: WKT of a vertical system,
+  std::string vertical_crs;  ///< system of heights that do not name one: WKT of a vertical system,
                              ///< or ellipsoidal_heights
   std::string t_vertical;    ///< WKT; not empty: take all heights to this vertical system
   bool accept_ballpark = false;  ///< reproject though nothing is known of the datum

@@ -1,3 +1,4 @@
+// Reads rasters of a site: classes of ground, stands, failure surfaces.
 #include "import/site_rasters_gdal.hpp"
 
 #include <gdal_priv.h>

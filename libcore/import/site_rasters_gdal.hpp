@@ -2,7 +2,7 @@
 // Rasters that a site names: classes of ground, stands, failure surfaces. They are read where they
 // are, in the system of the terrain: none is copied or reprojected.
 // in:    any GDAL raster with one band, north-up
-// out:   classes under the cells of a TRN; what stands in a raster, for people
+// out:   classes under the cells of a TRN; the content of a raster, for people
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,9 @@ void check_raster_system(const std::string& raster, const std::string& terrain, 
 /// Value of the raster's pixel that holds the centre of each cell of `trn`, whatever the size of
 /// the pixels; no_class outside of the raster and where it has no data.           (n_cells)
 ///
-/// Throws InputError when the file is no raster, has not exactly one band, no place on the map, is
-/// rotated, is in another CRS (check_raster_system), or holds a value that is not a whole number.
+/// Throws InputError when the file is not a raster, has not exactly one band, no place on the map,
+/// is rotated, is in another CRS (check_raster_system), or holds a value that is not a whole
+/// number.
 [[nodiscard]] std::vector<std::int32_t> read_cell_classes(const std::string& path, const Trn& trn,
                                                           std::vector<Doubt>& doubts);
 

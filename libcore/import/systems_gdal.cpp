@@ -1,3 +1,4 @@
+// Chooses the systems of coordinates and heights of a file, and the operations between them.
 #include "import/systems_gdal.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // libcore/import/systems_gdal.hpp
-// The systems that a file's coordinates and heights are in: those that it names, or that the user
-// says; and how they are taken to others. One rule for layers, elevation models and TINs.
+// The systems of a file's coordinates and heights: those that it names, or that the user says; and
+// the operations to other systems. One rule for layers, elevation models and TINs.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace talus {
 inline constexpr const char* way_to_name_crs =
     "name it with --crs EPSG:code, or --crs none for local metres";
 
-/// A file, what its own system is, and where its coordinates lie.
+/// A file, its own system, and the place of its coordinates.
 struct FileInSystem {
   std::string path, crs;  ///< WKT; empty: the file says none
   MapWindow extent;
@@ -24,7 +24,7 @@ struct FileInSystem {
 };
 
 /// WKT; empty for local metres. The user's system takes the place of one that is missing, that says
-/// no heights, or that cannot be true for what lies there; a note says why. Throws InputError where
+/// no heights, or that cannot be true for data there; a note says why. Throws InputError where
 /// there is none, or the file has another one.
 [[nodiscard]] std::string crs_said(const FileInSystem& file, const SystemsByUser& said,
                                    std::vector<std::string>& notes);
@@ -34,7 +34,7 @@ struct FileInSystem {
 [[nodiscard]] std::string with_heights_said(const std::string& crs, const SystemsByUser& said,
                                             const std::string& path);
 
-/// The operation in plan for what lies in `window`, with a sentence for `notes`. Throws InputError
+/// The operation in plan for data in `window`, with a sentence for `notes`. Throws InputError
 /// as find_operation().
 [[nodiscard]] CrsOperation plan_operation(const std::string& from, const std::string& to,
                                           const MapWindow& window, const Where& where,
@@ -42,7 +42,7 @@ struct FileInSystem {
                                           std::vector<Doubt>& doubts);
 
 /// The operation that takes heights, which are in `crs`, to the system asked for; null where none
-/// is asked for or needed. Throws InputError where it is not known what they are in.
+/// is asked for or needed. Throws InputError where their system is unknown.
 [[nodiscard]] std::unique_ptr<HeightOperation> height_operation(const std::string& crs,
                                                                 const SystemsByUser& said,
                                                                 const MapWindow& window,

@@ -13,7 +13,8 @@ namespace {
 void take_plan(RawLayer& layer, RawInputs& raw) {
   std::vector<Vec3>& points = layer.lines.points;
   ImportReading& reading = raw.reading;
-  std::vector<std::string> of_site;  // what stands on the ground says it with what was taken
+  std::vector<std::string> of_site;  // notes on objects on the ground are among those of their
+                                     // reading
   const CrsOperation operation =
       plan_operation(layer.crs, raw.frame, window_of(points, layer.crs), layer.where(),
                      raw.request.accept_ballpark, layer.is_of_site() ? of_site : reading.operations,
@@ -44,7 +45,7 @@ void check_heights_alike(const RawLayer& layer, RawInputs& raw) {
     raw.reading.notes.push_back(layer.path() + " and the map: both are " + assumed);
 }
 
-// Takes heights to the system that is asked for; those of the frame are what they are in.
+// Takes heights to the requested system; those of the frame are in their own.
 void take_heights(RawLayer& layer, RawInputs& raw) {
   std::vector<Vec3>& points = layer.lines.points;
   const auto operation = height_operation(raw.frame, raw.request, window_of(points), layer.path());

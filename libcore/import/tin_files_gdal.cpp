@@ -1,3 +1,4 @@
+// Reads TINs of other programs: DXF, LandXML, OBJ, PLY.
 #include "import/tin_files_gdal.hpp"
 
 #include <cpl_minixml.h>
@@ -61,7 +62,7 @@ class FaceCollector {
     tin_.points.push_back(p);
     return static_cast<int>(tin_.points.size()) - 1;
   }
-  // Counter-clockwise; without an area in plan it is no ground.
+  // Counter-clockwise; a triangle without an area in plan is not ground.
   void triangle(int a, int b, int c) {
     const Vec3 &p = tin_.points[a], &q = tin_.points[b], &r = tin_.points[c];
     const double area = (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
@@ -204,7 +205,7 @@ std::vector<std::string> words_of(const CPLXMLNode* node) {
   return words;
 }
 
-// Metres in one unit of plan and heights: what the user says, else the file must say metres.
+// Metres in one unit of plan and heights: the unit of the user, else the file must say metres.
 double unit_of_landxml(const CPLXMLNode* root, const std::string& path, double user_unit_m) {
   if (user_unit_m > 0) return user_unit_m;
   const auto check = [&](const CPLXMLNode* units, const char* attribute, const char* otherwise) {

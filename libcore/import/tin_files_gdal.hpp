@@ -1,7 +1,7 @@
 // libcore/import/tin_files_gdal.hpp: public
 // TINs of other programs: faces of CAD drawings (DXF), LandXML, OBJ, PLY.
 // in:    a file
-// out:   a TIN, its CRS if the file names one; what was passed over
+// out:   a TIN, its CRS if the file names one; notes on features passed over
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace talus {
 
 struct TinFile {
   Tin tin;
-  std::vector<std::string> notes;  ///< what was taken and passed over
+  std::vector<std::string> notes;  ///< on features taken and passed over
   std::vector<Doubt> doubts;       ///< a header that says inches
   LayerReading taken;              ///< of a drawing; without a file: it is none
 };
@@ -32,7 +32,7 @@ struct TinFile {
 /// or a unit of a file that has none.
 [[nodiscard]] TinFile read_tin_file(const LayerRef& choice);
 
-/// The CRS of a TIN, WKT, or what the user says of one without, or of one in feet that `choice`
+/// The CRS of a TIN, WKT, or the user's for one without, or for one in feet that `choice`
 /// scales to metres; empty: local metres. Throws InputError where it cannot be computed in, or
 /// coordinates cannot be in it.
 [[nodiscard]] std::string crs_of_tin(const Tin& tin, const SystemsByUser& said,

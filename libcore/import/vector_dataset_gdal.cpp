@@ -1,3 +1,4 @@
+// Opens a vector source: archives, tables of points, damaged tables.
 #include "import/vector_dataset_gdal.hpp"
 
 #include <cpl_vsi.h>
@@ -134,7 +135,7 @@ std::string without_extension(const std::string& file) {
 }
 
 // Shapes and rows belong together by their numbers alone: where one is lost, all behind it have the
-// values of others, and GDAL does not say so.
+// values of other rows, and GDAL does not say so.
 void check_rows(GDALDataset& dataset) {
   const std::string driver = dataset.GetDriverName();
   if (driver != "ESRI Shapefile" && driver != "MapInfo File") return;

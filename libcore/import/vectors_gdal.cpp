@@ -1,3 +1,4 @@
+// Reads areas, lines and points of a vector source in map coordinates.
 #include "import/vectors_gdal.hpp"
 
 #include <utility>

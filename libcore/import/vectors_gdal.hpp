@@ -41,12 +41,12 @@ struct VectorShapes : LayerReading {
 
 /// Throws InputError: source cannot be opened, no such layer or several that may be meant, nothing
 /// of the kind in it, empty or missing geometries, polygons that are not sound, coordinates that
-/// are not finite, cannot be what their CRS says (check_place) or cannot be reprojected, a drawing
+/// are not finite, do not fit their CRS (check_place) or cannot be reprojected, a drawing
 /// that is not in metres. A source or target without a CRS is taken to be in the
 /// other's.
 [[nodiscard]] VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt);
 
-/// What read_vectors() makes of a layer that went through all questions; the layer is spent.
+/// Shapes of read_vectors() from a layer that went through all questions; the layer is spent.
 [[nodiscard]] VectorShapes take_shapes(RawLayer& layer);
 
 /// SHA-256 of all places in plan, and of the attributes.
