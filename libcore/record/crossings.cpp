@@ -1,3 +1,4 @@
+// Crossings of lines by blocks: time, place and motion.
 #include "record/crossings.hpp"
 
 #include <algorithm>
@@ -72,7 +73,7 @@ Meeting meet(const LinePart& part, const Vec2& a, const Vec2& b) {
   return {true, s, share_of(part, a + s * path), side_b >= 0 ? 1 : -1};
 }
 
-// Time at which the centroid reaches share s of its way in plan. The way is a line, but where the
+// Time at which the centroid reaches share s of its path in plan. The path is a line, but where the
 // acceleration has a horizontal part along it the share is not that of the time.
 double time_at(const Segment& segment, double s) {
   const double h = segment.t_end - segment.t_start;
@@ -208,7 +209,7 @@ RecordLine record_line(std::string name, std::vector<Vec3> points) {
 
 std::vector<LineMeeting> line_meetings(const RecordLine& line, const Vec2& a, const Vec2& b) {
   std::vector<LineMeeting> out;
-  // meet() decides; what lies apart by more than rounding is spared it
+  // meet() decides; segments farther apart than rounding need no call
   const Vec2 slack = Vec2::Constant(1e-6);
   const Vec2 low = a.cwiseMin(b) - slack, high = a.cwiseMax(b) + slack;
   for (int i = 0; i < n_parts(line); ++i) {

@@ -3,9 +3,9 @@
 // in:    the solver's segments; polylines with a height at each point
 // out:   one row per block and line, exact in time for the motion between two steps
 //
-// A line goes on straight beyond both ends, so that a block that passes beside a fence is known to
-// have done so: its chainage is negative or greater than the line's length. The centroid crosses,
-// in plan. A crossing of the line itself replaces an earlier one beside it.
+// A line continues straight beyond both ends, so that a block that passes beside a fence is known
+// to have done so: its chainage is negative or greater than the line's length. The centroid
+// crosses, in plan. A crossing of the line itself replaces an earlier one beside it.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct RecordLine {
 };
 
 /// Where a search thinks of a fence: lines of this name are watched, but nobody asked for a fence
-/// there. Their names go on with that of the search and a number.
+/// there. Their names are that of the search and a number.
 inline constexpr std::string_view candidate_prefix = "fence_search.";
 [[nodiscard]] inline bool is_candidate(const RecordLine& line) {
   return line.name.starts_with(candidate_prefix);
@@ -45,16 +45,16 @@ inline constexpr std::string_view candidate_prefix = "fence_search.";
 /// a row at the same place.
 [[nodiscard]] RecordLine record_line(std::string name, std::vector<Vec3> points);
 
-/// Where a straight way in plan meets a line.
+/// Where a straight path in plan meets a line.
 struct LineMeeting {
   int segment = 0;      ///< of the line, from 0
   int direction = 0;    ///< +1: to the left of the line seen from its first point, -1: right
-  double share = 0;     ///< of the way, 0 to 1 [-]
+  double share = 0;     ///< of the path, 0 to 1 [-]
   double chainage = 0;  ///< from the line's first point [m]
 };
-/// In the order of the way from `a` to `b`. Ways that follow one another meet the line as often as
-/// the whole path does: none is missed or seen twice where one ends on the line or at a corner.
-/// What passes beside the ends does not meet it.
+/// In the order of the path from `a` to `b`. Consecutive path segments meet the line as often as
+/// the whole path: no meeting is missed or seen twice where one ends on the line or at a corner. A
+/// path beside the ends does not meet it.
 [[nodiscard]] std::vector<LineMeeting> line_meetings(const RecordLine& line, const Vec2& a,
                                                      const Vec2& b);
 
@@ -88,7 +88,7 @@ struct CrossingRecorder {
 /// The next segment of a block; segments of one block come in the order of time.
 void record_crossings(CrossingRecorder& recorder, const Scene& scene, const Segment& segment);
 
-/// Rows in the order of line, then block: what is written.
+/// Rows to be written, in the order of line, then block.
 [[nodiscard]] std::vector<Crossing> sorted(const CrossingRecorder& recorder);
 
 }  // namespace talus

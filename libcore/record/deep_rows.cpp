@@ -1,3 +1,4 @@
+// Rows and words of blocks that were deep in something.
 #include "record/deep_rows.hpp"
 
 #include <algorithm>
@@ -16,9 +17,9 @@ namespace {
 
 using std::size_t;
 
-constexpr double before_toe = 0.95;  // of the mass: what ends beyond it is the toe
+constexpr double before_toe = 0.95;  // of the mass: deposits beyond it are the toe
 
-// Where the mass that started highest stood: distances count from there.
+// The start of the mass that was highest: distances count from there.
 Vec2 top_of(const Scene& scene) {
   const auto& rest = scene.blocks.rest;
   return std::max_element(
@@ -68,8 +69,8 @@ double share_of_mass(const Scene& scene, int block) {
   return mass[static_cast<size_t>(block)] / std::accumulate(mass.begin(), mass.end(), 0.0);
 }
 
-// Deep in a fence, or deep before it came to one: what a fence got of it may be wrong. What lies
-// there and is pressed by the next ones has done all that is read of it.
+// Deep in a fence, or deep before it came to one: its effect on the fence may be wrong. A block
+// that lies there and is pressed by the next ones has had all the effect that is read of it.
 bool met_fence(const State& state, std::span<const Crossing> crossings, const DeepRow& row) {
   const auto is_of = [&row](const auto& met) {
     return met.block == row.block && met.time >= row.first_time;

@@ -1,8 +1,7 @@
 // libcore/record/deep_rows.hpp: public
-// Blocks that were deep in something, weighed: their mass, and whether they moved what maps and
-// fences are read for.
+// Blocks that were deep in something, weighed: their mass, and whether they affect maps and fences.
 // in:    State::deep
-// out:   rows of the run file, what its health holds against them, and a line of words for each
+// out:   rows of the run file, their weight for its health, and a line of words for each
 #pragma once
 
 #include <span>
@@ -16,7 +15,7 @@ namespace talus {
 
 struct Mishap;
 
-/// A row a block that was deep, as things stand at state.time; by block.
+/// A row a block that was deep, at state.time; by block.
 [[nodiscard]] std::vector<DeepRow> deep_rows(const Scene& scene, const State& state,
                                              std::span<const Crossing> crossings);
 
@@ -35,8 +34,8 @@ struct Mishap;
 /// "the ground", "block 7", "panel 2 of fence NAME".
 [[nodiscard]] std::string partner_name(const DeepRow& row, std::span<const RecordLine> lines);
 
-/// Block, partner, time, place on the map, depth, thickness, share of the mass, and what makes it
-/// matter. `origin`: map coordinates of the local zero [m].
+/// Block, partner, time, place on the map, depth, thickness, share of the mass, and its
+/// effect. `origin`: map coordinates of the local zero [m].
 [[nodiscard]] std::string deep_words(const DeepRow& row, std::span<const RecordLine> lines,
                                      const Vec3& origin);
 

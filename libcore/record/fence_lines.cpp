@@ -1,3 +1,4 @@
+// Lines of fences from the corners of their sections.
 #include "record/fence_lines.hpp"
 
 #include "base/text.hpp"

@@ -13,7 +13,7 @@
 
 namespace talus {
 
-/// Where a section stands in the site file.
+/// The place of a section in the site file.
 [[nodiscard]] Where where_of_fence(const std::string& site_file, const FenceSettings& fence);
 
 /// The lines of a section whose corners are `corners`, local coordinates, z NaN: on the ground.

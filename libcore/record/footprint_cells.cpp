@@ -1,3 +1,4 @@
+// Cells of a grid under a footprint, at rest and along a path.
 #include "record/footprint_cells.hpp"
 
 #include <algorithm>

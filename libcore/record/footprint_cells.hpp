@@ -1,7 +1,7 @@
 // libcore/record/footprint_cells.hpp
 // The cells of a grid that a footprint lies over, at one place and on its path to another.
 // in:    footprints as extents along eight axes (record/passage_recorder.hpp)
-// out:   cells; on a way the part of it over each, in closed form
+// out:   cells; on a path the part of it over each, in closed form
 #pragma once
 
 #include "contact/shapes.hpp"
@@ -48,7 +48,7 @@ struct FootprintPath {
 [[nodiscard]] FootprintPath footprint_path(const PassageGrid& grid, const Footprint& from,
                                            const Footprint& to);
 
-/// A part of a way, which goes from 0 to 1; none when in >= out.
+/// A part of a path, which goes from 0 to 1; none when in >= out.
 struct PathShare {
   double in = 0, out = 1;
 };

@@ -1,3 +1,4 @@
+// Samples the states of all blocks at equal intervals of time.
 #include "record/frames.hpp"
 
 #include "motion/rotation.hpp"

@@ -28,7 +28,7 @@ struct Frame {
   std::vector<FrameBlock> blocks;  ///<                                              (n_blocks)
 };
 
-/// Frame k stands at time k * interval, and the last one at the end of the run.
+/// Frame k is at time k * interval, and the last one at the end of the run.
 struct FrameSampler {
   double interval = 0;             ///< > 0 [s]
   std::deque<Frame> open;          ///< frames that some block has not reached yet, oldest first
@@ -48,7 +48,7 @@ void record_frames(FrameSampler& sampler, const Scene& scene, SegmentMotion& mot
                    const Vec6& strain);
 
 /// The frames with a time below or at `time`, to which all blocks have come: those without a
-/// segment up to there have stood still.
+/// segment up to there have been at rest.
 [[nodiscard]] std::vector<Frame> take_frames(FrameSampler& sampler, double time);
 /// The blocks as they are now, as a frame at `time`.
 [[nodiscard]] Frame last_frame(const FrameSampler& sampler, double time);

@@ -1,3 +1,4 @@
+// A block's motion at any moment of a segment.
 #include "record/motion.hpp"
 
 #include "motion/rotation.hpp"

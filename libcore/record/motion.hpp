@@ -1,5 +1,5 @@
 // libcore/record/motion.hpp: public
-// A block's motion at any moment of a segment, and what is recorded of it.
+// A block's motion at any moment of a segment, and the quantities recorded of it.
 // in:    segments of the solver (step/segment.hpp), pieces of constant acceleration of the centroid
 // out:   motion, energies; the same numbers for frames, passages and crossings
 #pragma once
@@ -17,8 +17,8 @@ namespace talus {
 ///
 /// A flight is followed exactly, in translation and in spin. Between two steps with contact the
 /// centroid keeps the segment's acceleration, the attitude turns evenly (slerp), velocity and
-/// angular momentum go linearly. At both ends the solver's own bits come back; in between they do
-/// not depend on what else was asked for.
+/// angular momentum are interpolated linearly. At both ends the solver's own bits come back; in
+/// between they do not depend on earlier calls.
 class SegmentMotion {
  public:
   /// `segment` and `inertia` must outlive the calls of at().

@@ -1,3 +1,4 @@
+// Touches of endangered objects by blocks.
 #include "record/object_hits.hpp"
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 //
 // A block touches an object when its footprint, the polygon of record/passages.hpp, comes within a
 // millimetre of it in plan. Objects stop nothing: a block that flies over one touches it too, and
-// its heights say so. The moment is found by going on by no more than the gap allows at a speed
-// that no point of the footprint can exceed.
+// its heights say so. The moment is found by steps of at most the time that the gap allows at a
+// speed that no point of the footprint can exceed.
 #pragma once
 
 #include <cstdint>
@@ -67,10 +67,10 @@ struct ObjectRecorder {
 /// time.
 void record_objects(ObjectRecorder& recorder, const Scene& scene, SegmentMotion& motion);
 
-/// Takes back the rows of a run that goes on.
+/// Takes back the rows of a run in progress.
 void restore(ObjectRecorder& recorder, const std::vector<ObjectHit>& rows);
 
-/// Rows in the order of object, then block: what is written.
+/// Rows to be written, in the order of object, then block.
 [[nodiscard]] std::vector<ObjectHit> sorted(const ObjectRecorder& recorder);
 
 /// Largest values of both; the first touch is the earlier one's.

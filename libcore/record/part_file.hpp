@@ -3,9 +3,9 @@
 // in:    runs whose frames are the first and the last alone (RunFile::reach), rows of passages
 // out:   a file that has the same bytes in whatever order the runs came
 //
-// Rows of passages stand by cell, then run, then block, so that a map takes a range of cells of
-// many parts, each read once from front to end. Runs of the same blocks, the same lines or objects
-// share them.
+// Rows of passages are ordered by cell, then run, then block, so that a map takes a range of cells
+// of many parts, each read once from front to end. Runs of the same blocks, the same lines or
+// objects share them.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ struct Part {
   double path_tolerance = 0;  ///< of the reach of all runs [m]
   PassageGrid grid;           ///< 0 rows: the runs recorded no passages
   bool passages_by_centroid = false;
-  std::vector<std::string> name;  ///< file that the run stood in, with its folder      (n_runs)
+  std::vector<std::string> name;  ///< file of the run before, with its folder (n_runs)
   std::vector<RunFile> runs;  ///< without blocks, lines, objects, passages, checkpoint  (n_runs)
   std::vector<RunBlocks> blocks;   ///< different ones
   std::vector<int> blocks_of_run;  ///< index into `blocks`                               (n_runs)
@@ -74,7 +74,7 @@ class PartFile {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Whether a sealed HDF5 file says that it is a part. Throws InputError when it is no file of
+/// Whether a sealed HDF5 file says that it is a part. Throws InputError when it is not a file of
 /// Talus.
 [[nodiscard]] bool is_part_file(const std::string& path);
 

@@ -1,3 +1,4 @@
+// Passages of a flight, in pieces of which only those that matter are followed.
 #include "record/passage_flight.hpp"
 
 #include <algorithm>
@@ -63,8 +64,8 @@ struct HeightAbovePlane {
 };
 
 // The pieces of one flight. Where the block is followed piece by piece and where not depends on
-// what can change: cells only near their sides, and the largest height of the block's top only
-// where its centroid is nearly as high as it gets.
+// the quantities that can change: cells only near their sides, and the largest height of the top
+// only where its centroid is nearly as high as it gets.
 struct FlightRecord {
   PassageRecorder& recorder;
   const Scene& scene;

@@ -1,3 +1,4 @@
+// Adds one piece of a block's motion to the table of passages.
 #include "record/passage_piece.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // libcore/record/passage_piece.hpp
 // One piece of a block's motion into the table of passages. As long as the covered cells stay, a
-// piece only raises what is pending in the block's tracker; where they may change, that goes to the
-// table and so does each cell that the piece passes.
+// piece only raises the pending values of the block's tracker; where they may change, these go to
+// the table and so does each cell that the piece passes.
 #pragma once
 
 #include "record/passage_recorder.hpp"

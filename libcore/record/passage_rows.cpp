@@ -1,3 +1,4 @@
+// Rows of passages in a file without a name, for runs larger than memory.
 #include "record/passage_rows.hpp"
 
 #include <fcntl.h>

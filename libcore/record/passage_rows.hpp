@@ -1,6 +1,6 @@
 // libcore/record/passage_rows.hpp: public
 // Passages of a run that are more than memory should hold: in a file without a name, which is gone
-// with whoever made it.
+// with its process.
 // in:    rows in their order (record/passage_table.hpp)
 // out:   the same, read a piece at a time; run files that begin with them
 #pragma once
@@ -33,7 +33,7 @@ class PassageRows {
   mutable std::vector<Passage> piece_ = {};
 };
 
-/// As write_run_file() and replace_run_file(); `earlier`, which may be null, stand before the
+/// As write_run_file() and replace_run_file(); `earlier`, which may be null, come before the
 /// passages of `run`.
 void write_run_file(const std::string& path, const RunFile& run, const PassageRows* earlier);
 void replace_run_file(const std::string& path, const RunFile& run, const PassageRows* earlier);

@@ -1,3 +1,4 @@
+// The table of passages: a row a block and cell.
 #include "record/passage_table.hpp"
 
 #include <algorithm>

@@ -20,7 +20,7 @@ struct PassageValues {
   float centroid_height = unknown;  ///< above the ground below it; NaN: no known ground [m]
   float top_height = unknown;  ///< of the highest vertex above the ground below the centroid [m]
 
-  void raise(const PassageValues& other);  ///< element-wise maximum; NaN gives way
+  void raise(const PassageValues& other);  ///< element-wise maximum; NaN is ignored
 };
 
 struct Passage {
@@ -31,7 +31,7 @@ struct Passage {
   /// Then: from its centroid's start, below the horizontal, atan(drop / length of its path in plan)
   /// [rad]; NaN before it has moved in plan.
   float travel_angle = PassageValues::unknown;
-  float heading = PassageValues::unknown;  ///< then, from x to y [rad]; NaN: it stood in plan
+  float heading = PassageValues::unknown;  ///< then, from x to y [rad]; NaN: at rest in plan
 };
 
 /// Rows with an index over (block, cell): open addressing, grown by doubling.
@@ -46,7 +46,7 @@ struct PassageTable {
   void raise(const Passage& visit);
 };
 
-/// Rows in the order of block, then cell: what is written.
+/// Rows to be written, in the order of block, then cell.
 [[nodiscard]] std::vector<Passage> sorted(const PassageTable& table);
 
 }  // namespace talus

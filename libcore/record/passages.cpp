@@ -1,3 +1,4 @@
+// Which cells each block passed and how, from the solver's segments.
 #include "record/passages.hpp"
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 // A cell is passed while any part of the block's footprint lies over it (or its centroid, by
 // choice). The footprint is the vertical projection of the block's vertices, replaced by the
 // polygon with the same extent along eight axes 22.5 degrees apart: it holds the footprint, so no
-// cell is missed, and stands out from it by at most a tenth of its longest side. A piece of motion
-// is straight in plan; where the block turns in it by theta < 0.25 rad, the extents go linearly
+// cell is missed, and exceeds it by at most a tenth of its longest side. A piece of motion is
+// straight in plan; where the block turns in it by theta < 0.25 rad, the extents change linearly
 // from end to end, widened by the sagitta r theta^2 / 8 (r theta^2 / 4 in free tumbling, whose axis
 // turns too; below 2 % of the radius). Entry and exit of each cell and the largest values in
 // between are then found in closed form.
@@ -30,7 +30,7 @@ void record_start(PassageRecorder& recorder, const Scene& scene, int block, cons
 /// The next segment of a block, which `motion` follows; segments of one block come in the order of
 /// time.
 void record_passages(PassageRecorder& recorder, const Scene& scene, SegmentMotion& motion);
-/// Writes what is pending into the table; further segments may follow.
+/// Writes the pending values into the table; further segments may follow.
 void flush_passages(PassageRecorder& recorder);
 
 }  // namespace talus

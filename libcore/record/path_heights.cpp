@@ -1,3 +1,4 @@
+// Greatest height of a path above the ground below it.
 #include "record/path_heights.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Replaces the bodies of a run that broke by the pieces at its end.
 #include "record/pieces.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 
 using std::size_t;
 
-/// Who is there at the end, and what became of the others.
+/// Bodies at the end, and the fate of the rest.
 struct Lineage {
   std::vector<int> bodies;               ///< that are there at the end, ascending        (n_left)
   std::vector<double> born;              ///< -infinity: released [s]                     (n_bodies)

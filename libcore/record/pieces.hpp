@@ -1,12 +1,12 @@
 // libcore/record/pieces.hpp: public
-// Runs in which blocks broke, as what evaluates them reads them: a row for each piece that is there
-// at the end, from the release on.
+// Runs in which blocks broke, for evaluation: a row for each piece that is there at the end, from
+// the release on.
 // in:    a run file with all bodies that could have been (blocks/fragments.hpp)
 // out:   the same file with those that are
 //
-// Until it comes off, a piece moves in its block: it is where the block carries it, passes and
-// crosses what the block passes and crosses, with the block's energy. Its weight is its share of
-// the released block's volume, so sums over pieces are those over blocks.
+// Until it comes off, a piece moves in its block: it has the place, the passages, the crossings and
+// the energy of the block. Its weight is its share of the released block's volume, so sums over
+// pieces are those over blocks.
 #pragma once
 
 #include "record/run_file.hpp"
@@ -14,8 +14,8 @@
 namespace talus {
 
 /// Replaces the bodies of `run` by those that exist at its end; does nothing where nothing can
-/// break. Hits on fences and what a body did alone go to its largest piece. Needs phases; frames,
-/// passages, crossings and hits of objects as far as they were read.
+/// break. Hits on fences, and rows of a body in its own world, go to its largest piece. Needs
+/// phases; frames, passages, crossings and hits of objects as far as they were read.
 void merge_pieces(RunFile& run);
 
 /// Whose fences and trees the blocks of a run met: of each the released block that it is or is part

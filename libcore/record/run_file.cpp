@@ -1,3 +1,4 @@
+// Frames and panels of a run in memory.
 #include "record/run_file.hpp"
 
 #include "scene/state.hpp"

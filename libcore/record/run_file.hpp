@@ -1,6 +1,6 @@
 // libcore/record/run_file.hpp: public
-// One run as a file: who moved where, when and how. docs/reference/formats.md#run
-// in:    what the recorder holds
+// One run as a file: place, time and motion of its blocks. docs/reference/formats.md#run
+// in:    the recorder's data
 // out:   an HDF5 file that is whole at any moment, or none
 //
 // A file is always written in one go, under another name, synced, and renamed: a run that is killed
@@ -51,7 +51,7 @@ struct RunInfo {
   double time = 0;                       ///< reached [s]
   std::string config;                    ///< effective settings, TOML
   std::string made_with;  ///< options that are not in `config`, digests of the files read
-  std::string plan;       ///< what was computed and what left out, JSON
+  std::string plan;       ///< parts computed and left out, JSON
   std::string warnings;   ///< a line each, of inputs and settings; no paths
 };
 
@@ -101,15 +101,15 @@ struct HealthRow {
   double removed = 0;                                                 ///< since the start [J]
 };
 
-/// A panel of a fence that stood, as it was at the end. In a run of independent rocks: as it was at
+/// A panel of a fence, as it was at the end. In a run of independent rocks: as it was at
 /// the start, and once more for each rock that pushed it, as that rock left it.
 struct PanelRow {
   std::int32_t line = 0, panel = 0;  ///< panel: number in its line, from 0
   double capacity = 0;               ///< infinite: rigid [J]
   double work = 0;                   ///< taken from blocks [J]
   double deflection = 0;             ///< to the left of the line, lasting [m]
-  double broken_at = 0;              ///< infinite: stands [s]
-  std::int32_t broken_by = -1;       ///< block, -1: stands
+  double broken_at = 0;              ///< infinite: it is whole [s]
+  std::int32_t broken_by = -1;       ///< block, -1: it is whole
   std::int32_t rock = -1;            ///< that alone met it so: the released block, by its number in
                                      ///< the run; -1: all blocks
 };
@@ -134,7 +134,7 @@ struct DeepRow {
   std::int32_t is_too_fast = 0;        ///< 1: was faster than its fall can have made it
 };
 
-/// A forest that stood.
+/// A forest of the run.
 struct ForestInfo {
   std::string name;          ///< of the section
   std::int32_t n_stems = 0;  ///< at the start
@@ -149,8 +149,8 @@ struct TreeHitRow {
   double dbh = 0;               ///< [m]
   double capacity = 0;          ///< before anything hit it [J]
   double left = 0;              ///< of it at the end of the run, 0 once it is broken [J]
-  double broken_at = 0;         ///< infinite: it stands [s]
-  std::int32_t broken_by = -1;  ///< block, -1: it stands
+  double broken_at = 0;         ///< infinite: it is whole [s]
+  std::int32_t broken_by = -1;  ///< block, -1: it is whole
   StemHit hit;                  ///< hit.stem says nothing once it is read
 };
 
@@ -159,7 +159,7 @@ struct RunFile {
   RunInfo info;
   RunBlocks blocks;
   RunFrames frames;
-  std::optional<RunReach> reach;  ///< stands for the frames between the first and the last
+  std::optional<RunReach> reach;  ///< replaces the frames between the first and the last
   PassageGrid grid;
   bool passages_by_centroid = false;
   std::vector<Passage> passages;  ///< by block, then cell
@@ -168,8 +168,8 @@ struct RunFile {
   std::vector<RecordObject> objects;
   std::vector<ObjectHit> object_hits;  ///< by object, then block
   std::vector<FenceHit> fence_hits;    ///< by time, step by step
-  std::vector<PanelRow> panels;        ///< of the fences that stood (panel_rows)
-  std::vector<ForestInfo> forests;     ///< that stood
+  std::vector<PanelRow> panels;        ///< of the fences (panel_rows)
+  std::vector<ForestInfo> forests;     ///< of the run
   std::vector<TreeHitRow> tree_hits;   ///< by time, step by step
   std::vector<HealthRow> health;
   std::vector<DeepRow> deep;          ///< by block
@@ -198,20 +198,20 @@ struct RunFile {
 /// What to read beside info and blocks; files of many runs are read for their passages alone.
 struct RunParts {
   bool frames = true, passages = true, crossings = true, health = true, checkpoint = true;
-  bool objects = true;           ///< and what hit them
+  bool objects = true;           ///< and their hits
   bool only_last_frame = false;  ///< of the frames
-  bool only_faults = false;      ///< of the health, penetrations and counts of what went wrong
+  bool only_faults = false;      ///< of the health, penetrations and counts of faults
   bool words = true;             ///< info's config, made_with and plan
   bool merge_pieces = true;      ///< of blocks that broke, see record/pieces.hpp
   bool trees = true;             ///< hits of trees
 };
 
-/// Reads a run file. Throws InputError for a file that is no run, is damaged, or contradicts itself
-/// (an index out of range, arrays of different lengths, numbers that are not finite where they
-/// must be).
+/// Reads a run file. Throws InputError for a file that is not a run, is damaged, or contradicts
+/// itself (an index out of range, arrays of different lengths, numbers that are not finite where
+/// they must be).
 [[nodiscard]] RunFile read_run_file(const std::string& path, const RunParts& parts = {});
 
-/// What tells whether a run belongs to others: `info` and `grid`.
+/// The data that tell whether runs belong together: `info` and `grid`.
 [[nodiscard]] RunFile read_run_head(const std::string& path);
 
 /// Writes `run` to `path` itself, synced. Equal content gives equal bytes.

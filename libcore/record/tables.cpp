@@ -1,3 +1,4 @@
+// Fields of the tables of a run: names, units, titles.
 #include "record/tables.hpp"
 
 namespace talus {

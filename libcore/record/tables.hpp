@@ -16,7 +16,7 @@ using Slot = std::variant<std::int32_t*, std::int64_t*, float*, double*>;
 enum class Kept {
   always,
   where_any,  ///< left out of a file where no row has another value than a new one
-  as_fault    ///< also read where a reader wants no more than what went wrong
+  as_fault    ///< also read by a reader that wants only faults
 };
 
 template <class Row>
@@ -31,7 +31,7 @@ struct StoredField {
 template <class Row>
 struct Table {
   const char* name;   ///< of the group in a file
-  const char* title;  ///< what a row is
+  const char* title;  ///< meaning of a row
   std::vector<StoredField<Row>> fields;
 };
 

@@ -1,3 +1,4 @@
+// Rows of tree hits from the state of a run.
 #include "record/tree_hits.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // libcore/record/tree_hits.hpp: public
-// Which trees were hit, by what, with what left: rows of a run file from the state of a run.
+// Which trees were hit, by which block, with which energy left: rows of a run file from the state.
 #pragma once
 
 #include <vector>
