@@ -283,7 +283,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     if (!new_layers.out.empty()) return make_new_layers(tool, new_layers);
     if (site_options.file().empty() || !out.is_given())
-      throw UsageError({"", 0, "talus-site"}, "needs a site file and a folder to write to",
+      throw UsageError({"", 0, "command line"}, "needs a site file and a folder to write to",
                        "talus-site site.toml -o out/stages, or --new-layers site.gpkg");
     const Site& site = site_options.load();
     const std::string variables = make_variables(site);

@@ -6,6 +6,6 @@ for kilobytes in 64 256 1023; do
   says "hint: ulimit -s 8192"
   nothing_left out.h5
 done
-expect 0 sh -c "ulimit -S -s 64; ulimit -S -s 8192; talus-site '$designed/site.toml' --no-db"
-expect 0 sh -c "ulimit -S -s 1024; talus-site '$designed/site.toml' --no-db"
+expect 0 sh -c "ulimit -S -s 64; ulimit -S -s 8192; talus-site '$designed/site.toml' -o stages --overwrite --no-db"
+expect 0 sh -c "ulimit -S -s 1024; talus-site '$designed/site.toml' -o stages --overwrite --no-db"
 exit 0
