@@ -1,24 +1,21 @@
 #!/usr/bin/env python3
 """Everyday deliveries, taken to a terrain by what the tools say, beside the truth that they were made from.
 
-  python3 tests/studies/deliveries.py [--bin FOLDER] [--out FOLDER] [NAME]... > docs/evidence/deliveries.md
-
 Each is written as its sender writes it: its format, system, unit, order of columns, companions. The call is the one
 that the file's name suggests; then the ways that its hints name are taken, one a step. The ground has a hill, whose
 slopes tell a shift in plan from one in height. Exit 1 where a row is off the truth or ends otherwise than expected.
 Needs python3-gdal, numpy.
 """
-import argparse
 import os
 import re
 import shlex
 import shutil
 import sys
-import tempfile
 import zipfile
 
 from inputs import (FEET, SIDE, SURVEY_FEET, Hill, call, contours, dem, dxf, follow, gdal, hint_in, landxml, mesh,
                     np, ogr, polyline, shift_of, srs, terrain_of, write)
+from study import Study
 
 TABLE = []
 TRN, TIN = 'talus-trn', 'talus-tin'
@@ -317,10 +314,6 @@ def by_hand(way, source):
     return 'plain.csv', 'numbers without signs between thousands'
 
 
-def first_line(said):
-    return re.sub(r'^talus-\w+: ', '', said.strip().splitlines()[0]) if said.strip() else ''
-
-
 def check_import(source, options):
     """Contours and points that talus-import brings to one form first make the same terrain."""
     os.rename('t.tif', 'direct.tif')
@@ -335,17 +328,16 @@ def check_import(source, options):
 
 
 def taken(entry):
-    """(steps, what was said, errors) of a delivery."""
+    """(steps, errors) of a delivery; no errors where it is refused."""
     make, _, tool, options, hill, ways, fill, then, truth, _ = entry
     source = make(hill)
-    words, said = [], []
+    words = []
     accepted, err = terrain_of(tool, source, options)
     for way in ways:
         assert not accepted, f'accepted before "{way}": {err}'
-        said.append(first_line(err).removeprefix(f'{source}: '))
         hint = hint_in(err)
         if way == 'REFUSED':
-            return words, said + [hint], None
+            return words, None
         if way in hint and not re.match(r'--|[\w.]+$', way) and '|' not in way:
             source, step = by_hand(way, source)
             words.append(step)
@@ -360,67 +352,35 @@ def taken(entry):
     assert accepted, f'still refused: {err}'
     if tool == TIN:
         check_import(source, options)
-    said += ['warned: ' + row.split('warning: ', 1)[1] for row in err.splitlines() if 'warning: ' in row]
-    return words, said, shift_of(hill, 't.tif', truth)
+    return words, shift_of(hill, 't.tif', truth)
 
 
-def cell(words):
-    return words.replace('|', '\\|')
+def add_part(entry):
+    """A part of the study: one delivery."""
+    make, words, tool, options = entry[:4]
 
-
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument('--bin')
-    parser.add_argument('--out')
-    parser.add_argument('names', nargs='*')
-    o = parser.parse_args()
-    if o.bin:
-        os.environ['PATH'] = os.path.abspath(o.bin) + ':' + os.environ['PATH']
-    out = os.path.abspath(o.out or tempfile.mkdtemp())
-    failed, n = [], 0
-    print('''# Everyday deliveries
-Each row is a delivery as its sender writes it, made by a script from a ground that is known: 200 m
-by 200 m, a slope of 1 : 2 with a hill. The user gives the file to `talus-trn` (rasters, surfaces)
-or `talus-tin` (contours, points) and does what the hints say, one step each.
-
-The shift in plan is the one that explains most of the errors of height; the error of height holds
-the interpolation too. Contours and points go through `talus-import` as well: the terrain is the
-same to the bit.
-
-`python3 tests/studies/deliveries.py` writes this page, and the test `inputs.test_deliveries` runs
-it.
-
-| Delivery | Given | Steps, as the hints say | Said | Shift in plan [m] | Height: rms, largest [m] |
-|---|---|---|---|---|---|''')
-    for entry in TABLE:
-        make, words, tool, options = entry[:4]
-        if o.names and make.__name__ not in o.names:
-            continue
-        n += 1
-        folder = os.path.join(out, make.__name__)
+    @STUDY.part(make.__name__, 1)
+    def compute(study):
+        folder = study.out / make.__name__
         shutil.rmtree(folder, ignore_errors=True)
-        os.makedirs(folder)
+        folder.mkdir()
         os.chdir(folder)
         try:
-            steps, said, errors = taken(entry)
+            steps, errors = taken(entry)
         except Exception as why:
-            failed.append(f'{make.__name__}: {type(why).__name__} {why}')
-            continue
-        call = f'`{" ".join([tool, *options])}`'
-        if errors is None:
-            numbers = '- | -'
-        else:
+            sys.exit(f'FAILED: {make.__name__}: {type(why).__name__} {why}')
+        said = {'given to': f'`{" ".join([tool, *options])}`',
+                'steps, as the hints say': '; '.join(f"`{s}`" for s in steps).replace('|', '\\|') or '-'}
+        if errors is not None:
             plan, rms, largest, known = errors
-            numbers = f'{plan:.2f} | {rms:.2f}, {largest:.2f}'
             if not (plan <= max(.3, entry[-1]) and rms <= entry[-1] and known >= .9):
-                failed.append(f'{make.__name__}: {plan:.2f} m in plan, {rms:.2f} m in height, {100 * known:.0f} % known')
-        print(f'| {words} | {call} | {cell("; ".join(f"`{s}`" for s in steps)) or "-"} | '
-              f'{cell("; ".join(said)) or "-"} | {numbers} |', flush=True)
-    print(f'\n{n} deliveries.')
-    for row in failed:
-        print('FAILED:', row, file=sys.stderr)
-    return 1 if failed else 0
+                sys.exit(f'FAILED: {make.__name__}: {plan:.2f} m in plan, {rms:.2f} m in height, {100 * known:.0f} % known')
+            said |= {'shift in plan [m]': f'{plan:.2f}', 'height, rms [m]': f'{rms:.2f}', 'height, largest [m]': f'{largest:.2f}'}
+        study.row('all', words, said)
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    STUDY = Study(__file__, __doc__)
+    for one in TABLE:
+        add_part(one)
+    STUDY.main()
