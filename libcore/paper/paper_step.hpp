@@ -34,7 +34,7 @@ struct PaperLaw {
 [[nodiscard]] State paper_start(const Scene& scene, Work& work, PaperLaw& paper);
 
 /// Advances all blocks to state.time + settings.dt. Eq. (28) is applied only where blocks do not
-/// meet: in a mass it throws them about (docs/evidence/measurements.md).
+/// meet: in a mass it throws them about.
 StepReport paper_step(const Scene& scene, State& state, Work& work, PaperLaw& paper);
 
 }  // namespace talus

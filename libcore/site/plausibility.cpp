@@ -164,7 +164,7 @@ double expected_cpu_s(double n_blocks, double duration, double dt) {
 }
 
 double expected_cpu_s_alone(double n_rocks) {
-  constexpr double cpu_of_a_rock = 0.01;  // tests/bench/trajectories.sh
+  constexpr double cpu_of_a_rock = 0.01;  // tests/studies/speed.py
   return cpu_of_a_rock * n_rocks;
 }
 

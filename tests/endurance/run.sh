@@ -1,9 +1,9 @@
 #!/bin/sh
-# All faults against all tools, and the table of docs/evidence/measurements.md.
+# All faults against all tools.
 #   sh tests/endurance/run.sh          the short form, as among the tests
 #   sh tests/endurance/run.sh long     hundreds of kills, 10,000 registered runs, the release tools
 #                                      against those of preset dev and of a build in another folder;
-#                                      writes the table with the commit
+#                                      leaves build/endurance.rows (tests/studies/faults.py)
 #   sh tests/endurance/run.sh long PART,...
 #                                      of kill,signal,limit,memory,write,disk,names,sources,registry,same
 set -eu
@@ -28,8 +28,5 @@ case ",${5:-same}," in *,same,*)
   set -- "$@" --other "release and dev=$(bins "$PWD/build/dev")" \
     --other "a build in another folder=$(bins "$elsewhere/build/release")" ;;
 esac
-result=0
-python3 -u tests/endurance/endurance.py --bin "$(bins "$PWD/build/release")" --source "$PWD" \
-  --work build/endurance "$@" || result=1
-python3 tests/endurance/write_table.py build/endurance.rows docs/evidence/measurements.md
-exit $result
+exec python3 -u tests/endurance/endurance.py --bin "$(bins "$PWD/build/release")" --source "$PWD" \
+  --work build/endurance "$@"

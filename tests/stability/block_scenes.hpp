@@ -144,7 +144,7 @@ inline void expect_bounded(double stiffness, double dt, double duration, int n_h
     substeps += state.counters.substeps;
   }
   EXPECT_LE(unconverged, substeps / 1000) << text(stiffness, 3) << ' ' << text(dt, 3);
-  // for docs/evidence/measurements.md: --gtest_output=json
+  // --gtest_output=json prints them
   const std::string setting = "_k" + text(stiffness, 3) + "_dt" + text(dt, 3);
   testing::Test::RecordProperty("mean_gain" + setting, text(sum_of_gains / n_heaps, 2));
   testing::Test::RecordProperty("largest_gain" + setting, text(largest_gain, 2));

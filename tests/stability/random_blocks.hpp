@@ -171,7 +171,7 @@ inline Outcome run_random_blocks(const Trn& trn, int n, double duration_s, std::
 }
 
 inline void expect_sound(const Outcome& out, int n) {
-  // for docs/evidence/measurements.md: --gtest_output=json
+  // --gtest_output=json prints them
   testing::Test::RecordProperty("deepest_over_tolerance", text(out.deepest, 3));
   testing::Test::RecordProperty("left_terrain", out.left);
   testing::Test::RecordProperty("unconverged_substeps", static_cast<int>(out.unconverged));

@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
 """Calibration on two field tests: which values of the soil the boulders do not contradict.
 
-  python3 tests/studies/calibrate.py [BIN] [-o FOLDER] [--data FOLDER] [--runs N]
-
 The sites are those of field.py, with terrain held level beyond the tracks. Two numbers of all soils are
 drawn together, as they are fitted by field.py --fit: cor_half_energy_kj and bearing_kpa. Each run draws
 both by a Sobol design, the same of both sites, so a run of one has the values of that run of the other.
@@ -11,17 +9,14 @@ both by a Sobol design, the same of both sites, so a run of one has the values o
 Left out are: each boulder; each half of the boulders, every other one; and each site, whose set is judged
 by the boulders of the other.
 """
-import argparse
 import csv
 import json
 import os
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 
 import field
+from study import SOURCE, Study
 
 RANGES = {"cor_half_energy_kj": (0.5, 8), "bearing_kpa": (1000, 16000)}
 GROUNDS = {"tschamut": ["meadow"], "authume_P1": ["vegetated", "hard", "rocky", "beyond"]}
@@ -48,19 +43,16 @@ def observed(folder, **layers):
 
 def calibrated(slope, tools, n_runs):
     """What talus-calibrate says of the runs of a site, with each half of the boulders left out in turn."""
-    name, pipelines = slope.name, Path(__file__).resolve().parents[2] / "pipelines"
+    name = slope.name
     folder = tools.folder / name
     folder.mkdir(exist_ok=True)
     text = slope.text.replace("[output]\npassages = false\n", "[output]\n") + uncertainty(GROUNDS[name])
     ends = np.hstack([slope.starts + slope.seen, slope.starts])
     (folder / "site.toml").write_text(text + observed(folder, all=ends))
     (folder / "halves.toml").write_text(text + observed(folder, first=ends[::2], second=ends[1::2]))
-    (folder / "Makefile").write_text(f"include {pipelines}/site.mk\n")
-    words = ["make", "-s", "-C", folder, f"BIN={tools.tools}/", f"RUNS={n_runs}", f"-j{os.cpu_count()}",
-             f"DEM=../{name}_level_dem.tif", "TRN_FLAGS=--crs none", "DDA_FLAGS=--settle", "calibrate"]
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(done.stderr)
+    (folder / "Makefile").write_text(f"include {SOURCE}/pipelines/site.mk\n")
+    tools.study.make(folder, f"RUNS={n_runs}", f"-j{os.cpu_count()}", f"DEM=../{name}_level_dem.tif",
+                     "TRN_FLAGS=--crs none", "DDA_FLAGS=--settle", "calibrate")
     tools.run("talus-calibrate", f"{name}/halves.toml", f"{name}/out/runs", "--trn", f"{name}/out/trn.tif",
               "-o", f"{name}_halves.gpkg", "--json", f"{name}_halves.json")
     found, halves = (json.loads((tools.folder / file).read_text())["calibration"]
@@ -68,35 +60,30 @@ def calibrated(slope, tools, n_runs):
     return found | {"halves": halves["left_out_layers"]}
 
 
-def main():
-    here = Path(__file__).resolve().parents[2]
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("bin", nargs="?", default=here / "build/release/tools", type=Path)
-    parser.add_argument("-o", "--out", default=here / "build/calibrate", type=Path)
-    parser.add_argument("--data", default=here / "../shared/data/experiments", type=Path)
-    parser.add_argument("--runs", default=64, type=int)
-    args = parser.parse_args()
-    args.out.mkdir(parents=True, exist_ok=True)
-    tools, data = field.Tools(args.bin.resolve(), args.out.resolve(), []), args.data.resolve()
-    found = {slope.name: calibrated(slope, tools, args.runs)["calibration"]
+STUDY = Study(__file__, __doc__)
+STUDY.words.add_argument("--runs", default=64, type=int)
+
+
+@STUDY.part("all", 1200)
+def compute(study):
+    study.need_data("experiments")
+    tools, data = field.Tools(study), study.data / "experiments"
+    found = {slope.name: calibrated(slope, tools, study.options.runs)["calibration"]
              for slope in (field.tschamut(tools, data / "tschamut2014", ROCKS["tschamut"]),
                            field.authume(tools, data / "authume_P1", ROCKS["authume_P1"]))}
-    field.head("site", "runs not contradicted", *(f"{key} of the set" for key in RANGES),
-               "left-out boulders from p5 to p95", "half left out: contradicts of the runs that the other leaves")
-    for name, said in found.items():
-        of_key = {key["key"].rpartition(".")[2]: key for key in said["keys"]}
-        ranges = [f"{of_key[key]['set_low']:.3g} to {of_key[key]['set_high']:.3g}" if said["n_plausible"] else "none"
-                  for key in RANGES]
-        field.line(name, f"{said['n_plausible']} of {said['n_runs']}", *ranges,
-                   f"{said['left_out']['n_within']} of {said['left_out']['n']}",
-                   ", ".join(f"{half['layer']}: {half['n_contradicted']} of {half['n_plausible']}"
-                             for half in said["halves"]))
     sets = {name: {run["seed"] for run in said["runs"] if run["implausibility"] <= said["most_implausible"]}
             for name, said in found.items()}
-    (one, first), (other, second) = sets.items()
-    print(f"\nOf the {len(first)} runs that {one} leaves, {other} contradicts {len(first - second)}; "
-          f"of the {len(second)} that {other} leaves, {one} contradicts {len(second - first)}.")
+    for name, said in found.items():
+        of_key = {key["key"].rpartition(".")[2]: key for key in said["keys"]}
+        ranges = {f"{key} of the set": f"{of_key[key]['set_low']:.3g} to {of_key[key]['set_high']:.3g}"
+                  if said["n_plausible"] else "none" for key in RANGES}
+        other, = (n for n in found if n != name)
+        study.row("sites", name, {
+            "runs": said["n_runs"], "not contradicted": said["n_plausible"], **ranges,
+            "left-out boulders within": f"{said['left_out']['n_within']} of {said['left_out']['n']}",
+            "a half left out contradicts": ", ".join(f"{half['n_contradicted']} of {half['n_plausible']}" for half in said["halves"]),
+            "the other site contradicts": f"{len(sets[name] - sets[other])} of {len(sets[name])}"})
 
 
 if __name__ == "__main__":
-    main()
+    STUDY.main()

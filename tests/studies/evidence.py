@@ -7,14 +7,15 @@
   python3 tests/studies/evidence.py check                                 fails where a page is not as the files say
 
 `run` takes what each study found to docs/evidence/data/STUDY.csv and writes the pages. It leaves out what is there of
-the same commit, so it can be ended and begun anew; all of it takes some COST_H hours of one core, and two halves
-(names of studies) can be run side by side.
+the same commit, so it can be ended and begun anew. `list` says what each costs; two halves (names of studies) can be
+run side by side.
 
 A page is PAGE.md.in with these marks filled:
 
   {{table STUDY.TABLE | first column | quantity, ...}}   a table, with all quantities where none is named
   {{STUDY.TABLE/ROW/QUANTITY}}                           a value; ROW *: the least and the largest of all rows
   {{interval STUDY.TABLE/ROW/QUANTITY}}                  its interval
+  {{sum STUDY.TABLE/*/QUANTITY}}                         the sum of all rows
   {{holds STUDY.TABLE/ROW/QUANTITY <= 5}}                "holds" or "**does not hold**"; ROW *: of every row
   {{made STUDY}}                                         the command, the commit and the date
   {{commits}}                                            the commit of all, and which files are older
@@ -35,7 +36,8 @@ import study
 
 EVIDENCE = study.SOURCE / "docs/evidence"
 # In the order of a run: some read what others left in OUT.
-STUDIES = ["deliveries"]
+STUDIES = ["deliveries", "terrain_error", "field", "calibrate", "two_bounds", "fence_search", "forecast", "designed_slide",
+           "real_sites", "mobility", "rocks_beside_ode", "beside_ode", "speed", "verification", "faults", "first_result"]
 COMPARE = {"<=": operator.le, ">=": operator.ge, "<": operator.lt, ">": operator.gt, "==": operator.eq}
 
 
@@ -77,7 +79,10 @@ class Data:
 
 
 def number(text):
-    return float(text.replace(",", "").rstrip("% "))
+    try:
+        return float(text.replace(",", ""))
+    except ValueError as error:
+        raise Fault(f'"{text}" is no number') from error
 
 
 def filled(data, mark):
@@ -88,20 +93,23 @@ def filled(data, mark):
     if kind == "interval":
         one, = data.values(rest)
         return f"{one['low']} to {one['high']}"
+    if kind == "sum":
+        return f"{sum(number(one['value']) for one in data.values(rest)):,.0f}"
     if kind == "holds":
         place, sign, bound = re.fullmatch(r"(.*) (<=|>=|<|>|==) (\S+)", rest).groups()
         good = all(COMPARE[sign](number(one["value"]), float(bound)) for one in data.values(place))
         return "holds" if good else "**does not hold**"
     if kind == "made":
         head = data.head(rest)
-        return f"`{head['command']}` ({head['commit'][:8]}, {head['date']})"
+        return f"`{head['command']}` ({head['commit'][:8]}, {head['date']}{'; older, ' + head['old'] if 'old' in head else ''})"
     if kind == "commits":
         said = f"All numbers are of commit {next(iter(data.new))[:8]}" if data.new else "No number is of this commit"
         old = [f"{name} ({head['commit'][:8]})" for name, head in data.heads.items() if "old" in head]
         return said + (f", but for older ones that wait to be measured again: {', '.join(old)}." if old else ".")
     found = [one["value"] for one in data.values(mark)]
-    low, high = min(found, key=number), max(found, key=number)
-    return low if len(found) == 1 or low == high else f"{low} to {high}"
+    if len(set(found)) == 1:
+        return found[0]
+    return f"{min(found, key=number)} to {max(found, key=number)}"
 
 
 def wrapped(paragraph):
@@ -111,17 +119,17 @@ def wrapped(paragraph):
         return heading + "\n" + wrapped(rest) if rest else heading
     if re.match("`{3}|    ", paragraph):
         return paragraph
-    items = re.split(r"\n(?=- |\d+\. )", paragraph)
+    items = re.split(r"\n(?=- )", paragraph)
     return "\n".join(textwrap.fill(" ".join(item.split()), 100, break_long_words=False, break_on_hyphens=False,
                                    subsequent_indent="  " if item.startswith("- ") else "") for item in items)
 
 
 def page(data, template):
-    """The page of a template; only paragraphs with a mark are wrapped anew."""
+    """The page of a template."""
     whole = []
     for paragraph in template.split("\n\n"):
         made = re.sub(r"\{\{(.+?)\}\}", lambda mark: filled(data, mark.group(1)), paragraph)
-        whole.append(wrapped(made) if made != paragraph and "\n|" not in "\n" + made else made)
+        whole.append(wrapped(made) if "\n|" not in "\n" + made else made)
     return "\n\n".join(whole).rstrip("\n") + "\n"
 
 

@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
 """Field tests: what Talus computes beside what was observed, every case by one command.
 
-  python3 tests/studies/field.py [BIN] [-o FOLDER] [--data FOLDER] [--set KEY=VALUE]... [--fit]
-
 - Tschamut 2014: 18 runs of blocks of 40 to 79 kg on a meadow.
 - Authume quarry, path P1: 41 boulders of 0.2 to 1.8 t on a slope, two walls and a hard floor.
 - Chant Sura: 11 single hits of blocks of 210 to 780 kg on a meadow.
@@ -20,19 +18,17 @@ of the heap, which are all that are nearer than 1.5 blocks to one of it; the mid
 
 Intervals are 95 %, of the observed runs and of the computed blocks of each drawn again (bootstrap). The
 noise of the data is the area between halves of the observed runs drawn at random, its median and 95 %.
---set changes a section [ground.NAME] of the site files that have it, as in talus-dda. --fit prints a table
-of the two numbers that soils were fitted by instead: the same on all grounds, with fewer blocks.
+--set changes a section [ground.NAME] of the site files that have it, as in talus-dda. The part `fit` is the table
+of the two numbers that soils were fitted by: the same on all grounds, with fewer blocks.
 """
-import argparse
 import csv
 import itertools
-import subprocess
-import sys
-from pathlib import Path
 
 import h5py
 import numpy as np
 from osgeo import gdal
+
+from study import Study
 
 gdal.UseExceptions()
 N_DRAWN = 500  # sets drawn again
@@ -62,17 +58,13 @@ def rocks(name, shape, volume, places, velocity, n, more=""):
 
 
 class Tools:
-    """The tools, run in one folder."""
+    """The tools, run in the folder of a study; `more` words KEY=VALUE change sections [ground.*]."""
 
-    def __init__(self, tools, folder, more):
-        self.tools, self.folder = tools, folder
-        self.more = more
+    def __init__(self, study, more=()):
+        self.study, self.folder, self.more = study, study.out, more
 
     def run(self, tool, *words):
-        done = subprocess.run([str(self.tools / tool), *map(str, words), "--no-db", "-q", "--overwrite"],
-                              cwd=self.folder, capture_output=True, text=True)
-        if done.returncode not in (0, 3):  # 3: a limit of the run's health, the run is used
-            sys.exit(done.stderr)
+        self.study.run(tool, *words, "--no-db", "-q", "--overwrite", codes=(0, 3))  # 3: a limit of the run's health
 
     def terrain(self, name, z, transform, no_data=-9999):
         file = gdal.GetDriverByName("GTiff").Create(str(self.folder / f"{name}_dem.tif"), z.shape[1], z.shape[0], 1,
@@ -126,7 +118,7 @@ def with_interval(of, runs, draw):
         again = draw.integers(blocks.shape[1], size=(len(seen), blocks.shape[1]))
         values.append(of(seen[chosen], np.take_along_axis(blocks[chosen], again, 1).ravel()))
     low, high = np.percentile(values, [2.5, 97.5])
-    return f"{of(seen, blocks.ravel()):.1f} ({low:.1f} to {high:.1f})"
+    return tuple(f"{x:.1f}" for x in (of(seen, blocks.ravel()), low, high))
 
 
 def noise(seen, draw):
@@ -161,34 +153,34 @@ class Slope:
 
     def figures(self, terrain):
         """For fits: of the rows what is fitted."""
-        moved, left = self.simulate(terrain)
+        moved, _ = self.simulate(terrain)
         seen, made = sides(self.seen, self.along), sides(moved.reshape(-1, 2), self.along)
         return {"mean": made["length"].mean(), "area": area(seen["length"], made["length"]),
-                "width": width(made["length"]), "across": made["across"].std() / seen["across"].std(),
-                "left": left.mean()}
+                "width": width(made["length"]), "across": made["across"].std() / seen["across"].std()}
 
-    def rows(self):
+    def add_rows(self):
         draw = np.random.default_rng(1)
         seen = sides(self.seen, self.along)
         length, farthest = seen["length"], seen["length"].max()
         again = [draw.integers(len(length), size=len(length)) for _ in range(N_DRAWN)]
-        between = lambda of: "{:.0f} to {:.0f}".format(*np.percentile([of(k) for k in again], [2.5, 97.5]))
-        line(self.name, "observed", f"{length.mean():.1f} ({between(lambda k: length[k].mean())})",
-             *(f"{x:.0f}" for x in np.percentile(length, [10, 50, 90])),
-             f"{width(length):.0f} ({between(lambda k: width(length[k]))})",
-             "noise {:.1f} ({:.1f} to {:.1f})".format(*noise(length, draw)),
-             f"{seen['across'].std():.1f} ({between(lambda k: seen['across'][k].std())})",
-             f"{seen['angle'].std():.1f}", "", "")
+        interval = lambda of: (f"{x:.1f}" for x in (of(slice(None)), *np.percentile([of(k) for k in again], [2.5, 97.5])))
+        tens = lambda values: {f"p{p} [m]": f"{x:.0f}" for p, x in zip((10, 50, 90), np.percentile(values, [10, 50, 90]))}
+        add = lambda row, quantities: self.tools.study.row("slopes", f"{self.name}, {row}", quantities)
+        add("observed", {"mean run-out [m]": tuple(interval(lambda k: length[k].mean())), **tens(length),
+                         "p90 - p10 [m]": tuple(interval(lambda k: width(length[k]))),
+                         "area [m]": tuple(f"{x:.1f}" for x in noise(length, draw)),
+                         "across [m]": tuple(interval(lambda k: seen["across"][k].std()))})
         for terrain in ("level", "supplied"):
             moved, left = self.simulate(terrain)
             made = sides(moved.reshape(-1, 2), self.along)
             runs = length, made["length"].reshape(moved.shape[:2])
-            line(self.name, terrain, with_interval(lambda _, x: x.mean(), runs, draw),
-                 *(f"{x:.0f}" for x in np.percentile(made["length"], [10, 50, 90])),
-                 with_interval(lambda _, x: width(x), runs, draw), with_interval(area, runs, draw),
-                 with_interval(lambda _, x: x.std(), (seen["across"], made["across"].reshape(moved.shape[:2])), draw),
-                 f"{made['angle'][made['length'] > 5].std():.1f}",
-                 f"{100 * (made['length'] > farthest).mean():.0f} %", f"{100 * left.mean():.0f} %")
+            across = seen["across"], made["across"].reshape(moved.shape[:2])
+            add(terrain, {"mean run-out [m]": with_interval(lambda _, x: x.mean(), runs, draw), **tens(made["length"]),
+                          "p90 - p10 [m]": with_interval(lambda _, x: width(x), runs, draw),
+                          "area [m]": with_interval(area, runs, draw),
+                          "across [m]": with_interval(lambda _, x: x.std(), across, draw),
+                          "beyond the farthest [%]": f"{100 * (made['length'] > farthest).mean():.0f}",
+                          "left [%]": f"{100 * left.mean():.0f}"})
 
 
 def tschamut(tools, data, n=60):
@@ -251,29 +243,20 @@ class Hits:
                 kept.append((np.linalg.norm(after) / np.linalg.norm(v[first, b]), after @ normal, after @ down))
         return np.array(kept)
 
-    def table(self):
-        head("hit", "approach, m/s", "along, m/s", "kept, observed", "kept (95 % of the mean)", "normal after",
-             "computed", "along after", "computed", "do not leave")
-        means = []
-        for k, hit in enumerate(self.hits):
-            made = self.simulate(k)
-            means.append(made.mean(0))
-            error = 2 * made[:, 0].std() / len(made) ** 0.5
-            line(k + 1, f"{abs(float(hit['vn_in_m_s'])):.1f}", f"{float(hit['vt_in_m_s']):.1f}",
-                 f"{float(hit['speed_kept']):.2f}", f"{means[-1][0]:.2f} ± {error:.2f}", hit["vn_out_m_s"],
-                 f"{means[-1][1]:.2f}", hit["vt_out_m_s"], f"{means[-1][2]:.2f}", N_HITS - len(made))
+    def add_rows(self):
+        means = np.array([self.simulate(k).mean(0) for k in range(len(self.hits))])
         seen = np.array([float(h["speed_kept"]) for h in self.hits])
         approach = np.array([abs(float(h["vn_in_m_s"])) for h in self.hits])
         along = np.array([float(h["vt_in_m_s"]) for h in self.hits])
         speed = np.array([float(h["speed_in_m_s"]) for h in self.hits])
-        head("hits", "mean share of speed kept", "of the normal part", "along",
-             "share kept per m/s of speed", "normal part per m/s of approach")
         after = np.array([numbers(hit, "vn_out_m_s", "vt_out_m_s") for hit in self.hits])
-        for name, kept, of in (("observed", seen, after), ("computed", *np.split(np.array(means), [1], 1))):
-            kept = kept.ravel()
-            line(name, f"{kept.mean():.2f} ± {2 * kept.std(ddof=1) / len(kept) ** 0.5:.2f}",
-                 f"{(of[:, 0] / approach).mean():.2f}", f"{(of[:, 1] / along).mean():.2f}",
-                 f"{np.polyfit(speed, kept, 1)[0]:+.2f}", f"{np.polyfit(approach, of[:, 0] / approach, 1)[0]:+.2f}")
+        for name, kept, of in (("observed", seen, after), ("computed", means[:, 0], means[:, 1:])):
+            error = 2 * kept.std(ddof=1) / len(kept) ** 0.5
+            self.tools.study.row("hits", name, {
+                "share of speed kept": tuple(f"{kept.mean() + x:.2f}" for x in (0, -error, error)),
+                "of the normal part": f"{(of[:, 0] / approach).mean():.2f}", "along": f"{(of[:, 1] / along).mean():.2f}",
+                "share kept per m/s of speed": f"{np.polyfit(speed, kept, 1)[0]:+.2f}",
+                "normal part per m/s of approach": f"{np.polyfit(approach, of[:, 0] / approach, 1)[0]:+.2f}"})
 
 
 class Columns:
@@ -318,60 +301,58 @@ class Columns:
         edge = np.mean([distance[sector == s].max(initial=0) for s in range(24)]) + 0.5
         return height, edge, np.percentile(np.hypot(*at[-1, :, :2].T), 95)
 
-    def table(self):
-        head("columns: blocks", "radius over block", "friction, degrees", "height over radius a",
-             "growth of the radius, observed", "computed", "of 95 % of the blocks")
-        for n, radius, friction in self.CASES:
-            height, *radii = self.simulate(n, radius, friction)
-            a = height / radius
-            line(n, radius, friction, f"{a:.2f}", f"{1.24 * a if a < 1.7 else 1.6 * a ** 0.5:.2f}",
-                 *(f"{r / radius - 1:.2f}" for r in radii))
+    def add_row(self, n, radius, friction):
+        height, *radii = self.simulate(n, radius, friction)
+        a = height / radius
+        seen, (made, most) = 1.24 * a if a < 1.7 else 1.6 * a ** 0.5, (r / radius - 1 for r in radii)
+        self.tools.study.row("columns", f"{n} blocks, radius {radius}, {friction} degrees", {
+            "height over radius": f"{a:.2f}", "growth of the radius, observed": f"{seen:.2f}", "computed": f"{made:.2f}",
+            "of 95 % of the blocks": f"{most:.2f}", "computed over observed": f"{made / seen:.2f}"})
 
 
-def fit(tools, data):
+STUDY = Study(__file__, __doc__)
+STUDY.words.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
+
+
+@STUDY.part("tschamut", 60)
+def of_tschamut(study):
+    study.need_data("experiments/tschamut2014")
+    tschamut(Tools(study, study.options.set), study.data / "experiments/tschamut2014").add_rows()
+
+
+@STUDY.part("authume_P1", 60)
+def of_authume(study):
+    study.need_data("experiments/authume_P1")
+    authume(Tools(study, study.options.set), study.data / "experiments/authume_P1").add_rows()
+
+
+@STUDY.part("hits", 20)
+def of_hits(study):
+    Hits(Tools(study, study.options.set), study.data / "experiments").add_rows()
+
+
+for case in Columns.CASES:
+    STUDY.part("columns_{}_{}_{}".format(*case), 100)(
+        lambda study, case=case: Columns(Tools(study, study.options.set)).add_row(*case))
+
+
+@STUDY.part("fit", 100)
+def fit(study):
+    tools, data = Tools(study), study.data / "experiments"
     slopes = tschamut(tools, data / "tschamut2014", 12), authume(tools, data / "authume_P1", 2)
     hits = Hits(tools, data)
-    head(*FITTED, *(f"{slope.name}: {name}" for slope in slopes
-                    for name in ("mean", "area", "p90 - p10", "across over observed", "left")), "speed kept in hits")
     for values in itertools.product(*FITTED.values()):
         tools.more = [f"ground.{ground}.{key}={value}" for ground in ("meadow", "vegetated", "hard", "rocky", "beyond")
                       for key, value in zip(FITTED, values)]
-        cells = []
-        for made in (slope.figures("level") for slope in slopes):
-            cells += [f"{made['mean']:.0f}", f"{made['area']:.1f}", f"{made['width']:.0f}", f"{made['across']:.2f}",
-                      f"{100 * made['left']:.0f} %"]
+        found = {}
+        for slope in slopes:
+            made = slope.figures("level")
+            found |= {f"{slope.name}: mean [m]": f"{made['mean']:.0f}", f"{slope.name}: area [m]": f"{made['area']:.1f}",
+                      f"{slope.name}: p90 - p10 [m]": f"{made['width']:.0f}",
+                      f"{slope.name}: across over observed": f"{made['across']:.2f}"}
         kept = np.mean([hits.simulate(k)[:, 0].mean() for k in range(len(hits.hits))])
-        line(*values, *cells, f"{kept:.2f}")
-
-
-def head(*words):
-    print("\n| " + " | ".join(words) + " |\n|" + "---|" * len(words))
-
-
-def line(*words):
-    print("| " + " | ".join(str(word) for word in words) + " |", flush=True)
-
-
-def main():
-    here = Path(__file__).resolve().parents[2]
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("bin", nargs="?", default=here / "build/release/tools", type=Path)
-    parser.add_argument("-o", "--out", default=here / "build/field", type=Path)
-    parser.add_argument("--data", default=here / "../shared/data/experiments", type=Path)
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
-    parser.add_argument("--fit", action="store_true")
-    args = parser.parse_args()
-    args.out.mkdir(parents=True, exist_ok=True)
-    tools, data = Tools(args.bin.resolve(), args.out.resolve(), args.set), args.data.resolve()
-    if args.fit:
-        return fit(tools, data)
-    head("site", "terrain", "mean run-out, m", "p10", "p50", "p90", "p90 - p10", "area", "across, m", "degrees",
-         "beyond the farthest", "left the terrain")
-    for slope in (tschamut(tools, data / "tschamut2014"), authume(tools, data / "authume_P1")):
-        slope.rows()
-    Hits(tools, data).table()
-    Columns(tools).table()
+        study.row("fit", "{} kJ, {} kPa".format(*values), found | {"speed kept in hits": f"{kept:.2f}"})
 
 
 if __name__ == "__main__":
-    main()
+    STUDY.main()

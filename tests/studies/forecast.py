@@ -1,32 +1,22 @@
 #!/usr/bin/env python3
 """What talus-check forecasts beside what a run does: the share of the mass that moves, and the time.
 
-  python3 tests/studies/forecast.py OUT [--bin FOLDER] [--drawn N] [--seed K] [--duration S] [--most-s S] [--jobs J]
-                                    [FOLDER...]
-
-All sites are looked at first (`make check`); then each gets one run, the cheapest first. A site that is said to take
-more than --most-s of processor time is named and left out. The share of the mass that the probe sees on its way
-stands beside the share that moved more than 1 m by the end; the time that the check says for this machine beside the
-processor time of talus-dda. Sites: FOLDER..., else the four shared slopes, a slope of the Serles and N (10) drawn at
-random (forecast_sites.py). Drawn sites that offer no mass (refused by the check, or no plane daylights) are named and
-replaced by the next ones drawn. What is in OUT already is not computed again, so the study can be ended and begun anew
-at any time; sites.csv there holds the table of what is known so far.
-Needs python3-gdal.
+All sites are looked at first (`make check`); then each gets one run of 30 s, the cheapest first. The share of the mass
+that the probe sees on its way stands beside the share that moved more than 1 m by the end; the time that the check
+says for this machine beside the processor time of talus-dda. Sites: the four shared slopes, a slope of the Serles and
+ten drawn at random (forecast_sites.py). Drawn sites that offer no mass (refused by the check, or no plane daylights)
+are named and replaced by the next ones drawn.
 """
-import argparse
-import concurrent.futures
-import csv
 import json
-import math
 import os
 import re
 import subprocess
-import sys
 
 import forecast_sites
+from study import SOURCE, Study
 
-root = forecast_sites.root
-shared = ('gschnitz_gar', 'lechtal_kotcliff', 'lechtal_kotdam', 'salisbury_crags')  # the dearest last
+SHARED = ('gschnitz_gar', 'lechtal_kotcliff', 'lechtal_kotdam', 'salisbury_crags')
+DRAWN, SEED, DURATION_S = 10, 11, 30
 
 
 def kind(share):
@@ -38,112 +28,70 @@ def seconds_said(words):
     return float(number) * {'s': 1, 'min': 60, 'h': 3600}[unit]
 
 
-def make(folder, out, options, goals, log):
-    tools = [f'BIN={options.bin}/'] if options.bin else []
-    duration = f'--set solver.duration_s={options.duration}' if options.duration else ''
-    command = ['make', '-C', folder, *tools, f'OUT={out}', 'RUNS=1', 'WITHOUT=no', f'CHECK_FLAGS={duration}',
+def make(study, folder, out, goals, log):
+    duration = f'--set solver.duration_s={DURATION_S}'
+    command = ['make', '-C', folder, f'BIN={study.bin}/', f'OUT={out}', 'RUNS=1', 'WITHOUT=no', f'CHECK_FLAGS={duration}',
                f'DDA_FLAGS=--json {duration}', *goals]
     with open(log, 'w', encoding='utf-8') as file:
         return subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode
 
 
-def first_message(*logs):
-    lines = [line for log in logs if os.path.exists(log) for line in open(log, encoding='utf-8')]
-    return next((line.strip() for line in lines if re.match(r'talus-\w+: (?!warning)', line)), f'see {logs[-1]}')[:160]
+def first_message(log):
+    with open(log, encoding='utf-8') as lines:
+        return next((line.strip() for line in lines if re.match(r'talus-\w+: (?!warning)', line)), f'see {log}')[:160]
 
 
-def looked_at(folder, options):
+def looked_at(study, folder):
     """What the check says of a site, or why it says nothing."""
-    name = os.path.basename(folder.rstrip('/'))
-    out = os.path.join(options.out, name)
-    log = f'{out}.check.log'
+    name = os.path.basename(folder)
+    out, log = study.out / name, study.out / f'{name}.check.log'
     row = {'site': name, 'folder': folder}
-    if not os.path.exists(f'{out}/check.json') or not os.path.exists(log):
-        if make(folder, out, options, ['check'], log) != 0:
-            return {**row, 'why_not': first_message(log)}
-    check = json.load(open(f'{out}/check.json', encoding='utf-8'))
-    if any(doubt['refused'] for doubt in check['doubts']):
+    if not (out / 'check.json').exists() and make(study, folder, out, ['check'], log) != 0:
         return {**row, 'why_not': first_message(log)}
-    if 'probe' not in check:
-        return {**row, 'why_not': 'was not probed'}
-    return {**row, 'blocks': check['n_blocks'], 'forecast': round(check['probe']['moved_share'], 3),
-            'said_s': seconds_said(open(log, encoding='utf-8').read())}
-
-
-def run(row, options):
-    """The same row with what a run of the site gave, or why it gave nothing."""
-    out = os.path.join(options.out, row['site'])
-    log = f'{out}.run.log'
-    if not os.path.exists(f'{out}/runout.json'):
-        if row['said_s'] > options.most_s:
-            return {**row, 'why_not': f"not run: it is said to take {row['said_s']:.0f} s"}
-        make(row['folder'], out, options, ['runs', 'runout'], log)
-    if not os.path.exists(f'{out}/runout.json'):
+    check = json.loads((out / 'check.json').read_text())
+    if any(doubt['refused'] for doubt in check['doubts']) or 'probe' not in check:
         return {**row, 'why_not': first_message(log)}
-    runout = json.load(open(f'{out}/runout.json', encoding='utf-8'))
-    cpu = float(re.search(r'"cpu_time_s":\s*([\d.e+-]+)', open(log, encoding='utf-8').read()).group(1))
-    return {**row, 'moved': round(runout['moved']['share_moved_1_m'], 3), 'cpu_s': round(cpu, 2)}
+    return {**row, 'blocks': check['n_blocks'], 'forecast': check['probe']['moved_share'], 'said_s': seconds_said(log.read_text())}
 
 
-def summary(rows):
+def run(study, row):
+    """The same row with what a run of the site gave."""
+    out, log = study.out / row['site'], study.out / f"{row['site']}.run.log"
+    if not (out / 'runout.json').exists():
+        make(study, row['folder'], out, ['runs', 'runout'], log)
+    runout = json.loads((out / 'runout.json').read_text())
+    cpu = float(re.search(r'"cpu_time_s":\s*([\d.e+-]+)', log.read_text()).group(1))
+    return {**row, 'moved': runout['moved']['share_moved_1_m'], 'cpu_s': cpu}
+
+
+STUDY = Study(__file__, __doc__)
+
+
+@STUDY.part('all', 500)
+def compute(study):
+    study.need_data('dem', 'scenarios')
+    sites = str(study.out / 'sites')
+    draw, looks = forecast_sites.drawn(sites, SEED), []
+    folders = [forecast_sites.serles(sites)] + [f'{SOURCE}/sample_sites/{name}' for name in SHARED]
+    while folders or len(looks) < DRAWN + 1 + len(SHARED):
+        looked = looked_at(study, folders.pop() if folders else next(draw))
+        if 'why_not' in looked:
+            print(f"{looked['site']}: {looked['why_not']}", flush=True)
+        else:
+            looks.append(looked)
+    rows = [run(study, row) for row in sorted(looks, key=lambda row: row['said_s'])]
+    for row in rows:
+        study.row('sites', row['site'], {'blocks': row['blocks'], 'forecast': f"{row['forecast']:.2f}", 'moved': f"{row['moved']:.2f}",
+                                         'time said [s]': f"{row['said_s']:.0f}", 'used [s]': f"{row['cpu_s']:.1f}"})
     off = [row['forecast'] - row['moved'] for row in rows]
-    right = sum(kind(row['forecast']) == kind(row['moved']) for row in rows)
     # What takes less than a second is said to take one.
     ratios = [row['said_s'] / max(1, row['cpu_s']) for row in rows]
-    return (f'{len(rows)} sites: share rms {(sum(d * d for d in off) / len(off)) ** .5:.3f}, mean {sum(off) / len(off):+.3f}, '
-            f'worst {max(off, key=abs):+.2f}, class right in {right}; time said over used {min(ratios):.2f} to '
-            f'{max(ratios):.2f}, within a factor of 2.5 in {sum(.4 <= ratio <= 2.5 for ratio in ratios)}')
+    study.row('summary', 'all', {
+        'sites': len(rows), 'share, rms': f'{(sum(d * d for d in off) / len(off)) ** .5:.3f}', 'worst': f'{max(off, key=abs):+.2f}',
+        'class right': sum(kind(row['forecast']) == kind(row['moved']) for row in rows),
+        'time said over used': (f'{sum(ratios) / len(ratios):.2f}', f'{min(ratios):.2f}', f'{max(ratios):.2f}'),
+        'within a factor of 2.5': sum(.4 <= ratio <= 2.5 for ratio in ratios)})
 
 
-def tell(row):
-    """Prints what is known of a site; false where that is why nothing is."""
-    said = ''
-    if 'blocks' in row:
-        said = f"forecast {row['forecast']:.2f}, {row['blocks']} blocks; {row['said_s']:.0f} s said"
-    if 'cpu_s' in row:
-        said += f", {row['cpu_s']:.1f} s used; moved {row['moved']:.2f}; {kind(row['forecast'])}, {kind(row['moved'])}"
-    print(row['site'] + ': ' + '; '.join(part for part in (said, row.get('why_not')) if part), flush=True)
-    return 'why_not' not in row
-
-
-def write_table(rows, out):
-    with open(os.path.join(out, 'sites.csv'), 'w', encoding='utf-8', newline='') as file:
-        table = csv.DictWriter(file, ['site', 'blocks', 'forecast', 'moved', 'said_s', 'cpu_s'], extrasaction='ignore')
-        table.writeheader()
-        table.writerows(rows)
-
-
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument('out')
-    parser.add_argument('folders', nargs='*')
-    parser.add_argument('--bin', default='')
-    parser.add_argument('--drawn', type=int, default=10)
-    parser.add_argument('--seed', type=int, default=1)
-    parser.add_argument('--duration', type=float, default=0)
-    parser.add_argument('--most-s', type=float, default=math.inf)
-    parser.add_argument('--jobs', type=int, default=1)
-    options = parser.parse_intermixed_args()
-    if not options.folders and not os.path.isdir(f'{root}/../shared/data'):
-        sys.exit('skipped: no ../shared/data')
-    options.out = os.path.abspath(options.out)
-    sites = os.path.join(options.out, 'sites')
-    os.makedirs(sites, exist_ok=True)
-    folders = options.folders or [forecast_sites.serles(sites)] + [f'{root}/sample_sites/{name}' for name in shared]
-    draw = forecast_sites.drawn(sites, options.seed)
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        look = lambda batch: [row for row in pool.map(lambda folder: looked_at(folder, options), batch) if tell(row)]
-        looks = []
-        while not options.folders and len(looks) < options.drawn:
-            looks += look([next(draw) for _ in range(options.drawn - len(looks))])
-        looks += look(folders)
-        looks.sort(key=lambda row: row['said_s'])
-        rows = []
-        for row in pool.map(lambda row: run(row, options), looks):
-            if tell(row):
-                rows.append(row)
-                write_table(rows, options.out)
-    print(summary(rows) if rows else 'no site was run')
-
-
-main()
+if __name__ == '__main__':
+    STUDY.main()

@@ -1,35 +1,23 @@
 #!/usr/bin/env python3
 """Mobility of simulated events beside published relations (share/mobility.csv): H/L and L.
 
-  python3 tests/studies/mobility.py BIN NAME=FOLDER[:FRICTION_DEG]...
-
-FOLDER holds runs/run_*.h5 (or run_*.h5) and bed.tif, as the pipeline leaves them. Prints the table of
-docs/evidence/validation.md: volume, H and L of the event (chord from the top of the source to the toe), of its
-centre of mass beside tan(friction); then a line a relation: L95 over what it expects, and its percentile in the
-relation's scatter where most of the mass left its source.
+The events are the runs that designed_slide.py and real_sites.py left beside this study's folder. First volume, H and L
+of the event (chord from the top of the source to the toe), of its centre of mass beside the friction; then L95 over
+what each relation expects, and its percentile in the relation's scatter where most of the mass left its source.
 Relations from memory and those of debris flows are left out.
 """
 import json
 import statistics
-import subprocess
-import sys
-import tempfile
-from pathlib import Path
+
+from study import Study, skip
 
 RELATIONS = ("corominas_rockfall_all", "corominas_rockfall_unobstructed", "corominas_rockfall_obstructed",
-             "corominas_rockfall_deflected", "corominas_slide_all", "corominas_slide_unobstructed",
-             "corominas_slide_obstructed", "mitchell_length", "mitchell_hl")
+             "corominas_slide_all", "mitchell_length", "mitchell_hl")
+EVENTS = {"designed": ("designed_slide/talus_0.005", 25),  # folder, friction [degrees]
+          **{site: (f"real_sites/{site}", 32) for site in
+             ("gschnitz_gar", "lechtal_kotcliff", "lechtal_kotdam", "salisbury_crags")}}
 
-
-def runout(tools, folder):
-    runs = sorted(folder.glob("runs/run_*.h5")) or sorted(folder.glob("run_*.h5"))
-    with tempfile.TemporaryDirectory() as scratch:
-        done = subprocess.run([tools / "talus-runout", *runs, "--trn", folder / "bed.tif", "-o",
-                               scratch + "/runout.gpkg", "--json", "--no-db", "-q"],
-                              capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(done.stderr)
-    return json.loads(done.stdout)
+STUDY = Study(__file__, __doc__)
 
 
 def of(relation, key):
@@ -37,43 +25,32 @@ def of(relation, key):
     return statistics.mean(values) if values else float("nan")
 
 
-def event_row(name, result, friction_deg):
-    event = [run["event"] for run in result["runs"]]
-    mean = lambda pick: statistics.mean(pick(e) for e in event)
-    words = [name, f"{len(event)}", f"{result['balance']['released_m3'] / len(event):.0f}",
-             f"{mean(lambda e: e['H_m']):.0f}", f"{mean(lambda e: e['L_chord_m']):.0f}"]
-    words.append(f"{mean(lambda e: e['H_m'] / e['L_chord_m']):.2f}")
-    words.append(f"{statistics.mean(r['centre_of_mass']['H_over_L'] for r in result['runs']):.2f}, {friction_deg}")
-    return words
-
-
-def relation_cell(result, name):
-    relation = next(r for r in result["mobility"] if r["relation"] == name)
-    percentile = of(relation, "percentile")
-    return f"{of(relation, 'L_over_expected'):.2f}" + (f" ({percentile:.0f})" if percentile == percentile else "")
-
-
-def line(words):
-    print("| " + " | ".join(words) + " |")
-
-
-def main():
-    tools = Path(sys.argv[1]).resolve()
+@STUDY.part("all", 60)
+def compute(study):
     results = {}
-    for word in sys.argv[2:]:
-        name, place = word.split("=", 1)
-        folder, _, friction = place.partition(":")
-        results[name] = (runout(tools, Path(folder)), friction or "-")
-    line(["Event", "runs", "V m3", "H m", "L m", "H/L", "H_cm/L_cm, friction deg"])
-    print("|" + "---|" * 7)
-    for name, (result, friction) in results.items():
-        line(event_row(name, result, friction))
-    print()
-    line(["L over", *results])
-    print("|" + "---|" * (1 + len(results)))
-    for relation in RELATIONS:
-        line([relation, *(relation_cell(result, relation) for result, _ in results.values())])
+    for name, (place, friction_deg) in EVENTS.items():
+        folder = study.out.parent / place
+        runs = sorted(folder.glob("runs/run_*.h5"))
+        if not runs:
+            skip(f"no runs in {folder}: designed_slide.py and real_sites.py make them")
+        said = study.run("talus-runout", *runs, "--trn", folder / "bed.tif", "-o", f"{name}.gpkg", "--overwrite", "--json",
+                         "--no-db", "-q")
+        results[name] = json.loads(said)
+        event = [run["event"] for run in results[name]["runs"]]
+        mean = lambda pick: statistics.mean(pick(e) for e in event)
+        study.row("events", name, {
+            "runs": len(event), "V [m3]": f"{results[name]['balance']['released_m3'] / len(event):.0f}",
+            "H [m]": f"{mean(lambda e: e['H_m']):.0f}", "L [m]": f"{mean(lambda e: e['L_chord_m']):.0f}",
+            "H/L": f"{mean(lambda e: e['H_m'] / e['L_chord_m']):.2f}",
+            "H/L of the centre": f"{statistics.mean(r['centre_of_mass']['H_over_L'] for r in results[name]['runs']):.2f}",
+            "friction [degrees]": friction_deg})
+    for name in RELATIONS:
+        of_name = {event: next(r for r in result["mobility"] if r["relation"] == name) for event, result in results.items()}
+        percentile = {event: of(relation, "percentile") for event, relation in of_name.items()}
+        study.row("relations", name, {event: f"{of(relation, 'L_over_expected'):.2f}" +
+                                      (f" ({percentile[event]:.0f})" if percentile[event] == percentile[event] else "")
+                                      for event, relation in of_name.items()})
 
 
 if __name__ == "__main__":
-    main()
+    STUDY.main()

@@ -1,29 +1,21 @@
 #!/usr/bin/env python3
 """The same rocks through Talus and through ODE, a public engine of rigid bodies: energies and reach side by side.
 
-  python3 tests/studies/rocks_beside_ode.py [BIN [OUT]] [--rocks N]
-
-BIN: folder of the executables (default: build/release/tools); OUT: kept results (default: a temporary folder; what
-is there is not computed again). Prints the tables of docs/evidence/measurements.md.
-
 Two scenes: a slope of 38 degrees with a bench that runs out on a flat, and the crater wall of
 sample_sites/crater_rocks. Rocks (eota111, eota221) fall 1.5 m from rest on ground with a constant COR and friction
 alone, and do not meet. ODE gets shapes, masses, inertias, places and attitudes from the run file of Talus, and the
 triangles of its TRN. Both are evaluated by the same lines, from frames of 0.05 s.
 
 - the table of a scene: each engine at two time steps, with half of the 95 % intervals (bootstrap over the rocks), and
-  ODE with a cone of friction;
-- single bounces: impulses of hits at one corner beside their closed form (Newton's restitution, Coulomb's friction);
-- variants: one thing changed in both engines, or in ODE alone.
+  ODE with a cone of friction; a star where a column differs from Talus at 1 ms by more than chance;
+- single bounces: impulses of hits at one corner beside their closed form (Newton's restitution, Coulomb's friction).
 
-Needs /usr/bin/python3 with h5py, numpy and osgeo; c++, Eigen and libode-dev. Without ODE it says so and ends.
+Needs c++, Eigen and libode-dev.
 """
-import argparse
 import math
 import resource
 import subprocess
 import sys
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -31,8 +23,9 @@ import h5py
 import numpy as np
 from osgeo import gdal
 
+from study import SOURCE, Study, skip
+
 gdal.UseExceptions()
-SOURCE = Path(__file__).resolve().parents[2]
 FRICTION_DEG, COR, GRAVITY, FRAME_S = 32, 0.35, 9.80665, 0.05
 AT_REST_M_S = 0.1
 N_DRAWN = 1000  # sets of rocks drawn again
@@ -51,9 +44,9 @@ class Scene:
     duration_s: float
 
 
-SLOPE = Scene("slope", "position_m = [[10, 200]]\n" + RELEASE, 1, 0, 10, (25, 50, 58, 120, 140), 60)
+SLOPE = Scene("slope", "position_m = [[10, 200]]\n" + RELEASE, 1, 0, 10, (50, 58), 60)
 CRATER = Scene("crater", "polygon = [[1757190, 5917210], [1757270, 5917210], [1757270, 5917240], [1757190, 5917240]]\n"
-               "min_slope_deg = 32\n" + RELEASE, 0, 1, 5917210, (40, 65, 86, 110), 60)
+               "min_slope_deg = 32\n" + RELEASE, 0, 1, 5917210, (86,), 60)
 
 
 def run(*words, codes=(0,)):
@@ -129,7 +122,7 @@ class Motion:
     cpu_s: float
 
 
-class Study:
+class Runs:
     """One scene: its files, its rocks, and runs of both engines."""
 
     def __init__(self, tools, peer, scene, out, n_rocks):
@@ -266,19 +259,17 @@ def half_interval(sets):
 
 def rows_of(scene):
     """(title, quantity, percentile; None: mean, digits) of a table."""
-    rows = [("displacement p10 [m]", "displacement", 10, 1), ("p50", "displacement", 50, 1),
-            ("p90", "displacement", 90, 1), ("largest", "displacement", 100, 1),
-            ("angle of reach p50 [deg]", "reach angle", 50, 2), ("time to rest p50 [s]", "time to rest", 50, 2),
-            ("largest energy a rock p50 [J/kg]", "largest energy", 50, 1)]
+    rows = [("displacement, p50 [m]", "displacement", 50, 0), ("displacement, p90 [m]", "displacement", 90, 0),
+            ("angle of reach, p50 [degrees]", "reach angle", 50, 1), ("time to rest, p50 [s]", "time to rest", 50, 1)]
     for line in scene.lines:
         rows += [(f"share past {line} m", f"passed {line} m", None, 3),
-                 (f"energy there p50 [J/kg]", f"energy at {line} m", 50, 1), ("p95", f"energy at {line} m", 95, 1),
-                 ("height of the centroid p50 [m]", f"height at {line} m", 50, 2),
-                 ("p95", f"height at {line} m", 95, 2)]
+                 (f"energy at {line} m, p50 [J/kg]", f"energy at {line} m", 50, 0),
+                 (f"energy at {line} m, p95 [J/kg]", f"energy at {line} m", 95, 0),
+                 (f"height at {line} m, p50 [m]", f"height at {line} m", 50, 1)]
     return rows
 
 
-def print_scene(study):
+def add_scene(report, study):
     """One column a run; a star where it differs from Talus at 1 ms by more than chance."""
     runs = {"Talus, 1 ms": study.talus(), "Talus, 5 ms": study.talus(step_s=5e-3), "ODE, 1 ms": study.ode(),
             "ODE, 5 ms": study.ode(step_s=5e-3), "ODE in a cone, 1 ms": study.ode(cone=1)}
@@ -286,22 +277,17 @@ def print_scene(study):
     rng = np.random.default_rng(1)
     n = len(study.rocks.mass)
     picks = {name: rng.integers(0, n, (N_DRAWN, n)) for name in runs}
-    print(f"\n{study.scene.name}, {n} rocks\n\n| | {' | '.join(runs)} |\n|{'---|' * (len(runs) + 1)}")
     for title, quantity, percentile, digits in rows_of(study.scene):
-        cells, reference = [], None
+        cells, reference = {}, None
         for name, result in results.items():
             if np.isfinite(result[quantity]).sum() < 20:
-                cells.append("-")
                 continue
             value, sets = drawn(result[quantity], percentile, picks[name])
             reference = sets if reference is None else reference
             low, high = np.nanpercentile(sets - reference, [2.5, 97.5])
-            cells.append(f"{value:.{digits}f} ± {half_interval(sets):.{digits}f}{'' if low <= 0 <= high else ' *'}")
-        print(f"| {title} | {' | '.join(cells)} |")
-    print(f"| CPU s | {' | '.join(f'{m.cpu_s:.1f}' for m in runs.values())} |")
-    for title, quantity, statistic in (("still moving or left, share", "still moving or left", np.nanmean),
-                                       ("most energy gained, of the fall", "energy gained", np.nanmax)):
-        print(f"| {title} | {' | '.join(f'{statistic(r[quantity]):.2g}' for r in results.values())} |", flush=True)
+            cells[name] = f"{value:.{digits}f} ± {half_interval(sets):.{digits}f}{'' if low <= 0 <= high else ' *'}"
+        report.row(study.scene.name, title, cells)
+    report.row(study.scene.name, "CPU s", {name: f"{motion.cpu_s:.1f}" for name, motion in runs.items()})
 
 
 # --- single bounces ------------------------------------------------------------------------------
@@ -407,76 +393,48 @@ def bounces(study, motion, step_s, is_ode):
     return np.array(rows)
 
 
-def print_bounces(study):
-    print("\n| hits at one corner, first 2 s | n | error of the impulse: p50 | p95 | largest | energy lost: mean [%] | "
-          "in closed form [%] |\n|" + "---|" * 7)
+def add_bounces(report, study):
     for name, motion, step_s in (("Talus, 1 ms", study.talus(1e-3, 1e-3, 2), 1e-3),
                                  ("ODE, 1 ms", study.ode(1e-3, 1e-3, 2), 1e-3),
-                                 ("ODE, 0.2 ms", study.ode(2e-4, 2e-4, 2), 2e-4),
                                  ("ODE in a cone, 1 ms", study.ode(1e-3, 1e-3, 2, cone=1), 1e-3)):
         rows = bounces(study, motion, step_s, name.startswith("ODE"))
         for kind, sticks in (("sticks", 1), ("slides", 0)):
             error, _, lost, expected = rows[rows[:, 1] == sticks].T
-            print(f"| {name}, {kind} | {len(error)} | {np.median(error):.1e} | {np.percentile(error, 95):.1e} | "
-                  f"{error.max():.1e} | {100 * lost.mean():.2f} | {100 * expected.mean():.2f} |", flush=True)
+            report.row("bounces", f"{name}, {kind}", {
+                "hits": len(error), "error of the impulse, p50": f"{np.median(error):.1e}",
+                "p95": f"{np.percentile(error, 95):.1e}", "energy lost [%]": f"{100 * lost.mean():.2f}",
+                "in closed form [%]": f"{100 * expected.mean():.2f}"})
 
 
-# --- variants ------------------------------------------------------------------------------------
-
-SMOOTH = {"friction_deg": 0, "duration_s": 20}
-VARIANTS = [  # what is changed; settings of both, of ODE alone (None: none, and Talus is computed too)
-    ("as above", {}, None), ("COR 0", {"cor": 0}, None), ("friction of 80 degrees", {"friction_deg": 80}, None),
-    ("no friction", SMOOTH, None), ("no friction, contacts at corners", SMOOTH, {"corners": 1}),
-    ("contacts at corners", {}, {"corners": 1}), ("friction in a cone", {}, {"cone": 1}),
-    ("friction along the axes", {}, {"along_slip": 0}), ("overlap not pressed out", {}, {"erp": 0}),
-    ("dWorldStep", {}, {"iterations": 0}), ("no gyroscopic torque", {}, {"gyroscopic": 0})]
+STUDY = Study(__file__, __doc__)
+STUDY.words.add_argument("--rocks", type=int, default=500)
 
 
-def print_variants(study, step_s=2e-3):
-    """One thing changed at a time, medians and shares with half of their 95 % intervals."""
-    columns = [("displacement p50 [m]", "displacement", 50), ("p90 [m]", "displacement", 90),
-               ("past 58 m", "passed 58 m", None), ("energy at 50 m p50 [J/kg]", "energy at 50 m", 50),
-               ("energy at 120 m p50 [J/kg]", "energy at 120 m", 50), ("time to rest p50 [s]", "time to rest", 50)]
-    titles = " | ".join(column[0] for column in columns)
-    print(f"\n| steps of {1000 * step_s:g} ms | engine | {titles} |\n|{'---|' * (len(columns) + 2)}")
-    rng = np.random.default_rng(2)
-    n = len(study.rocks.mass)
-    for title, both, alone in VARIANTS:
-        for engine in (["ODE"] if alone else ["Talus", "ODE"]):
-            of = study.talus if engine == "Talus" else study.ode
-            result, cells = evaluate(study, of(step_s, **both, **(alone or {}))), []
-            result["displacement"][result["still moving or left"] > 0] = np.nan
-            for _, quantity, percentile in columns:
-                if np.isfinite(result[quantity]).sum() < 20:
-                    cells.append("-")
-                    continue
-                value, sets = drawn(result[quantity], percentile, rng.integers(0, n, (N_DRAWN, n)))
-                cells.append(f"{value:.3g} ± {half_interval(sets):.2g}")
-            print(f"| {title} | {engine} | {' | '.join(cells)} |", flush=True)
-
-
-def main():
-    words = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    words.add_argument("bin", nargs="?", default=SOURCE / "build/release/tools", type=Path)
-    words.add_argument("out", nargs="?", type=Path)
-    words.add_argument("--rocks", type=int, default=500)
-    options = words.parse_args()
-    tools, out = options.bin.resolve(), (options.out or Path(tempfile.mkdtemp())).resolve()
-    out.mkdir(parents=True, exist_ok=True)
-    peer = out / "rocks_beside_ode"
+def runs_of(report, scene):
+    """Runs of a scene, with ODE's program."""
+    peer = report.out / "rocks_beside_ode"
     built = subprocess.run(["c++", "-O2", "-std=c++20", "-I/usr/include/eigen3",
                             str(Path(__file__).with_suffix(".cpp")), "-o", str(peer), "-lode"],
                            capture_output=True, text=True, check=False)
     if built.returncode != 0:
-        print(f"skipped: no ODE to build with (libode-dev, libeigen3-dev)\n{built.stderr[:300]}")
-        return
-    for scene in (SLOPE, CRATER):
-        study = Study(tools, peer, scene, out / scene.name, options.rocks)
-        print_scene(study)
-        if scene is SLOPE:
-            print_bounces(study)
-            print_variants(study)
+        skip(f"no ODE to build with (libode-dev, libeigen3-dev)\n{built.stderr[:300]}")
+    return Runs(report.bin, peer, scene, report.out / scene.name, report.options.rocks)
+
+
+@STUDY.part("slope", 200)
+def slope(report):
+    add_scene(report, runs_of(report, SLOPE))
+
+
+@STUDY.part("crater", 200)
+def crater(report):
+    add_scene(report, runs_of(report, CRATER))
+
+
+@STUDY.part("bounces", 60)
+def of_bounces(report):
+    add_bounces(report, runs_of(report, SLOPE))
 
 
 if __name__ == "__main__":
-    main()
+    STUDY.main()

@@ -19,6 +19,7 @@ import os
 import re
 import resource
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -135,6 +136,18 @@ class Study:
                if key not in self.shared and value != self.words.get_default(key)]
         return " ".join([f"python3 tests/studies/{self.name}.py", *own])
 
+    def empty_unless_of(self):
+        """Results of another commit in OUT are taken out."""
+        mark = self.out / "commit"
+        if self.out.exists() and any(self.out.iterdir()):
+            if not mark.exists():
+                sys.exit(f"{self.out} holds files that are not of a study, expected an empty folder")
+            if mark.read_text() == self.commit and is_clean(self.commit):
+                return
+            shutil.rmtree(self.out)
+        self.out.mkdir(parents=True, exist_ok=True)
+        mark.write_text(self.commit)
+
     def main(self):
         self.options = self.words.parse_args()
         if self.options.list:
@@ -142,13 +155,14 @@ class Study:
                 print(f"{cost_s:6d} s  {name}")
             return
         self.bin, self.out, self.data = (path.resolve() for path in (self.options.bin, self.options.out, self.options.data))
-        self.out.mkdir(parents=True, exist_ok=True)
         os.environ["PATH"] = f"{self.bin}:{os.environ['PATH']}"
-        head = {"command": self.command(), "commit": commit_of(self.bin)}
+        self.commit = commit_of(self.bin)
+        head = {"command": self.command(), "commit": self.commit}
+        self.empty_unless_of()
         all_rows, used_s, dates, missing = [], 0.0, [], []
         for name, _, compute in self.parts:
             kept = self.out / "parts" / f"{name}.csv"
-            of_now = kept.exists() and head.items() <= read(kept)[0].items() and is_clean(head["commit"])
+            of_now = kept.exists() and head.items() <= read(kept)[0].items()
             if not of_now and (not self.options.only or name in self.options.only):
                 self.rows, before = [], cpu_s()
                 compute(self)

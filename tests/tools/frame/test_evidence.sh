@@ -40,11 +40,11 @@ sed -i 's/commit: 0123456789/commit: abcdef0123/' evidence/data/two.csv
 expect 1 evidence
 prints "files of several commits make no page"
 # an older file is let through, and the page says so
-sed -i 's/^# date/# old: as the page said before\n# date/' evidence/data/two.csv
+sed -i 's/^# date/# old: to be measured again\n# date/' evidence/data/two.csv
 expect 1 evidence
 prints "page.md is not what docs/evidence/data says"
 sed -i -e 's/^All numbers.*/All numbers are of commit 01234567, but for older ones that wait to be measured again: two\n(abcdef01)./' \
-  -e 's/(01234567, 2026-11-30)/(abcdef01, 2026-11-30)/' evidence/page.md
+  -e 's/(01234567, 2026-11-30)/(abcdef01, 2026-11-30; older, to be measured again)/' evidence/page.md
 expect 0 evidence
 cp evidence/data/one.csv evidence/data/three.csv
 expect 1 evidence
