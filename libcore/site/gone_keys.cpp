@@ -30,6 +30,8 @@ constexpr GoneKey gone_keys[] = {
     {"ground", "polygon_layer", R"(polygon_file = "FILE|layername=LAYER")"},
     {"ground", "polygon_where", R"(polygon_file = "FILE|subset=FILTER")"},
     {"blocks", "release_file", "release_file in [rockfall.NAME]"},
+    {"blocks", "release_layer", "release_file = \"FILE|layername=LAYER\" in [rockfall.NAME]"},
+    {"blocks", "release_where", "release_file = \"FILE|subset=FILTER\" in [rockfall.NAME]"},
     {"blocks", "release_spacing_m", "release_spacing_m in [rockfall.NAME]"},
     {"blocks", "release_grid", "polygon or polygon_file in [rockfall.NAME], without [source]"},
     {"blocks", "n_per_point", "rocks in [rockfall.NAME]"},
