@@ -17,13 +17,20 @@ constexpr double least_acceleration = 5e-4;  // of a block that moves, of gravit
 // Forces of a run are found to 2 % of gravity; so near to equilibrium they have to be known to
 // 4e-4.
 constexpr double found_to = 0.02;
-// Of the mass: what goes first is more than a splinter.
-constexpr double first_share = 0.01;
 
 void reduce(double factor, GroundClass& made) {
   if (made.friction > 0) made.friction /= factor;
   made.cohesion /= factor;
   made.tension /= factor;
+}
+
+// When the ground has come to rest for good [s].
+double end_of_motion(const AccelerationRecord& base) {
+  double end = base.harmonic.amplitude.isZero(0) ? 0 : base.harmonic.end;
+  for (size_t k = 1; k < base.time.size(); ++k)
+    if (!base.acceleration[k - 1].isZero(0) || !base.acceleration[k].isZero(0))
+      end = std::max(end, base.time[k]);
+  return end;
 }
 
 std::vector<Vec3> positions_at(const Scene& scene, double time, State& state, Work& work) {
@@ -92,10 +99,10 @@ ReducedRun run_reduced(const Scene& scene, double factor, const StabilitySetting
   const Scene reduced = with_strength_reduced(scene, factor);
   Work work = make_work(reduced);
   State state = start(reduced, work);
-  const double T = settings.duration;
+  const double T = settings.duration, calm = end_of_motion(scene.base);
   std::array<std::vector<Vec3>, 3> at;
   for (size_t k = 0; k < at.size(); ++k)
-    at[k] = positions_at(reduced, T * (2 + static_cast<double>(k)) / 4, state, work);
+    at[k] = positions_at(reduced, calm + T * (2 + static_cast<double>(k)) / 4, state, work);
   ReducedRun run;
   run.factor = factor;
   // way of an acceleration a in the last quarter: a T^2 / 2 (1 - 9 / 16)
@@ -103,12 +110,17 @@ ReducedRun run_reduced(const Scene& scene, double factor, const StabilitySetting
   double all = 0, moved = 0;
   for (size_t b = 0; b < at[0].size(); ++b) {
     const double before = (at[1][b] - at[0][b]).norm(), last = (at[2][b] - at[1][b]).norm();
-    run.moves.push_back(is_released(scene, b) && last > before && last > least);
+    const double way = (at[2][b] - reduced.blocks.rest[b].position).norm();
+    const bool is_shaken_off = calm > 0 && way > std::cbrt(scene.blocks.volume[b]);
+    run.moves.push_back(is_released(scene, b) &&
+                        ((last > before && last > least) || is_shaken_off));
     if (!is_released(scene, b)) continue;
     all += scene.blocks.mass[b];
     if (run.moves.back()) moved += scene.blocks.mass[b];
+    run.displacement += scene.blocks.mass[b] * way;
   }
   run.moved_share = all > 0 ? moved / all : 0;
+  run.displacement = all > 0 ? run.displacement / all : 0;
   return run;
 }
 
@@ -116,8 +128,8 @@ Stability find_stability(const Scene& scene, const StabilitySettings& settings,
                          const std::function<void(const ReducedRun&)>& said) {
   Reducer reducer{scene, settings, said};
   Stability found;
-  found.mass = reducer.factor_of(0.5);
-  found.first = reducer.factor_of(first_share);
+  found.mass = reducer.factor_of(share_of_mass);
+  found.first = reducer.factor_of(share_of_first);
   found.of_block.assign(scene.blocks.mass.size(), no_limit);
   for (const ReducedRun& run : reducer.runs)
     for (size_t b = 0; b < run.moves.size(); ++b)

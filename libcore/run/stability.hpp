@@ -1,13 +1,15 @@
 // libcore/run/stability.hpp: public
 // Factor of safety by strength reduction: what tan(friction), cohesion and tensile strength of all
 // joints and grounds may be divided by before blocks move.
-// in:    a Scene at rest; water in its joints stays as it is at the start
+// in:    a Scene at rest; water in its joints stays as it is at the start. What happens to it while
+//        its ground shakes (Scene::base) is let happen first
 // out:   the factor of the blocks that go first, of the mass, and of each block
 // refs:  Matsui and San 1992 (strength reduction); docs/tools/talus-stability.md
 //
 // A block moves when it is farther from where it was in the last quarter of a short run than in the
 // quarter before, and accelerates by more than 5e-4 of gravity: what settles onto its
-// contacts slows down.
+// contacts slows down. Where the ground shakes, the run begins when that has ended, and a block
+// that is farther from its place than its own size has moved, too.
 #pragma once
 
 #include <functional>
@@ -16,6 +18,9 @@
 #include "scene/scene.hpp"
 
 namespace talus {
+
+/// Of the mass: what goes first is more than a splinter; with half of it the mass goes.
+constexpr double share_of_first = 0.01, share_of_mass = 0.5;
 
 struct StabilitySettings {
   double duration = 1;             ///< of a run [s]
@@ -28,6 +33,7 @@ struct ReducedRun {
   double factor = 1;
   std::vector<bool> moves;  ///< (n_blocks)
   double moved_share = 0;   ///< of the mass [-]
+  double displacement = 0;  ///< at the end, mean by mass [m]
 };
 
 /// A factor between those of two runs.
@@ -38,8 +44,8 @@ struct SafetyFactor {
 };
 
 struct Stability {
-  SafetyFactor first;  ///< of the blocks that go first: more than 1 % of the mass
-  SafetyFactor mass;   ///< of half of the mass
+  SafetyFactor first;  ///< of the blocks that go first: more than `share_of_first`
+  SafetyFactor mass;   ///< of more than `share_of_mass`
   std::vector<double>
       of_block;  ///< smallest factor tried at which it moves; infinity: none (n_blocks)
   std::vector<ReducedRun> runs;  ///< by factor

@@ -68,6 +68,33 @@ TEST(Stability, HardlyDependsOnDurationAndStep) {
   EXPECT_NEAR(find_stability(scene, {}).mass.value(), value, 0.01);
 }
 
+// A pulse of base motion that a factor of 1.3 does not resist lets the block slip and come to rest:
+// friction holds as much afterwards as before, while a bond that it breaks is gone. Newmark: a
+// pulse of acceleration a for a time t above the resistance r slips by a (a / r - 1) t^2 / 2.
+TEST(Stability, ShakingThatEndsLeavesFrictionAndTakesBonds) {
+  const double dip = 25 * degree, g = 10, pulse = 6, length = 0.2;
+  Scene scene = box_on_slope(25, 35);
+  scene.base.harmonic = {Vec3::Zero(), 1, 0, 0};
+  const SlopeFrame frame = slope_frame(25, 20);
+  // up the slope and level with it, so that the normal force stays
+  scene.base.time = {0, 0.1, 0.1 + 1e-9, 0.1 + length, 0.1 + length + 1e-9, 5};
+  const Vec3 a = -pulse * frame.dip;
+  scene.base.acceleration = {Vec3::Zero(), Vec3::Zero(), a, a, Vec3::Zero(), Vec3::Zero()};
+  const double still = std::tan(35 * degree) / std::tan(dip);
+  const Stability shaken = find_stability(scene, {});
+  EXPECT_NEAR(shaken.mass.value() / still, 1, 0.01);
+  const double resists = g * (std::cos(dip) * std::tan(35 * degree) - std::sin(dip));
+  const double slip = pulse * (pulse / resists - 1) * length * length / 2;
+  EXPECT_NEAR(run_reduced(scene, 1, {}).displacement / slip, 1, 0.03);
+
+  Scene bonded = box_on_slope(25, 20, 8e3);
+  const double with_bond = find_stability(bonded, {}).mass.value();
+  ASSERT_GT(with_bond, 1.1);
+  bonded.base = scene.base;
+  for (Vec3& base : bonded.base.acceleration) base *= 3;
+  EXPECT_LT(find_stability(bonded, {}).mass.value(), 1.01 * std::tan(20 * degree) / std::tan(dip));
+}
+
 // Two blocks apart on one slope, one with less friction on its own part of it: it goes first, the
 // other one, the larger, is the mass.
 TEST(Stability, SaysWhichBlocksGoFirst) {
