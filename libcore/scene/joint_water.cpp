@@ -206,37 +206,66 @@ void add_wet_face(const JointFace& face, const FacePressure& pressure, Scene& sc
   scene.wet_faces.push_back(wet);
 }
 
+/// The faces that water may be in, and how high it stands there.
+struct WetJoints {
+  const JointWater& water;
+  std::vector<JointFace> faces;  ///< by block
+  std::vector<double> feet;      ///< lowest point of the crack of each [m]
+  Trn surface;                   ///< piezometric
+  TopFaces tops;
+
+  WetJoints(const JointWater& of, const Scene& scene)
+      : water(of), surface(scene.ground.trn), tops(scene) {
+    add_faces_of_pairs(water, scene, faces);
+    add_faces_of_ground(water, scene, faces);
+    std::erase_if(faces, [](const JointFace& face) { return face.fill == JointFill::drained; });
+    std::stable_sort(faces.begin(), faces.end(), [](const JointFace& one, const JointFace& other) {
+      return one.block_a < other.block_a;
+    });
+    if (!water.surface.empty()) surface.elevation = water.surface;
+    // cut rock puts the corners of one plane where blocks were merged, not exactly on it
+    feet = feet_of(faces, 100 * closed_gap(scene));
+  }
+
+  // z of the water over a place of face i, NaN: none [m]
+  [[nodiscard]] double level(size_t i, const Vec3& x) const {
+    if (faces[i].fill == JointFill::crack) return feet[i] + water.crack_fill;
+    return water.surface.empty() ? tops.elevation(x.x(), x.y()) - water.depth
+                                 : elevation_at(surface, x.x(), x.y());
+  }
+};
+
 }  // namespace
 
 void add_joint_water(const JointWater& water, Scene& scene) {
-  std::vector<JointFace> faces;
-  add_faces_of_pairs(water, scene, faces);
-  add_faces_of_ground(water, scene, faces);
-  std::stable_sort(faces.begin(), faces.end(), [](const JointFace& one, const JointFace& other) {
-    return one.block_a < other.block_a;
-  });
-  Trn surface = scene.ground.trn;
-  if (!water.surface.empty()) surface.elevation = water.surface;
-  const TopFaces tops(scene);
-  const auto level_at = [&](double x, double y) {
-    return water.surface.empty() ? tops.elevation(x, y) - water.depth : elevation_at(surface, x, y);
-  };
-  // cut rock puts the corners of one plane where blocks were merged, not exactly on it
-  const std::vector<double> feet = feet_of(faces, 100 * closed_gap(scene));
-  for (size_t i = 0; i < faces.size(); ++i) {
-    const bool is_crack = faces[i].fill == JointFill::crack;
-    if (faces[i].fill == JointFill::drained) continue;
+  const WetJoints joints(water, scene);
+  for (size_t i = 0; i < joints.faces.size(); ++i) {
+    const JointFace& face = joints.faces[i];
     const auto pressure_at = [&](const Vec3& x) {
-      const double level = is_crack ? feet[i] + water.crack_fill : level_at(x.x(), x.y());
+      const double level = joints.level(i, x);
       return std::isnan(level) ? 0 : water.unit_weight * (level - x.z());
     };
-    const double resolution =
-        is_crack ? std::numeric_limits<double>::infinity() : surface.cell_size;
-    const FacePressure pressure = pressure_on(faces[i].outline, resolution, pressure_at);
-    if (pressure.force > 0) add_wet_face(faces[i], pressure, scene);
+    const double resolution = face.fill == JointFill::crack
+                                  ? std::numeric_limits<double>::infinity()
+                                  : joints.surface.cell_size;
+    const FacePressure pressure = pressure_on(face.outline, resolution, pressure_at);
+    if (pressure.force > 0) add_wet_face(face, pressure, scene);
   }
   std::stable_sort(scene.loads.begin(), scene.loads.end(),
                    [](const PointLoad& a, const PointLoad& b) { return a.block < b.block; });
+}
+
+WaterRange water_range(const JointWater& water, const Scene& scene) {
+  const WetJoints joints(water, scene);
+  constexpr double no_limit = std::numeric_limits<double>::infinity();
+  WaterRange range{no_limit, -no_limit};
+  for (size_t i = 0; i < joints.faces.size(); ++i)
+    for (const Vec3& x : joints.faces[i].outline) {
+      const double rise = x.z() - joints.level(i, x);
+      if (std::isnan(rise)) continue;
+      range = {std::min(range.dry, rise), std::max(range.full, rise)};
+    }
+  return range.dry <= range.full ? range : WaterRange{};
 }
 
 }  // namespace talus

@@ -37,4 +37,11 @@ struct JointWater {
 /// in the air are dry. Once, when the blocks of the scene are in place.
 void add_joint_water(const JointWater& water, Scene& scene);
 
+/// By how much the water of a scene would have to rise (or sink, < 0) to reach the lowest and the
+/// highest corner of its joints: below `dry` it is in none. A surface rises as it is, cracks alike.
+struct WaterRange {
+  double dry = 0, full = 0;  ///< [m]
+};
+[[nodiscard]] WaterRange water_range(const JointWater& water, const Scene& scene);
+
 }  // namespace talus

@@ -59,6 +59,27 @@ TEST(JointWater, LiftsAndThrusts) {
   EXPECT_NEAR((couple_on(scene, 1) - Vec3(0, -0.5 * thrust, 0)).norm(), 0, 1e-8 * lift);
 }
 
+// Dry where it leaves the base, full where it stands at the top of the joint, 2 m above.
+TEST(JointWater, HasARange) {
+  JointWater water;
+  water.unit_weight = weight;
+  const Scene dry = two_cubes();
+  water.surface = level(dry, 1.5);
+  const WaterRange range = water_range(water, dry);
+  EXPECT_NEAR(range.dry, -1.5, 1e-12);
+  EXPECT_NEAR(range.full, 0.5, 1e-12);
+  for (const double beyond : {-1e-6, 1e-6}) {
+    Scene scene = two_cubes();
+    water.surface = level(scene, 1.5 + range.dry + beyond);
+    add_joint_water(water, scene);
+    EXPECT_EQ(scene.wet_faces.empty(), beyond < 0);
+  }
+  water.of_set = {JointFill::crack};
+  water.crack_fill = 0.5;
+  water.surface.clear();
+  EXPECT_NEAR(water_range(water, dry).full, 1.5, 1e-12);
+}
+
 TEST(JointWater, IsNotInDrainedSets) {
   Scene scene = two_cubes();
   JointWater water;
