@@ -201,12 +201,13 @@ std::vector<RequestedLayer> layers_of(const Site& site) {
 
 std::vector<SiteRaster> rasters_of(const Site& site) {
   std::vector<SiteRaster> rasters;
-  const auto add = [&](const std::string& key, const std::string& file) {
-    if (!file.empty()) rasters.push_back({key, resolved(site, file)});
+  const auto add = [&](const std::string& key, const std::string& file,
+                       CellKind kind = CellKind::values) {
+    if (!file.empty()) rasters.push_back({key, resolved(site, file), kind});
   };
-  add("terrain.ground_raster", site.terrain.ground_raster);
-  add("source.raster", site.source.raster);
-  add("water.raster", site.water.raster);
+  add("terrain.ground_raster", site.terrain.ground_raster, CellKind::classes);
+  add("source.raster", site.source.raster, CellKind::heights);
+  add("water.raster", site.water.raster, CellKind::heights);
   for (const RockfallSettings& rocks : site.rockfalls) {
     const std::string section = "rockfall." + rocks.name;
     add(section + ".rockdensity_raster", rocks.rockdensity_raster);

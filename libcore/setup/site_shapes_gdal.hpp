@@ -11,6 +11,7 @@
 #include "base/input_log.hpp"
 #include "import/request.hpp"
 #include "import/vectors_gdal.hpp"
+#include "io/raster_commands.hpp"
 #include "site/site.hpp"
 #include "terrain/trn.hpp"
 
@@ -53,6 +54,7 @@ struct SitePlace {
 struct SiteRaster {
   std::string key;  ///< "forest.upper.nrtrees_raster"
   std::string path;
+  CellKind kind = CellKind::values;
 };
 [[nodiscard]] std::vector<SiteRaster> rasters_of(const Site& site);
 

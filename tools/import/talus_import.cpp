@@ -104,6 +104,18 @@ std::vector<LayerReading> look_at_rasters(Tool& tool, const Site& site, const st
   return rasters;
 }
 
+// Tools refuse a raster in another system than that of the terrain: said before all else is made.
+void doubt_systems(Tool& tool, const Site& site, const std::string& map) {
+  if (!find_crs_problem(map, Vec2::Zero()).finding.empty()) return;  // talus-trn reprojects
+  for (const SiteRaster& raster : rasters_of(site)) try {
+      check_raster_system(crs_of_source(raster.path), map, raster.kind, raster.path);
+    } catch (const InputError& error) {
+      Doubt doubt = error.doubt();
+      doubt.state = DoubtState::in_doubt;
+      tool.doubts({doubt});
+    }
+}
+
 Json as_json(const LayerReading& layer) {
   Json decisions = Json::array(), magnitudes = Json::object();
   for (const Decision& d : layer.decisions)
@@ -138,6 +150,7 @@ void run_tool(Tool& tool, const Site& site, Options& o) {
   const Imported inputs = import_inputs(request, reading);
   say_reading(tool, reading);
   for (const VectorShapes& shapes : inputs.shapes) say_shapes(tool, shapes);
+  doubt_systems(tool, site, inputs.map.crs_wkt);
   o.doubts.crs_wkt = inputs.map.crs_wkt;
   reading.layers.insert(reading.layers.end(), rasters.begin(), rasters.end());
   write_canonical(tool.stage(o.out), request, inputs, reading);

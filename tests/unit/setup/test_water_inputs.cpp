@@ -63,6 +63,26 @@ TEST_F(WaterInputs, APlaneIsTheSameByPointsAndByRaster) {
   }
 }
 
+// Unknown under a part of the mass: a doubt; under all of it, and beside it: refused.
+TEST_F(WaterInputs, ARasterCoversTheMass) {
+  const auto refused_from = [&](double y_known) {
+    Trn raster = ground;
+    for (int r = 0; r < raster.n_rows; ++r)
+      for (int c = 0; c < raster.n_cols; ++c)
+        raster.elevation[node_index(raster, r, c)] =
+            node_point(raster, r, c).y() < y_known ? 940 : std::nan("");
+    write_trn(folder.file("heads.tif"), raster);
+    return refusal("raster = \"heads.tif\"\n");
+  };
+  double low = 1e9, high = -1e9;
+  for (const Vec3& at : blocks.vertices) low = std::min(low, at.y()), high = std::max(high, at.y());
+  EXPECT_EQ(refused_from(high + 20), "accepted");
+  EXPECT_FALSE(log.has_warning("of the corners of the mass"));
+  EXPECT_EQ(refused_from((low + high) / 2), "accepted");
+  EXPECT_TRUE(log.has_warning("of the corners of the mass: no water there"));
+  EXPECT_HOLDS(refused_from(low - 20), "is unknown over the whole mass hint: give a raster");
+}
+
 TEST_F(WaterInputs, OnePointIsALevel) {
   const auto water = made("[water]\nsurface_m = [500010, 5000010, 940]\n");
   ASSERT_TRUE(water.has_value());
