@@ -10,7 +10,7 @@ tool_names := site import tin trn blocks check batch dda reduce runout maps fenc
 whole_build = $(if $(word $(words $(tool_names)),$(wildcard $(tool_names:%=$1talus-%))),$1)
 BIN ?= $(firstword $(call whole_build,$(PIPELINES)../build/release/tools/) \
   $(call whole_build,$(PIPELINES)../build/demo/tools/))
-stages_wanted := $(filter-out terrain blocks check runs runs-shard prepare,$(wanted))
+stages_wanted := $(filter-out terrain blocks stability check runs runs-shard prepare,$(wanted))
 needed_tools := site import tin trn \
   $(if $(filter-out terrain,$(wanted)),blocks check batch dda reduce) \
   $(if $(stages_wanted),runout maps fence places calibrate hazard trace fence-search report profile)
@@ -93,7 +93,8 @@ given_files := $(if $(CONTOURS),--given import=$(contours_file)) \
   $(if $(DEM),--given trn=$(DEM) --given import=$(DEM)) \
   $(if $(LINE),--given 'profile=$(line_file)') \
   --given report=site.toml $(foreach stage,import tin trn blocks check runout maps fence places \
-  calibrate hazard trace search profile report,$(call given,$(stage),$($(call flags_of,$(stage)))))
+  calibrate hazard trace search profile report stability,$(call given,$(stage),$($(call \
+  flags_of,$(stage)))))
 # With -n and -q the stage files go to a folder of their own and are compared.
 ifeq ($(is_dry_run),)
 stages_now := $(STAGES)

@@ -4,6 +4,7 @@ tin_products := tin.ply tin.json
 trn_products := trn.tif trn.json hillshade.png
 block_products := blocks.h5 bed.tif blocks.json blocks.gpkg stereonet.svg sizes.svg
 source_products := source.json source.gpkg
+stability_products := $(addprefix stability/,stability.json blocks.gpkg levels.svg)
 check_products := check.html check.json
 runout_products := runout.gpkg runout.json runout.csv runout.svg runs.csv sensitivity.csv \
   curves.csv thickness.tif
@@ -28,8 +29,8 @@ profile_products := $(addprefix profile/,profile.gpkg profile.json crossings.csv
 search_products := fence_search.json fence_search.gpkg
 screen_products := search/screen.json search/screen.gpkg
 report_products := report.html site.qgz
-products := $(foreach stage,import tin trn source block check runout map fence change places \
-  calibrate hazard trace profile search screen report,$($(stage)_products))
+products := $(foreach stage,import tin trn source block stability check runout map fence change \
+  places calibrate hazard trace profile search screen report,$($(stage)_products))
 
 # As patterns of the shell: a style that comes with its raster, runs with their checkpoints, the
 # registry, what a stage reads, side files that GDAL and QGIS write beside a raster, and hidden
@@ -37,8 +38,8 @@ products := $(foreach stage,import tin trn source block check runout map fence c
 run_folders := runs runs/* without without/* verify/*-* verify/*-*/*
 run_patterns := run_*[0-9].h5 run_*[0-9].h5.part run_*[0-9].h5.part.new ensemble.json .lock \
   .auto/ensemble.json
-stages_made := import tin trn blocks rock check run runs dda runout maps fence place places \
-  calibrate hazard trace profile search verify report
+stages_made := import tin trn blocks rock stability check run runs dda runout maps fence place \
+  places calibrate hazard trace profile search verify report
 registries := sqlite sqlite-wal sqlite-shm sqlite.late-*
 made_patterns := thickness.qml $(foreach end,h5 tif tif.aux.xml,rock/*_*[0-9].$(end)) \
   $(foreach folder,$(run_folders),$(run_patterns:%=$(folder)/%)) \
@@ -54,6 +55,6 @@ made_patterns := thickness.qml $(foreach end,h5 tif tif.aux.xml,rock/*_*[0-9].$(
   parts/without/ rock/ stages/ shards/ hazard/ sources/ search/new/ search/charts/)
 # The mark of a folder that the pipeline has written into; it goes last.
 mark_of_out := stages/site.mk
-made_folders := maps/* maps fences/* fences hazard sources profile search/new search/charts search \
-  runs/.auto without/.auto verify/*-*/.auto verify/*-*/* verify/*-* verify runs/* runs without/* \
-  without parts/without parts rock shards/log shards stages
+made_folders := stability maps/* maps fences/* fences hazard sources profile search/new \
+  search/charts search runs/.auto without/.auto verify/*-*/.auto verify/*-*/* verify/*-* verify \
+  runs/* runs without/* without parts/without parts rock shards/log shards stages

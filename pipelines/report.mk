@@ -10,7 +10,8 @@ $(OUT)/report.html: $(import_files) $(tin_files) $(trn_files) $(block_files) $(e
   $(runout_files) $(map_files) $(case_map_files) $(fence_files) $(case_fence_files) \
   $(places_files) $(if $(SITE_OBSERVED),$(calibrate_files)) \
   $(if $(SITE_HAZARD_CLASSES),$(hazard_files)) $(if $(SITE_OBJECTS),$(trace_files)) \
-  $(if $(SITE_FENCE_SEARCHES),$(search_for_report)) $(STAGES)/report.flags $(STAGES)/report.files
+  $(if $(SITE_FENCE_SEARCHES),$(search_for_report)) $(stability_for_others) \
+  $(STAGES)/report.flags $(STAGES)/report.files
 	$(call say,report: all of it -> report and QGIS project)
 	$(Q)$(BIN)talus-report site.toml --dir $(OUT) -o $(OUT)/report.html --qgis $(OUT)/site.qgz \
 	  $(REPORT_FLAGS) --overwrite $(DB)

@@ -25,7 +25,8 @@ batch_of = $(batch) --into $1 $(call option_of,RUNS,--runs) $(call option_of,SEE
 status_of = $(shell $(call batch_of,$1,--status --no-db --part $(or $(SHARD),0)/$(or $(SHARDS),1)))
 ask = $(eval status_$1 := $(status_of))$(if $(status_$1),,$(error The runs cannot be made, see \
   above: what is wrong with RUNS, SEED, CASES, WEIGHTS, SHARD, SHARDS, DDA_FLAGS or the site))
-$(if $(filter-out terrain source blocks,$(wanted)),$(foreach kind,$(kinds),$(call ask,$(kind))))
+$(if $(filter-out terrain source blocks stability,$(wanted)),\
+  $(foreach kind,$(kinds),$(call ask,$(kind))))
 
 # Rocks that each run draws are then made by talus-batch, which knows no BLOCKS_FLAGS.
 $(if $(and $(filter auto,$(RUNS)),$(SITE_ROCKS_ALONE),$(strip $(BLOCKS_FLAGS))),$(error \

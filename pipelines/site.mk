@@ -1,8 +1,8 @@
 # The chain of tools for one site, included by sample_sites/<site>/Makefile. What is computed is in
 # site.toml; the Makefile may set
 #   CONTOURS or DEM     what the ground is made from, instead of [terrain]
-#   IMPORT_FLAGS, TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS,
-#   MAPS_FLAGS, FENCE_FLAGS, PLACES_FLAGS, CALIBRATE_FLAGS, HAZARD_FLAGS, TRACE_FLAGS,
+#   IMPORT_FLAGS, TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, STABILITY_FLAGS, DDA_FLAGS,
+#   RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS, PLACES_FLAGS, CALIBRATE_FLAGS, HAZARD_FLAGS, TRACE_FLAGS,
 #   PROFILE_FLAGS, SEARCH_FLAGS, REPORT_FLAGS
 #                       further options of the tools
 #   RUNS, SEED, CASES, WEIGHTS, WITHOUT, RUNS_MOST   runs.mk
@@ -20,8 +20,8 @@ include $(PIPELINES)products.mk
 
 .DEFAULT_GOAL := all
 .SUFFIXES:
-.PHONY: all terrain blocks check runs runout maps fence calibrate hazard trace profile report \
-  clean help
+.PHONY: all terrain blocks stability check runs runout maps fence calibrate hazard trace profile \
+  report clean help
 
 all: check report ## everything, up to the report
 
@@ -30,8 +30,8 @@ clean: ## remove what was made, and nothing else
 	  '$(products) $(made_patterns)' '$(made_folders)'
 
 # The rules in the order of the pipeline, and the goals in them and in the site's Makefile.
-rules := trn source blocks check runs runout maps fence places calibrate hazard trace profile \
-  fence_search report slurm new_site
+rules := trn source blocks stability check runs runout maps fence places calibrate hazard trace \
+  profile fence_search report slurm new_site
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(PIPELINES)site.mk $(rules:%=$(PIPELINES)%.mk) \
 	  $(filter-out $(PIPELINES)%,$(MAKEFILE_LIST)) $(if $(wildcard manifest.sha256),, \

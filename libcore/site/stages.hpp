@@ -9,8 +9,8 @@
 
 namespace talus {
 
-/// import, tin, trn, blocks, rock (blocks of other masses), run, fence, place, hazard, trace,
-/// search.
+/// import, tin, trn, blocks, rock (blocks of other masses), run, stability, fence, place, hazard,
+/// trace, search.
 [[nodiscard]] const std::vector<std::string>& stage_names();
 
 /// Whether results of the stage depend on the value.

@@ -274,6 +274,7 @@ SHOWN_OF_GOAL = {
     "maps": ["maps/*.tif"], "fence": ["change.tif", "fence.gpkg"], "hazard": ["hazard/*.tif", "hazard/hazard.gpkg"],
     "trace": ["sources/*.tif", "trace.gpkg"],
     "calibrate": ["calibrate.gpkg"],
+    "stability": ["stability/blocks.gpkg"],
     "profile": ["profile/profile.gpkg"],
     "fence-search": ["fence_search.gpkg"],
     "all": ["trn.tif", "maps/*.tif", "blocks.gpkg", "runout.gpkg", "fence.gpkg"],

@@ -82,6 +82,8 @@ struct Look {
   Probe probe;
   double probe_cpu_s = 0;
 
+  Json stability;  ///< what talus-stability found; null: nobody asked
+
   std::vector<Doubt> doubts;
 };
 

@@ -118,6 +118,10 @@ int main(int argc, char** argv) {
     // refused now, not after the runs
     check_exposure(site, read_recipe(tool, site), hazard_classes(site));
     Look look;
+    for (const std::string& file : o.reports)
+      if (const Json report = Json::parse_or_null(read_file(file));
+          report.is_object() && report.value("tool", "") == "talus-stability")
+        look.stability = report;
     look_or_show(tool, o, site, look);
     find_doubts(look);
     probe_look(tool, probe_duration(o, look), look);

@@ -107,6 +107,15 @@ std::string source_text(const Look& look) {
          text(std::round(10 * look.work.planes.friction / degree) / 10) + " degrees";
 }
 
+// As talus-stability said it.
+std::string stability_text(const Look& look) {
+  std::string words;
+  if (look.stability.is_object())
+    for (const Json& sentence : look.stability.at("words"))
+      words += "\n  " + sentence.get<std::string>();
+  return words;
+}
+
 std::string fences_text(const Look& look) {
   std::string words;
   for (const FenceLook& fence : look.fences)
@@ -143,6 +152,7 @@ std::string motion_text(const Look& look) {
             " s of the engine: it " + text(outlook_of(look.probe.moved_share));
   else
     words = "will it move: no probe of the engine was made";
+  words += stability_text(look);
   if (!look.is_cut) return words;
   words += "\n  one block at a time, without a push, " + percent(look.peel.share) +
            " can slide or fall off; " + percent(look.peel.locked_share) + " is locked";
@@ -222,6 +232,7 @@ Json check_json(const Look& look, const std::string& run_id) {
                      {"outlook", text(outlook_of(look.probe.moved_share))},
                      {"fault", look.probe.fault.empty() ? Json() : Json(look.probe.fault)}};
   json["fall_lines"] = {{"n", look.slides.size()}, {"duration_asked_for_s", look.travel_duration}};
+  if (look.stability.is_object()) json["stability"] = look.stability.at("groups");
   json["fences"] = fences;
   json["objects"] = objects;
   if (site.solver.law == "talus")

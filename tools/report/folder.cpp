@@ -199,6 +199,19 @@ void leave_out_places(ResultFolder& folder, const Site& site, const std::string&
     folder.leave_out({"places.json"}, of_other_sections("[place.*] or [fence.*]"));
 }
 
+// The factor of safety is of blocks and sections, not of runs.
+void leave_out_stability(ResultFolder& folder, const Site& site) {
+  const char* const json = "stability/stability.json";
+  if (!folder.has(json)) return;
+  const std::vector<std::string> all{json, "stability/blocks.gpkg", "stability/levels.svg"};
+  if (!folder.has("blocks.h5") || text_at(folder.glance(json), "/blocks_sha256") !=
+                                      sha256_of_file(folder.path("blocks.h5").string()))
+    folder.leave_out(all, "not of the blocks of blocks.h5");
+  else if (!is_of_sections(folder, json, site,
+                           {"water", "joints", "material", "ground", "base_motion", "uncertainty"}))
+    folder.leave_out(all, "made with other water, strength or base motion than the site file has");
+}
+
 // Curves name their runs, all of one evaluation.
 void leave_out_curves(ResultFolder& folder, const std::vector<std::string>& ids) {
   if (!folder.has("curves.csv")) return;
@@ -235,6 +248,7 @@ void leave_out_others(ResultFolder& folder, const Site& site, const Json& runout
   }
   leave_out_hazard(folder, site, run_set);
   leave_out_places(folder, site, run_set);
+  leave_out_stability(folder, site);
   leave_out_tin(folder);
   leave_out_curves(folder, ids_of(runout));
   if (folder.has("runout.gpkg") &&

@@ -654,6 +654,7 @@ Json data_of(const ReportData& data, const PageFiles& files) {
       {"hazard_classes", classes},
       {"calibrate", observed_of(data)},
       {"trace", data.trace},
+      {"stability", data.stability},
       {"places", data.places},
       {"searches", searches_of(data)},
       {"objects_by_cells", any_by_cells(data.trace)},

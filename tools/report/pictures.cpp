@@ -139,6 +139,7 @@ Json pictures_of(const ReportData& data) {
       {"mobility", svg_address(data.mobility_svg)},
       {"stereonet", svg_address(data.stereonet_svg)},
       {"sizes", svg_address(data.sizes_svg)},
+      {"stability", svg_address(data.stability_svg)},
       {"rock", !data.stereonet_svg.empty() || !data.sizes_svg.empty()},
       {"curves", curves_of(data)},
       {"energy", chart_svg(energy_chart(texts, data.shown))},

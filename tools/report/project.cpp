@@ -66,7 +66,8 @@ std::string layer_words(const std::string& name) {
       {"reach_points", "Ends of L and H"},
       {"runs", "Centre of mass at the end of a run"},
       {"blocks", "Blocks of the source"},
-      {"source_area", "Source"}};
+      {"source_area", "Source"},
+      {"stability", "Factor of safety: which blocks go first"}};
   if (const auto at = words.find(name); at != words.end()) return at->second;
   std::string out = name;
   std::replace(out.begin(), out.end(), '_', ' ');
@@ -332,6 +333,7 @@ QgisProject project_of(const ReportData& data, const std::string& file,
   if (data.runs.size() > 1) hidden.insert("deposit");
   add_package(project, file, folder, "runout.gpkg", "Paths", hidden);
   if (data.runs.size() > 1) show_farthest(project, data);
+  add_package(project, file, folder, "stability/blocks.gpkg", "Source", {});
   add_package(project, file, folder, "blocks.gpkg", "Source", {"blocks"});
   add_hazard(project, file, folder, data);
   add_case_maps(project, file, folder, data);

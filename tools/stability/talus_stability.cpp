@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
+#include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
-#include "draw/chart.hpp"
 #include "io/footprints_gdal.hpp"
 #include "io/geopackage_gdal.hpp"
-#include "post/statistics.hpp"
-#include "run/stability.hpp"
+#include "io/style.hpp"
+#include "setup/section_state_gdal.hpp"
 #include "setup/set_up_gdal.hpp"
 #include "setup/site_crs_gdal.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/tool.hpp"
+#include "tools/stability/findings.hpp"
 
 namespace {
 
@@ -22,7 +24,7 @@ using namespace talus;  // NOLINT: a program of its own
 
 struct Options {
   SetUpRequest request;
-  std::string folder, levels;
+  std::string folder;
   double seismic = 0;
 };
 
@@ -31,30 +33,13 @@ void declare(Tool& tool, Options& o) {
              "terrain that the blocks slide on (talus-trn, talus-blocks)")
       .required();
   tool.input("--blocks", o.request.files.blocks, "block set (talus-blocks)").required();
-  tool.output_folder("-o,--out", o.folder, "folder of stability.json, blocks.gpkg and levels.svg");
-  tool.option("--levels", o.levels,
-              "factors also with the water of [water] so many metres higher, e.g. -2,2");
+  tool.output_folder("-o,--out", o.folder,
+                     "folder of stability.json, blocks.gpkg and, with [water], levels.svg");
   tool.option("--seismic", o.seismic,
               "pseudo-static coefficient: acceleration down the slope, of gravity")
       .between(0.0, 1.0);
   tool.footer(
-      "Example:\n  talus-stability site.toml --trn bed.tif --blocks blocks.h5 -o stability "
-      "--levels=-4,-2,2");
-}
-
-// 0, and what --levels has besides.
-std::vector<double> rises_of(const Options& o) {
-  std::vector<double> rises{0};
-  for (std::size_t from = 0; from < o.levels.size();) {
-    const std::size_t to = std::min(o.levels.find(',', from), o.levels.size());
-    double rise = 0;
-    if (!parse_double(o.levels.substr(from, to - from), rise))
-      throw InputError({"", 0, "--levels"}, "is " + o.levels + ", expected metres and commas",
-                       "e.g. --levels=-2,2");
-    if (rise != 0) rises.push_back(rise);
-    from = to + 1;
-  }
-  return rises;
+      "Example:\n  talus-stability site.toml --trn bed.tif --blocks blocks.h5 -o stability");
 }
 
 // Horizontal, down the mean slope of the ground below the blocks.
@@ -70,121 +55,164 @@ Vec3 downhill(const Scene& scene) {
   return sum.norm() > 0 ? Vec3(sum.normalized()) : Vec3(Vec3::Zero());
 }
 
-// The scene of a site with its water higher by `rise`, as it stands: no base motion.
-SetUp standing(const Site& site, const Options& o, double rise, InputLog& log) {
-  SetUp setup = plan_scene(site, o.request, log);
-  auto& water = setup.inputs.parts.water;
-  if (rise != 0 && !water)
-    throw InputError({site.file}, "--levels moves the water of [water], and there is none",
-                     "give [water] depth_m, or leave --levels out");
-  if (water) {
-    for (double& z : water->surface) z += rise;
-    water->depth -= rise;
-    water->crack_fill = std::max(0.0, water->crack_fill + rise);
+/// A site whose water stands as high as is asked.
+struct WaterStage {
+  const Site& site;
+  const Options& o;
+  SetUp plan;  ///< of plan_scene()
+
+  // As it stands: without base motion, with the pseudo-static acceleration.
+  [[nodiscard]] SetUp standing(InputLog& log, double rise) const {
+    SetUp made = shaken(log, rise);
+    made.scene.base = {};
+    made.scene.gravity += o.seismic * made.scene.gravity.norm() * downhill(made.scene);
+    return made;
   }
-  make_scene(site, o.request, log, setup);
-  setup.scene.base = {};
-  setup.scene.gravity += o.seismic * setup.scene.gravity.norm() * downhill(setup.scene);
-  return setup;
-}
-
-Json factor_json(const SafetyFactor& factor) {
-  const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
-  return {{"factor", number(factor.holds > 0 ? factor.value() : 0)},
-          {"holds", factor.holds},
-          {"moves", number(factor.moves)}};
-}
-
-std::string text_of(const SafetyFactor& factor) {
-  if (factor.holds == 0) return "below " + text(factor.moves, 3);
-  if (!std::isfinite(factor.moves)) return "above " + text(factor.holds, 3);
-  return text(factor.value(), 3);
-}
-
-// Blocks that move at the factor of the first.
-std::vector<int> first_blocks(const Stability& found) {
-  std::vector<int> blocks;
-  for (std::size_t b = 0; b < found.of_block.size(); ++b)
-    if (std::isfinite(found.first.moves) && found.of_block[b] <= found.first.moves)
-      blocks.push_back(static_cast<int>(b));
-  return blocks;
-}
-
-std::string summary_of(const Stability& found, double rise) {
-  const std::vector<int> first = first_blocks(found);
-  std::string words = "factor of safety of the mass " + text_of(found.mass) +
-                      ", of the blocks that go first " + text_of(found.first);
-  if (rise != 0)
-    words = "water " + text(std::abs(rise), 3) + (rise > 0 ? " m higher: " : " m lower: ") + words;
-  if (first.empty()) return words;
-  constexpr std::size_t most_named = 8;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min(first.size(), most_named); ++i)
-    names.push_back(std::to_string(first[i]));
-  return words + " (" + counted(static_cast<std::int64_t>(first.size()), "block") + ": " +
-         list_of(names) + (first.size() > most_named ? " ..." : "") + ")";
-}
-
-void write_blocks_layer(Tool& tool, const Options& o, const SetUp& setup, const Stability& found) {
-  std::vector<VectorLayer> layers = footprint_layers(setup.blocks, {});
-  layers[0].fields.push_back({"factor", FieldType::real, "Factor of safety"});
-  for (std::size_t b = 0; b < layers[0].features.size(); ++b) {
-    const double factor = found.of_block[b];
-    layers[0].features[b].values.emplace_back(
-        std::isfinite(factor) ? factor : std::numeric_limits<double>::quiet_NaN());
+  [[nodiscard]] SetUp shaken(InputLog& log, double rise) const {
+    SetUp made = plan;
+    if (auto& water = made.inputs.parts.water) {
+      for (double& z : water->surface) z += rise;
+      water->depth -= rise;
+      water->crack_fill = std::max(0.0, water->crack_fill + rise);
+    }
+    make_scene(site, o.request, log, made);
+    return made;
   }
-  write_geopackage(tool.stage(o.folder + "/blocks.gpkg"), setup.inputs.crs_wkt, layers,
-                   {{"RUN_ID", tool.run_id()}});
-}
-
-struct AtLevel {
-  double rise = 0;
-  Stability found;
 };
 
-void write_chart(Tool& tool, const Options& o, std::vector<AtLevel> rows) {
-  std::sort(rows.begin(), rows.end(),
-            [](const AtLevel& a, const AtLevel& b) { return a.rise < b.rise; });
-  Chart chart;
-  chart.title = "Factor of safety";
-  chart.x_label = "water higher by [m]";
-  chart.y_label = "factor";
-  chart.series = {{"mass", "#1f5fa8", {}, {}}, {"first blocks", "#c2491d", {}, {}}};
-  for (ChartSeries& series : chart.series) series.marker = 3;
-  const auto value = [](const SafetyFactor& factor) {
-    return std::isfinite(factor.moves) && factor.holds > 0
-               ? factor.value()
-               : std::numeric_limits<double>::quiet_NaN();
-  };
-  for (const AtLevel& row : rows) {
-    for (ChartSeries& series : chart.series) series.x.push_back(row.rise);
-    chart.series[0].y.push_back(value(row.found.mass));
-    chart.series[1].y.push_back(value(row.found.first));
-  }
-  tool.write_text(o.folder + "/levels.svg", chart_file(chart));
-}
+/// Looks for what is in Findings.
+struct Search {
+  Tool& tool;
+  const WaterStage& stage;
+  Findings found;
+  std::map<double, double> moved_share = {};  ///< with the strength as given, by rise
 
-// Share of the samples of [uncertainty.*] in which half of the mass moves with the strength drawn.
-Json probability_json(Tool& tool, const Site& site, const Options& o) {
-  int n_failed = 0;
-  const auto n = static_cast<int>(site.solver.n_runs);
+  [[nodiscard]] Stability stability(const Scene& scene) const {
+    return find_stability(scene, {}, [this](const ReducedRun& run) {
+      tool.detail("strength divided by " + text(run.factor, 5) + ": " + percent(run.moved_share) +
+                  " of the mass moves");
+      if (tool.interrupted()) throw Interrupted();
+    });
+  }
+
+  double moved_at(double rise) {
+    if (const auto known = moved_share.find(rise); known != moved_share.end()) return known->second;
+    if (tool.interrupted()) throw Interrupted();
+    InputLog deaf;
+    return moved_share[rise] = run_reduced(stage.standing(deaf, rise).scene, 1, {}).moved_share;
+  }
+
+  // Where the group of `share` fails as the water rises: to 1 % of its range, at least 5 cm.
+  [[nodiscard]] std::optional<double> fails_at(double share) {
+    double holds = found.range.dry, fails = found.range.full;
+    if (moved_at(holds) > share || moved_at(fails) <= share) return {};
+    const double resolution = std::max(0.05, (fails - holds) / 100);
+    while (fails - holds > resolution) {
+      const double middle = (holds + fails) / 2;
+      (moved_at(middle) > share ? fails : holds) = middle;
+    }
+    return (holds + fails) / 2;
+  }
+
+  // Dry, at quarters of the range, and as the site file says.
+  void find_levels(const Scene& given) {
+    std::vector<double> rises{0};
+    const double range = found.range.full - found.range.dry;
+    for (int k = 0; k <= 4 && found.has_water; ++k) {
+      const double rise = found.range.dry + k * range / 4;
+      if (std::abs(rise) > range / 100) rises.push_back(rise);
+    }
+    std::sort(rises.begin(), rises.end());
+    for (const double rise : rises) {
+      InputLog deaf;
+      if (rise == 0) found.given = found.levels.size();
+      found.levels.push_back(
+          {rise, stability(rise == 0 ? given : stage.standing(deaf, rise).scene)});
+    }
+  }
+};
+
+// Each sample of [uncertainty.*] with the strength drawn.
+void find_probability(Tool& tool, const Site& site, const Options& o, Findings& found) {
+  found.n_samples = static_cast<int>(site.solver.n_runs);
   const ProgressFunction progress = tool.progress();
-  for (int k = 1; k <= n; ++k) {
+  for (int k = 1; k <= found.n_samples; ++k) {
     Site drawn = site;
     drawn.uncertainty.sample = k;
     apply_draws(drawn, DrawScope::all);
     InputLog deaf;
-    const SetUp setup = standing(drawn, o, 0, deaf);
-    n_failed += run_reduced(setup.scene, 1, {}).moved_share > 0.5;
-    if (progress) progress(static_cast<double>(k) / n);
+    const WaterStage stage{drawn, o, plan_scene(drawn, o.request, deaf)};
+    const double share = run_reduced(stage.standing(deaf, 0).scene, 1, {}).moved_share;
+    for (GroupFound* group : {&found.mass, &found.first}) group->n_failed += share > group->share;
+    if (progress) progress(static_cast<double>(k) / found.n_samples);
   }
-  const double share = static_cast<double>(n_failed) / n;
-  const Interval interval = wilson_interval(share, n);
-  return {{"samples", n},
-          {"failed", n_failed},
-          {"probability", share},
-          {"low", interval.low},
-          {"high", interval.high}};
+}
+
+// Who goes first is what is seen.
+void write_blocks_layer(Tool& tool, const Options& o, const SetUp& setup, const Stability& found) {
+  VectorLayer layer = std::move(footprint_layers(setup.blocks, {})[0]);
+  layer.name = "stability";
+  layer.description = "blocks by the factor of safety at which they move";
+  layer.fields.push_back({"factor", FieldType::real, "Factor of safety"});
+  layer.fields.push_back({"goes", FieldType::text, "When it goes"});
+  layer.qml = vector_qml({SymbolKind::polygon,
+                          "goes",
+                          {{"first", "goes first", {178, 24, 43, 200}},
+                           {"with the mass", "goes with the mass", {244, 165, 66, 170}},
+                           {"later", "stands longer", {150, 150, 150, 120}}},
+                          0.2,
+                          "round(\"factor\", 2)"});
+  for (std::size_t b = 0; b < layer.features.size(); ++b) {
+    const double factor = found.of_block[b];
+    const bool moves = std::isfinite(factor);
+    std::vector<FieldValue>& values = layer.features[b].values;
+    values.emplace_back(moves ? factor : std::numeric_limits<double>::quiet_NaN());
+    values.emplace_back(std::string(moves && factor <= found.first.moves  ? "first"
+                                    : moves && factor <= found.mass.moves ? "with the mass"
+                                                                          : "later"));
+  }
+  write_geopackage(tool.stage(o.folder + "/blocks.gpkg"), setup.inputs.crs_wkt, {layer},
+                   {{"RUN_ID", tool.run_id()}});
+}
+
+void run_tool(Tool& tool, const Site& site, const Options& o) {
+  check_site_crs(site);
+  if (moves_alone(site))
+    throw InputError({site.file}, "each block moves alone: there is no mass",
+                     "cut it with [source], or set solver.blocks = \"together\"");
+  const WaterStage stage{site, o, plan_scene(site, o.request, tool)};
+  const SetUp setup = stage.standing(tool, 0);
+  Search search{tool, stage, {}};
+  Findings& found = search.found;
+  found.seismic = o.seismic;
+  if (const auto& water = stage.plan.inputs.parts.water) {
+    found.measure = measure_of(site.water);
+    found.range = water_range(*water, setup.scene);
+    found.has_water = found.range.dry < found.range.full;
+  }
+  search.find_levels(setup.scene);
+  if (found.has_water)
+    for (GroupFound* group : {&found.mass, &found.first})
+      group->fails_at = search.fails_at(group->share);
+  InputLog deaf;
+  if (shakes(stage.plan.inputs.parts.base))
+    found.shaken = search.stability(stage.shaken(deaf, 0).scene);
+  if (!site.quantities.empty()) find_probability(tool, site, o, found);
+
+  Json result = json_of(found);
+  result["tool"] = "talus-stability";
+  result["run_id"] = tool.run_id();
+  result["blocks_sha256"] = sha256_of_file(o.request.files.blocks);
+  result["sections"] =
+      section_state(site, {"water", "joints", "material", "ground", "base_motion", "uncertainty"});
+  write_blocks_layer(tool, o, setup, found.as_given());
+  if (stage.plan.inputs.parts.water)
+    tool.write_text(o.folder + "/levels.svg", chart_file(chart_of(found)));
+  tool.report(o.folder + "/stability.json", result);
+  std::string summary;
+  for (const std::string& sentence : sentences_of(found))
+    summary += (summary.empty() ? "" : "\n") + sentence;
+  tool.result(result, summary);
 }
 
 }  // namespace
@@ -196,51 +224,5 @@ int main(int argc, char** argv) {
   SiteOptions site_options(tool);
   site_options.take_inputs();
   declare(tool, o);
-  return tool.run(argc, argv, [&] {
-    const Site& site = site_options.load();
-    check_site_crs(site);
-    if (moves_alone(site))
-      throw InputError({site.file}, "each block moves alone: there is no mass",
-                       "cut it with [source], or set solver.blocks = \"together\"");
-    const SetUp setup = standing(site, o, 0, tool);
-    std::vector<AtLevel> rows;
-    for (const double rise : rises_of(o)) rows.push_back({rise, {}});
-    std::string summary;
-    Json levels = Json::array();
-    for (AtLevel& row : rows) {
-      InputLog deaf;
-      row.found =
-          find_stability(row.rise == 0 ? setup.scene : standing(site, o, row.rise, deaf).scene, {},
-                         [&](const ReducedRun& run) {
-                           tool.detail("strength divided by " + text(run.factor, 5) + ": " +
-                                       percent(run.moved_share) + " of the mass moves");
-                           if (tool.interrupted()) throw Interrupted();
-                         });
-      summary += (summary.empty() ? "" : "\n") + summary_of(row.found, row.rise);
-      levels.push_back({{"water_higher_m", row.rise},
-                        {"mass", factor_json(row.found.mass)},
-                        {"first", factor_json(row.found.first)},
-                        {"first_blocks", first_blocks(row.found)}});
-    }
-    Json result = {{"seismic_coefficient", o.seismic}, {"levels", levels}};
-    if (!site.quantities.empty()) {
-      result["drawn"] = probability_json(tool, site, o);
-      const Json& drawn = result["drawn"];
-      summary += "\nprobability of failure with the drawn values " +
-                 percent(drawn["probability"].get<double>()) + " (" +
-                 percent(drawn["low"].get<double>()) + " to " +
-                 percent(drawn["high"].get<double>()) + ", " +
-                 std::to_string(drawn["samples"].get<int>()) + " samples)";
-    }
-    Json blocks = Json::array();
-    for (std::size_t b = 0; b < rows[0].found.of_block.size(); ++b) {
-      const double factor = rows[0].found.of_block[b];
-      blocks.push_back(std::isfinite(factor) ? Json(factor) : Json(nullptr));
-    }
-    result["factor_of_block"] = blocks;
-    write_blocks_layer(tool, o, setup, rows[0].found);
-    if (rows.size() > 1) write_chart(tool, o, rows);
-    tool.report(o.folder + "/stability.json", result);
-    tool.result(result, summary);
-  });
+  return tool.run(argc, argv, [&] { run_tool(tool, site_options.load(), o); });
 }

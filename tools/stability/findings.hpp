@@ -1,0 +1,58 @@
+// tools/stability/findings.hpp
+// What was found of a mass before it fails, in numbers, in words and as a chart.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "draw/chart.hpp"
+#include "post/statistics.hpp"
+#include "run/stability.hpp"
+#include "scene/joint_water.hpp"
+#include "site/site.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+/// What the height of the water is counted from.
+enum class WaterMeasure { above_foot, below_surface, above_given, in_cracks };
+[[nodiscard]] WaterMeasure measure_of(const WaterSettings& water);
+
+/// With the water higher by `rise` than the site file says; `range.dry`: without any.
+struct AtLevel {
+  double rise = 0;
+  Stability found;
+};
+
+/// A group of blocks: the mass, or the blocks that go first.
+struct GroupFound {
+  double share = share_of_mass;    ///< of the mass that moves where the group fails
+  std::optional<double> fails_at;  ///< rise of the water; none: it stands, or is not asked
+  int n_failed = 0;                ///< of the samples
+};
+
+struct Findings {
+  double seismic = 0;  ///< pseudo-static coefficient
+  bool has_water = false;
+  WaterMeasure measure = WaterMeasure::above_given;
+  WaterRange range;
+  std::vector<AtLevel> levels;  ///< by rise; one without water
+  std::size_t given = 0;        ///< the level of the site file
+  GroupFound mass, first{share_of_first, {}, 0};
+  std::optional<Stability> shaken;
+  int n_samples = 0;
+
+  [[nodiscard]] const Stability& as_given() const { return levels[given].found; }
+};
+
+/// Blocks that move where the first do.
+[[nodiscard]] std::vector<int> first_blocks(const Stability& found);
+
+/// Sentences for people who decide, without full stops.
+[[nodiscard]] std::vector<std::string> sentences_of(const Findings& findings);
+[[nodiscard]] Json json_of(const Findings& findings);
+/// Factor against the height of the water.
+[[nodiscard]] Chart chart_of(const Findings& findings);
+
+}  // namespace talus
