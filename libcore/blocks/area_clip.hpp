@@ -1,4 +1,4 @@
-// libcore/blocks/area_clip.hpp
+// libcore/blocks/area_clip.hpp: public
 // What of each triangle of a TRN lies in an area: convex pieces in plan.
 // in:    TRN, area
 // out:   the triangles that the area overlaps, the sides that cut them, the pieces inside

@@ -136,8 +136,8 @@ double angle_between(double a, double b) {
 
 std::string degrees(double angle) { return text(std::round(10 * angle / degree) / 10); }
 
-// Why a set of this attitude cannot carry a mass out of the slope; empty when it may.
-std::string why_not_by_angles(const FailurePlane& plane, double friction) {
+// Why no plane of a set of this attitude comes out of the slope; empty when one may.
+std::string why_not_by_angles(const FailurePlane& plane) {
   if (plane.lateral > 120 * degree) return "dips into the slope";
   if (plane.lateral > widest_lateral_deg * degree)
     return "dips across the slope, " + degrees(plane.lateral) +
@@ -145,9 +145,6 @@ std::string why_not_by_angles(const FailurePlane& plane, double friction) {
   if (plane.attitude.dip >= plane.apparent_slope)
     return "is steeper than the slope, which dips " + degrees(plane.apparent_slope) +
            " degrees in that direction: it does not daylight";
-  if (plane.attitude.dip <= friction)
-    return "is no steeper than the friction angle of " + degrees(friction) +
-           " degrees: nothing slides on it";
   return "";
 }
 
@@ -329,8 +326,11 @@ FailurePlanes find_failure_planes(const Trn& ground, const Area& area,
     plane.attitude = {set.dip, set.dip_direction};
     plane.lateral = angle_between(set.dip_direction, found.slope.dip_direction);
     plane.apparent_slope = std::atan(std::tan(found.slope.dip) * std::cos(plane.lateral));
-    plane.why_not = why_not_by_angles(plane, friction);
+    plane.why_not = why_not_by_angles(plane);
     if (plane.why_not.empty()) lay_plane(ground, area, where, plane);
+    if (plane.why_not.empty() && plane.attitude.dip <= friction)
+      plane.why_not = "is no steeper than the friction angle of " + degrees(friction) +
+                      " degrees: nothing slides on it";
     found.planes.push_back(std::move(plane));
   }
   for (size_t i = 0; i < found.planes.size(); ++i) {

@@ -80,10 +80,11 @@ struct FailurePlane {
   double lateral = 0;         ///< dip direction off that of the slope, 0 to pi [rad]
   double apparent_slope = 0;  ///< dip of the slope along the dip direction of the set [rad]
   std::string why_not;        ///< why no mass can leave on it; empty when one can
-  Vec3 point = Vec3::Zero();  ///< of the foot, that it passes through; from here on only if it can
-  double level_spread = 0;    ///< highest less lowest level of the foot [m]
+  Vec3 point =
+      Vec3::Zero();         ///< of the foot, that it passes through; from here on where it has one
+  double level_spread = 0;  ///< highest less lowest level of the foot [m]
   PlaneAtFoot foot;
-  double volume = 0;                     ///< of the mass [m3]
+  double volume = 0;                     ///< of the mass; 0: no plane comes out [m3]
   double mean_depth = 0, max_depth = 0;  ///< vertical [m]
   double rising_share = 0;  ///< share of the mass over bed that rises against the motion
 };

@@ -41,8 +41,6 @@ std::string why_not_by_angles(const FailureWedge& wedge, const Attitude& slope) 
     return "meet in a line that is steeper than the slope, which dips " + degrees(apparent) +
            " degrees in that direction: it does not daylight";
   if (!wedge.line.on_both) return "carry no wedge: it slides on one of them alone";
-  if (wedge.line.factor >= 1)
-    return "hold a wedge: its factor of safety is " + text(wedge.line.factor, 3);
   return "";
 }
 
@@ -161,6 +159,8 @@ std::vector<FailureWedge> find_failure_wedges(const Trn& ground, const Area& are
       if (wedge.why_not.empty() && is_upright)
         wedge.why_not = "make no surface of heights: one of them is upright";
       if (wedge.why_not.empty()) lay_wedge(ground, area, where, wedge);
+      if (wedge.why_not.empty() && wedge.line.factor >= 1)
+        wedge.why_not = "hold a wedge: its factor of safety is " + text(wedge.line.factor, 3);
       found.push_back(std::move(wedge));
     }
   return found;

@@ -24,10 +24,10 @@ struct FailureWedge {
   Attitude first_plane, second_plane;
   Wedge line;           ///< with the friction of the ground on both planes
   std::string why_not;  ///< why no mass can leave on it; empty when one can
-  Vec3 first_point = Vec3::Zero(), second_point = Vec3::Zero();  ///< from here on only if it can
+  Vec3 first_point = Vec3::Zero(), second_point = Vec3::Zero();  ///< from here on where it is laid
   double free_share = 0;                                         ///< of the foot [-]
   double largest_step = 0;                                       ///< on the rest [m]
-  double volume = 0;                                             ///< of the mass [m3]
+  double volume = 0;                                             ///< of the mass; 0: none [m3]
   double mean_depth = 0, max_depth = 0;                          ///< vertical [m]
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "blocks/limit_equilibrium.hpp"
 #include "step/step.hpp"
 
 namespace talus {
@@ -136,6 +137,31 @@ Stability find_stability(const Scene& scene, const StabilitySettings& settings,
       if (run.moves[b]) found.of_block[b] = std::min(found.of_block[b], run.factor);
   found.runs = std::move(reducer.runs);
   return found;
+}
+
+std::optional<double> factor_as_one_body(const Scene& scene, const BlockSet& blocks) {
+  std::vector<BlockContact> bed;
+  for (int b = 0; b < n_blocks(blocks); ++b) {
+    const Polyhedron shell = block_shell(blocks, b);
+    for (int f = 0; f < n_faces(shell); ++f) {
+      if (shell.face_tag[f] != face_failure) continue;
+      const Vec3 at = face_centroid(shell, f);
+      const int triangle = triangle_at(scene.ground.trn, at.x(), at.y());
+      const GroundClass& ground = scene.ground.classes[class_of(scene.ground, triangle)];
+      const double area = face_area(shell, f);
+      bed.push_back({-1, {-face_normal(shell, f), ground.friction, ground.cohesion * area}, area});
+    }
+  }
+  SlidingMass mass;
+  mass.planes = merged(bed);
+  if (mass.planes.empty() || mass.planes.size() > 2) return std::nullopt;
+  for (const PointLoad& load : scene.loads) {
+    const bool is_inside = load.wet_face >= 0 && scene.wet_faces[load.wet_face].block_b >= 0;
+    if (!is_inside) mass.water += load.force;
+  }
+  const Vec3& g = scene.gravity;
+  for (const double m : scene.blocks.mass) mass.weight -= m * g.z();
+  return sliding_factor(mass, Vec3(g.x(), g.y(), 0) / -g.z());
 }
 
 }  // namespace talus

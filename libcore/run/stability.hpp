@@ -13,8 +13,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "blocks/block_set.hpp"
 #include "scene/scene.hpp"
 
 namespace talus {
@@ -60,5 +62,10 @@ struct Stability {
 /// `said`, where given, hears of each run.
 [[nodiscard]] Stability find_stability(const Scene& scene, const StabilitySettings& settings,
                                        const std::function<void(const ReducedRun&)>& said = {});
+
+/// The factor by formula (blocks/limit_equilibrium.hpp) of blocks that slide as one body over the
+/// faces that were cut at the failure surface, under the loads of the scene. None where these are
+/// no plane and no wedge.
+[[nodiscard]] std::optional<double> factor_as_one_body(const Scene& scene, const BlockSet& blocks);
 
 }  // namespace talus

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "blocks/area_clip.hpp"
 #include "blocks/block_set.hpp"
 #include "contact/scales.hpp"
 #include "geometry/face_pressure.hpp"
@@ -235,7 +236,58 @@ struct WetJoints {
   }
 };
 
+// The wall of a mass along a side, in pieces no longer than a cell; those without rock left out.
+std::vector<std::vector<Vec3>> wall_of(const Trn& ground, const Trn& bed, const AreaSide& side) {
+  std::vector<std::vector<Vec3>> pieces;
+  const int n = static_cast<int>(std::ceil(side.length / ground.cell_size));
+  const auto at = [&](const Trn& trn, int k) -> Vec3 {
+    const Vec2 p = side.start + k * side.length / n * side.direction;
+    return {p.x(), p.y(), elevation_at(trn, p.x(), p.y())};
+  };
+  for (int k = 0; k < n; ++k) {
+    const std::vector<Vec3> piece = {at(bed, k), at(bed, k + 1), at(ground, k + 1), at(ground, k)};
+    if (piece[2].z() > piece[1].z() || piece[3].z() > piece[0].z()) pieces.push_back(piece);
+  }
+  return pieces;
+}
+
 }  // namespace
+
+Vec3 water_on_mass(const JointWater& water, const Trn& ground, const Trn& bed, const Area& area) {
+  Trn surface = ground;
+  if (!water.surface.empty()) surface.elevation = water.surface;
+  const double below = water.surface.empty() ? water.depth : 0;
+  Vec3 sum = Vec3::Zero();
+  const auto add = [&](const std::vector<Vec3>& outline, const Vec3& inward, double level) {
+    const auto pressure_at = [&](const Vec3& x) {
+      const double z = std::isnan(level) ? elevation_at(surface, x.x(), x.y()) - below : level;
+      return std::isnan(z) ? 0 : water.unit_weight * (z - x.z());
+    };
+    sum += pressure_on(outline, ground.cell_size, pressure_at).force * inward;
+  };
+  constexpr double by_surface = std::numeric_limits<double>::quiet_NaN();
+  for (const TriangleInArea& one : triangles_in(ground, area)) {
+    if (!is_known(ground, one.triangle) ||
+        triangle_corners(ground, one.triangle) == triangle_corners(bed, one.triangle))
+      continue;
+    const TrianglePlane plane = triangle_plane(bed, one.triangle);
+    for (const std::vector<Vec2>& piece : one.pieces) {
+      std::vector<Vec3> outline;
+      for (const Vec2& p : piece)
+        outline.emplace_back(p.x(), p.y(), elevation_at(bed, p.x(), p.y()));
+      add(outline, plane.normal, by_surface);
+    }
+  }
+  if (water.of_side == JointFill::drained) return sum;
+  for (const AreaSide& side : sides_of(area)) {
+    const std::vector<std::vector<Vec3>> wall = wall_of(ground, bed, side);
+    double level = std::numeric_limits<double>::infinity();
+    for (const std::vector<Vec3>& piece : wall) level = std::min(level, lowest_of(piece));
+    level = water.of_side == JointFill::crack ? level + water.crack_fill : by_surface;
+    for (const std::vector<Vec3>& piece : wall) add(piece, -side.plane.normal, level);
+  }
+  return sum;
+}
 
 void add_joint_water(const JointWater& water, Scene& scene) {
   const WetJoints joints(water, scene);

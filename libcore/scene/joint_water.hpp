@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "blocks/area.hpp"
 #include "scene/scene.hpp"
 
 namespace talus {
@@ -43,5 +44,10 @@ struct WaterRange {
   double dry = 0, full = 0;  ///< [m]
 };
 [[nodiscard]] WaterRange water_range(const JointWater& water, const Scene& scene);
+
+/// Resultant of the pressure on a mass between ground and bed that is not cut yet: on its bed, and
+/// on the walls along the outline, of which each is a crack of its own where they are cracks [N].
+[[nodiscard]] Vec3 water_on_mass(const JointWater& water, const Trn& ground, const Trn& bed,
+                                 const Area& area);
 
 }  // namespace talus

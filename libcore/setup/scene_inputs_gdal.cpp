@@ -248,7 +248,7 @@ DdaInputs read_dda_inputs(InputLog& log, const Site& site, const DdaFiles& files
     log.read_also("base_motion", resolved(site, site.base_motion.file));
   parts.blocks = read_checked_blocks(log, parts.trn, inputs.trn_digest, files, inputs.warnings);
   parts.cell_class = ground_classes(log, site, parts.trn);
-  parts.water = joint_water(log, site, parts.trn, parts.blocks);
+  parts.water = joint_water(log, site, parts.trn, parts.blocks.joint_set_names);
   std::vector<FenceLine> lines;
   for (const FenceSettings& fence : site.fences) add_lines(log, site, fence, inputs, lines);
   check_fences_apart(log, site, parts.trn, lines);

@@ -47,13 +47,13 @@ bool is_part_of(const std::string& set, const std::string& name) {
 }
 
 // Sets `fill` of all sets that a key names.
-void fill_sets(const Site& site, const BlockSet& blocks, const char* key,
+void fill_sets(const Site& site, const std::vector<std::string>& sets, const char* key,
                const std::vector<std::string>& names, JointFill fill, JointWater& made) {
   for (const std::string& name : names) {
     bool is_known = name == source_side;
     if (is_known) made.of_side = fill;
-    for (size_t k = 0; k < blocks.joint_set_names.size(); ++k)
-      if (is_part_of(blocks.joint_set_names[k], name)) {
+    for (size_t k = 0; k < sets.size(); ++k)
+      if (is_part_of(sets[k], name)) {
         if (made.of_set[k] != JointFill::surface && made.of_set[k] != fill)
           throw InputError(where_of(site, std::string("water.") + key),
                            "joint set " + name + " is among the cracks and drained",
@@ -62,7 +62,7 @@ void fill_sets(const Site& site, const BlockSet& blocks, const char* key,
         is_known = true;
       }
     if (is_known) continue;
-    std::vector<std::string> known = blocks.joint_set_names;
+    std::vector<std::string> known = sets;
     known.emplace_back(source_side);
     throw InputError(where_of(site, std::string("water.") + key),
                      std::string(key) + " names " + name + ", which is no joint set of the blocks",
@@ -122,7 +122,7 @@ void check_cover(InputLog& log, const Site& site, const Trn& ground,
 }  // namespace
 
 std::optional<JointWater> joint_water(InputLog& log, const Site& site, const Trn& ground,
-                                      const BlockSet& blocks) {
+                                      const std::vector<std::string>& sets) {
   const WaterSettings& water = site.water;
   const bool is_in_file =
       std::find(site.sections.begin(), site.sections.end(), "water") != site.sections.end();
@@ -132,10 +132,10 @@ std::optional<JointWater> joint_water(InputLog& log, const Site& site, const Trn
   check_given(site);
   JointWater made;
   made.unit_weight = water_density * site.solver.gravity_m_s2;
-  made.of_set.assign(blocks.joint_set_names.size(), JointFill::surface);
+  made.of_set.assign(sets.size(), JointFill::surface);
   made.crack_fill = std::isnan(water.crack_fill_m) ? 0 : water.crack_fill_m;
-  fill_sets(site, blocks, "cracks", water.cracks, JointFill::crack, made);
-  fill_sets(site, blocks, "drained", water.drained, JointFill::drained, made);
+  fill_sets(site, sets, "cracks", water.cracks, JointFill::crack, made);
+  fill_sets(site, sets, "drained", water.drained, JointFill::drained, made);
   if (!water.surface_m.empty())
     made.surface = plane_at_nodes(
         site, local_points(log, site, ground, water.surface_m, "water", "surface_m"), ground);

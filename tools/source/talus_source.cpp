@@ -2,16 +2,19 @@
 // What the joint sets of a site offer a mass to leave on, before anything is cut. Page:
 // docs/tools/talus-source.md
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
+#include "blocks/limit_equilibrium.hpp"
 #include "import/dem_gdal.hpp"
 #include "setup/site_crs_gdal.hpp"
 #include "setup/sliding_sets.hpp"
 #include "setup/source_cut_gdal.hpp"
+#include "setup/water_inputs_gdal.hpp"
 #include "tools/frame/failure_outlines.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
 #include "tools/frame/site_options.hpp"
@@ -119,6 +122,74 @@ std::string shares_text(const Json& rows) {
   return lines;
 }
 
+/// A mass that slides as one, whether friction holds it or not.
+struct Sliding {
+  std::string name;    ///< of the set, or of the two of a wedge
+  double azimuth = 0;  ///< of the motion [rad]
+  SourceOptions bed;
+  double volume = 0;
+  std::vector<Attitude> planes;
+};
+
+std::vector<Sliding> sliding_masses(const BlocksWork& work) {
+  std::vector<Sliding> masses;
+  for (const FailurePlane& plane : work.planes.planes)
+    if (plane.volume > 0)
+      masses.push_back({plane.set,
+                        plane.attitude.dip_direction,
+                        source_on_plane(plane.attitude, plane.point),
+                        plane.volume,
+                        {plane.attitude}});
+  for (const FailureWedge& wedge : work.wedges)
+    if (wedge.volume > 0)
+      masses.push_back({pair_name(wedge),
+                        wedge.line.trend,
+                        source_on_wedge(wedge),
+                        wedge.volume,
+                        {wedge.first_plane, wedge.second_plane}});
+  return masses;
+}
+
+// Factors of safety by formula, of each plane and wedge that comes out of the slope.
+Json limit_equilibrium_json(Tool& tool, const BlocksWork& work) {
+  std::vector<std::string> sets;
+  for (const PlannedSet& planned : work.sets) sets.push_back(planned.set.name);
+  const std::optional<JointWater> water = joint_water(tool, work.site, work.ground, sets);
+  const MaterialSettings& rock =
+      work.site.materials[material_index(work.site, work.site.source.material)];
+  Json rows = Json::array();
+  for (const Sliding& one : sliding_masses(work)) {
+    SlidingMass mass;
+    mass.weight = rock.density_kg_m3 * work.site.solver.gravity_m_s2 * one.volume;
+    for (const Attitude& plane : one.planes)
+      mass.planes.push_back({pole(plane.dip, plane.dip_direction), std::tan(work.planes.friction)});
+    rows.push_back({{"sets", one.name}, {"dry", number_or_null(sliding_factor(mass))}});
+    if (water) {
+      const SourceMass source = find_source(work.ground, work.area, one.bed, where_of_area(work));
+      mass.water = water_on_mass(*water, work.ground, source.bed, work.area);
+      rows.back()["wet"] = number_or_null(sliding_factor(mass));
+    }
+    rows.back()["critical_seismic_coefficient"] = critical_seismic(mass, one.azimuth);
+  }
+  return rows;
+}
+
+// "bedding by limit equilibrium: factor of safety 1.21 dry, 0.98 with the water of [water]"
+std::string limit_equilibrium_text(const Json& rows) {
+  std::string lines;
+  for (const Json& row : rows) {
+    const auto factor = [&](const char* key) {
+      return row[key].is_null() ? "none" : text(row[key].get<double>(), 3);
+    };
+    lines += "\n" + row["sets"].get<std::string>() + " by limit equilibrium: factor of safety " +
+             factor("dry") + " dry";
+    if (row.contains("wet")) lines += ", " + factor("wet") + " with the water of [water]";
+    const double seismic = row["critical_seismic_coefficient"].get<double>();
+    if (seismic > 0) lines += "; holds up to a seismic coefficient of " + text(seismic, 2);
+  }
+  return lines;
+}
+
 std::string wanted_pair(const std::string& sliding_set) {
   const std::vector<std::string> names = names_joined(sliding_set);
   return names.size() == 2 ? names[0] + " + " + names[1] : "";
@@ -149,9 +220,10 @@ int main(int argc, char** argv) {
     find_wedges(work);
     if (work.planes.best < 0 && names_joined(work.site.source.sliding_set).size() != 1)
       work.wedge = best_wedge(work.wedges, wanted_pair(work.site.source.sliding_set));
-    const Json shares = shares_json(work);
+    const Json shares = shares_json(work), factors = limit_equilibrium_json(tool, work);
     std::string words = planes_text(work.planes, work.ground.origin) + shares_text(shares) +
-                        wedges_text(work.wedges, work.planes.best < 0, work.wedge);
+                        wedges_text(work.wedges, work.planes.best < 0, work.wedge) +
+                        limit_equilibrium_text(factors);
     if (work.planes.best < 0 && work.wedge < 0)
       words += "\nno set offers a plane: " + what_would_go(work.planes);
     Json report = {
@@ -160,6 +232,7 @@ int main(int argc, char** argv) {
         {"run_id", tool.run_id()},
         {"failure_planes", planes_json(work.planes, work.wedges, work.wedge, work.ground.origin)},
         {"by_share_of_foot", shares},
+        {"limit_equilibrium", factors},
         {"outlines", Json::array()}};
     const std::vector<OutlinedSurface> surfaces = outlined_surfaces(work);
     for (const OutlinedSurface& surface : surfaces)

@@ -150,6 +150,10 @@ std::vector<std::string> sentences_of(const Findings& f) {
   if (f.has_water) words.push_back(dry_sentence(f));
   words.push_back((f.has_water ? "With the water as given it " : "The slope ") +
                   held_text(given.mass));
+  if (const auto& one = f.levels[f.given].as_one_body)
+    words.push_back(
+        "By limit equilibrium, as one body on its failure surface, it has a factor of " +
+        text(*one, 3));
   if (std::isfinite(given.first.moves) && first_blocks(given).size() < given.of_block.size())
     words.push_back(first_sentence(given));
   if (f.seismic > 0)
@@ -173,6 +177,7 @@ Json json_of(const Findings& f) {
                       {"is_dry", !f.has_water || k == 0},
                       {"is_given", k == f.given},
                       {"mass", factor_json(level.found.mass)},
+                      {"as_one_body", level.as_one_body ? number(*level.as_one_body) : Json()},
                       {"first", factor_json(level.found.first)}});
   }
   const Stability& given = f.as_given();

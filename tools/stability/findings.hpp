@@ -23,6 +23,7 @@ enum class WaterMeasure { above_foot, below_surface, above_given, in_cracks };
 struct AtLevel {
   double rise = 0;
   Stability found;
+  std::optional<double> as_one_body;  ///< by limit equilibrium; none: on no plane and no wedge
 };
 
 /// A group of blocks: the mass, or the blocks that go first.

@@ -115,7 +115,7 @@ struct Search {
   }
 
   // Dry, at quarters of the range, and as the site file says.
-  void find_levels(const Scene& given) {
+  void find_levels(const SetUp& given) {
     std::vector<double> rises{0};
     const double range = found.range.full - found.range.dry;
     for (int k = 0; k <= 4 && found.has_water; ++k) {
@@ -126,8 +126,9 @@ struct Search {
     for (const double rise : rises) {
       InputLog deaf;
       if (rise == 0) found.given = found.levels.size();
+      const SetUp level = rise == 0 ? given : stage.standing(deaf, rise);
       found.levels.push_back(
-          {rise, stability(rise == 0 ? given : stage.standing(deaf, rise).scene)});
+          {rise, stability(level.scene), factor_as_one_body(level.scene, level.blocks)});
     }
   }
 };
@@ -190,7 +191,7 @@ void run_tool(Tool& tool, const Site& site, const Options& o) {
     found.range = water_range(*water, setup.scene);
     found.has_water = found.range.dry < found.range.full;
   }
-  search.find_levels(setup.scene);
+  search.find_levels(setup);
   if (found.has_water)
     for (GroupFound* group : {&found.mass, &found.first})
       group->fails_at = search.fails_at(group->share);

@@ -10,6 +10,21 @@ prints "rear (80 degrees towards 10): dips into the slope"
 prints "lateral (85 degrees towards 95): dips across the slope, 85 degrees off its fall line"
 [ "$(sed -n 's/.*"taken": "\(.*\)",/\1/p' source.json)" = sliding ] || fail "not the plane of sliding"
 
+# Dry, a plane holds by tan(30) / tan(35), and with water and in an earthquake by less.
+prints "sliding by limit equilibrium: factor of safety 0.825 dry"
+printf '[water]\ndepth_m = 1\ndrained = ["source_side"]\n' | cat site.toml - >wet.toml
+holds_factors() { python3 -c "
+import json, math
+row, = json.load(open('$1'))['limit_equilibrium']
+tan = lambda d: math.tan(math.radians(d))
+assert $2, row" || fail "$1: $2"; }
+expect 0 talus-source wet.toml --trn trn.tif -o wet.json --no-db --set ground.rock.friction_deg=60
+prints "sliding (35 degrees towards 180): is no steeper than the friction angle of 60 degrees"
+prints "with the water of [water]; holds up to a seismic coefficient of"
+holds_factors wet.json "abs(row['dry'] / (tan(60) / tan(35)) - 1) < 1e-9 and 1 < row['wet'] < row['dry']"
+# (cos d - k sin d - u) tan phi = sin d + k cos d, with u from the factor
+holds_factors wet.json "abs(row['critical_seismic_coefficient'] - (row['wet'] - 1) * tan(35) / (1 + tan(60) * tan(35))) < 1e-6"
+
 # The volume is that which talus-blocks finds for it.
 expect 0 blocks --set source.failure_surface=daylighting --report blocks.json
 holds "$(value blocks.json prism_volume_m3) == $(value source.json volume_m3)"

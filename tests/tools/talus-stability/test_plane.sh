@@ -48,6 +48,8 @@ holds dry "j['words'][0].startswith('The slope is held by a factor of 1.2')"
 python3 "$source_dir/tests/tools/fields.py" "$source_dir/docs/reference/fields.md" dry/blocks.gpkg || fail "fields"
 nothing_left dry/levels.svg
 
+holds dry "abs(r[0]['as_one_body'] / (tan(30) / tan(25)) - 1) < 1e-3"
+
 # W (cos - k sin) tan(phi) / (W (sin + k cos))
 expect 0 stability -o shaken --seismic 0.1
 holds shaken "abs(g['factor']['factor'] / ((1 - 0.1 * tan(25)) * tan(30) / (tan(25) + 0.1)) - 1) < 0.01"
@@ -66,6 +68,8 @@ holds wet "abs(g['dry']['factor'] / (tan(30) / tan(25)) - 1) < 0.01"
 holds wet "[row['is_given'] for row in r].count(True) == 1 and g['factor']['factor'] < g['dry']['factor'] - 0.03"
 holds wet "r[0]['water_m'] > g['fails_at_m'] > r[-1]['water_m']"
 holds wet "'when dry; it fails when water in the joints rises to' in j['words'][0]"
+holds wet "all(abs(row['mass']['factor'] / row['as_one_body'] - 1) < 0.01 for row in r if row['as_one_body'] > 0.3)"
+prints "By limit equilibrium, as one body on its failure surface, it has a factor of"
 [ -s wet/levels.svg ] || fail "no chart of the levels"
 
 # The failed samples are those whose friction is below 25 degrees: about half of 23 to 27

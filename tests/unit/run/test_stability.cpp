@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 #include <vector>
 
 #include "base/units.hpp"
+#include "blocks/limit_equilibrium.hpp"
 #include "run/stability.hpp"
 #include "scene/joint_water.hpp"
 #include "verify/cases/cases.hpp"
@@ -112,6 +114,32 @@ TEST(Stability, SaysWhichBlocksGoFirst) {
   EXPECT_NEAR(found.first.value(), 1, 0.01);
   EXPECT_NEAR(found.mass.value(), std::tan(40 * degree) / std::tan(30 * degree), 0.02);
   EXPECT_LT(found.of_block[0], found.of_block[1]);
+}
+
+Scene columns_on_slope(const std::vector<double>& heights) {
+  const SlopeFrame frame = slope_frame(20, 0);
+  std::vector<Body> columns;
+  for (size_t n = 0; n < heights.size(); ++n) {
+    const auto rear = -static_cast<double>(n + 1);
+    columns.push_back(
+        body_of(box_in(frame, Vec3::Zero(), Vec3(rear, -1, 0), Vec3(rear + 1, 1, heights[n]))));
+  }
+  return scene_of(plane_trn(frame, 1, 30), ground_of(40), columns, {});
+}
+
+// Columns of 1 m on a plane of 20 degrees: the upper ones topple, the lowest one slides. Where more
+// than one topples, the formula has them meet at their tops alone. They turn alike, press on each
+// other lower down too, and hold better.
+TEST(Stability, ARowOfColumnsHasTheFactorOfGoodmanAndBray) {
+  const std::vector<std::vector<double>> rows = {
+      {0.8, 3.2}, {0.8, 3.6}, {1, 3.4}, {0.8, 2.5, 3.3}, {0.8, 3, 3.2}, {0.6, 2.9, 2.9, 2.9}};
+  for (const std::vector<double>& heights : rows) {
+    const double exact = toppling_factor({20 * degree, 1, 0, heights}, std::tan(40 * degree));
+    const double found = find_stability(columns_on_slope(heights), {}).mass.value();
+    std::cout << heights.size() << " columns: " << found / exact << " of the formula's factor\n";
+    EXPECT_GT(found / exact, 0.99) << heights.size();
+    EXPECT_LT(found / exact, heights.size() == 2 ? 1.01 : 1.6) << heights.size();
+  }
 }
 
 // What falls into a gap and stops there does not move; what has no strength in its way has no

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/units.hpp"
 #include "scene/joint_water.hpp"
 #include "verify/cases/cases.hpp"
 
@@ -128,6 +129,29 @@ TEST(JointWater, IsSoDeepBelowTheTop) {
   add_joint_water(water, scene);
   const Vec3 exact = weight * (thick - depth) * 24 * frame.normal;
   EXPECT_NEAR((force_on(scene, 0) - exact).norm(), 0, 1e-6 * exact.norm());
+}
+
+// Ground of 45 degrees over a bed of 25 that comes out at x = 0; the tension crack 20 m behind is
+// filled to 3 m, and under the mass the head falls from there to none at the toe. Walls to the
+// sides press against each other.
+TEST(WaterOnMass, IsTheUpliftAndTheThrustOfHoekAndBray) {
+  const double fill = 3, length = 20, width = 16;
+  const auto bed_at = [](double x) { return -x * std::tan(25 * degree); };
+  const Trn ground = make_trn([](double x, double) { return -x; }, 2, 40);
+  const Trn bed = make_trn([&](double x, double) { return std::min(-x, bed_at(x)); }, 2, 40);
+  JointWater water;
+  water.unit_weight = weight;
+  water.of_side = JointFill::crack;
+  water.crack_fill = fill;
+  water.surface =
+      make_trn([&](double x, double) { return bed_at(x) - fill * x / length; }, 2, 40).elevation;
+  const Area area{{{{-length, -8}, {0, -8}, {0, 8}, {-length, 8}}}};
+  const Vec3 lift = weight * fill / 2 * length * width * Vec3(std::tan(25 * degree), 0, 1);
+  const Vec3 thrust = weight * fill * fill / 2 * width * Vec3::UnitX();
+  const Vec3 found = water_on_mass(water, ground, bed, area);
+  EXPECT_NEAR((found - lift - thrust).norm() / lift.norm(), 0, 1e-9) << found.transpose();
+  water.of_side = JointFill::drained;
+  EXPECT_NEAR((water_on_mass(water, ground, bed, area) - lift).norm() / lift.norm(), 0, 1e-9);
 }
 
 }  // namespace

@@ -11,13 +11,12 @@ struct WaterInputs : testing::Test {
   ScratchFolder folder;
   CollectedLog log;
   Trn ground = slope_trn();
-  BlockSet blocks = three_boxes();
+  std::vector<std::string> sets = {"bed", "rear_1", "rear_2"};
 
-  void SetUp() override { blocks.joint_set_names = {"bed", "rear_1", "rear_2"}; }
   std::optional<JointWater> made(const std::string& keys) {
     Site site = site_of(folder, keys);
     site.solver.blocks = "together";
-    return joint_water(log, site, ground, blocks);
+    return joint_water(log, site, ground, sets);
   }
   std::string refusal(const std::string& keys) {
     return refusal_of([&] { static_cast<void>(made("[water]\n" + keys)); });
@@ -28,7 +27,7 @@ TEST_F(WaterInputs, AreNoneWithoutTheSection) {
   EXPECT_FALSE(made("").has_value());
   Site site = site_of(folder);
   override_value(site, "water.depth_m", "2");
-  EXPECT_TRUE(joint_water(log, site, ground, blocks).has_value());
+  EXPECT_TRUE(joint_water(log, site, ground, sets).has_value());
 }
 
 // A plane by three points, and the raster of that plane: with the nodes' cells, and with smaller
@@ -123,7 +122,7 @@ TEST_F(WaterInputs, AreRefusedWithAWayOut) {
                "the three points of surface_m are in a line, or upright");
   Site alone = site_of(folder, "[water]\ndepth_m = 1\n");
   alone.solver.blocks = "alone";
-  EXPECT_HOLDS(refusal_of([&] { static_cast<void>(joint_water(log, alone, ground, blocks)); }),
+  EXPECT_HOLDS(refusal_of([&] { static_cast<void>(joint_water(log, alone, ground, sets)); }),
                "each block moves alone hint: leave [water] out");
 }
 

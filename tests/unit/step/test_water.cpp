@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/units.hpp"
+#include "blocks/limit_equilibrium.hpp"
 #include "scene/joint_water.hpp"
 #include "step/step.hpp"
 #include "verify/cases/case_run.hpp"
@@ -68,20 +69,17 @@ Scene plane_failure(const PlaneFailure& block, const Filling& filling, double fr
   return scene;
 }
 
-struct Forces {
-  double weight, uplift, thrust;
-};
-Forces forces_on(const PlaneFailure& block, const Filling& filling) {
+/// The same in forces: one of its planes has a friction of 1.
+SlidingMass mass_of(const PlaneFailure& block, const Filling& filling) {
   const double head = filling.crack > 0 ? filling.crack : block.height / 2;
-  return {block.mass() * g, filling.uplift ? weight * head * block.length / 2 * block.width : 0,
-          weight * filling.crack * filling.crack / 2 * block.width};
+  const double uplift = filling.uplift ? weight * head * block.length / 2 * block.width : 0;
+  const double thrust = weight * filling.crack * filling.crack / 2 * block.width;
+  const Vec3 normal(std::sin(dip), 0, std::cos(dip));
+  return {block.mass() * g, uplift * normal + thrust * Vec3::UnitX(), {{normal, 1, 0}}};
 }
 
-// tan(phi) at which it is about to slide: Hoek and Bray.
-double critical_friction(const Forces& f) {
-  return (f.weight * std::sin(dip) + f.thrust * std::cos(dip)) /
-         (f.weight * std::cos(dip) - f.uplift - f.thrust * std::sin(dip));
-}
+// Gravity with a pseudo-static acceleration along +x, of gravity.
+void shake(double seismic, Scene& scene) { scene.gravity.x() = seismic * g; }
 
 double speed_after(const Scene& scene, double time) {
   State state = start(scene);
@@ -93,36 +91,39 @@ double speed_after(const Scene& scene, double time) {
 const Filling fillings[] = {{0, false}, {0, true},    {2.5, true},
                             {5, true},  {2.5, false}, {5, false}};
 
-// Dry, half and full; with and without a tension crack; and with water in the crack alone.
+// Dry, half and full; with and without a tension crack; with water in the crack alone; and shaken.
 TEST(Water, ABlockSlidesAtTheFrictionOfHoekAndBray) {
   const PlaneFailure block;
-  for (const Filling& filling : fillings) {
-    const double critical = critical_friction(forces_on(block, filling));
-    ASSERT_GT(critical, 0) << filling.crack;
-    const auto moves = [&](double friction) {
-      return speed_after(plane_failure(block, filling, std::atan(friction) / degree), 0.3) > 0.01;
-    };
-    EXPECT_TRUE(moves(0.99 * critical)) << filling.crack << filling.uplift;
-    EXPECT_FALSE(moves(1.01 * critical)) << filling.crack << filling.uplift;
-  }
+  for (const double seismic : {0.0, 0.1})
+    for (const Filling& filling : fillings) {
+      const double critical = 1 / sliding_factor(mass_of(block, filling), seismic * Vec3::UnitX());
+      ASSERT_GT(critical, 0) << filling.crack;
+      if (critical > 5) continue;  // it turns over first
+      const auto moves = [&](double friction) {
+        Scene scene = plane_failure(block, filling, std::atan(friction) / degree);
+        shake(seismic, scene);
+        return speed_after(scene, 0.3) > 0.01;
+      };
+      EXPECT_TRUE(moves(0.99 * critical)) << filling.crack << filling.uplift << seismic;
+      EXPECT_FALSE(moves(1.01 * critical)) << filling.crack << filling.uplift << seismic;
+    }
 }
 
 // ... and with what is left over, it accelerates.
 TEST(Water, ABlockAcceleratesByWhatIsLeft) {
   const PlaneFailure block;
   for (const Filling& filling : fillings) {
-    const Forces f = forces_on(block, filling);
-    const double friction = 0.5 * critical_friction(f);
-    const double a = (f.weight * std::sin(dip) + f.thrust * std::cos(dip) -
-                      friction * (f.weight * std::cos(dip) - f.uplift - f.thrust * std::sin(dip))) /
-                     block.mass();
+    const SlidingMass mass = mass_of(block, filling);
+    const double friction = 0.5 / sliding_factor(mass);
+    const Vec3 along(std::cos(dip), 0, -std::sin(dip));
+    const double a = 0.5 * along.dot(mass.water - mass.weight * Vec3::UnitZ()) / block.mass();
     const double v = speed_after(plane_failure(block, filling, std::atan(friction) / degree), 0.1);
     EXPECT_NEAR(v / (a * 0.1), 1, 5e-3) << filling.crack << filling.uplift;
   }
 }
 
 /// A prism that lies in a valley of two planes, plunging: a wedge of equal planes.
-struct Wedge {
+struct WedgeBlock {
   double plunge = 30 * degree, side = 45 * degree;  // of a section across, in a vertical plane
   double length = 8, half_width = 2;
 
@@ -137,22 +138,20 @@ struct Wedge {
   }
 };
 
-// Equal planes with a head h all over: W cos i is carried by two normal forces at the angle that
-// the planes have to the plane of their line and the vertical, each less the uplift; friction acts
-// along the line (Hoek and Bray).
+// Two planes with a head all over.
 TEST(Water, AWedgeSlidesAtItsFriction) {
-  const Wedge wedge;
-  const Vec3 normal = Vec3(std::tan(wedge.plunge), -std::tan(wedge.side), 1).normalized();
-  const Vec3 line(std::cos(wedge.plunge), 0, -std::sin(wedge.plunge));
-  const Vec3 up(std::sin(wedge.plunge), 0, std::cos(wedge.plunge));
+  const WedgeBlock wedge;
   const double volume = wedge.length * wedge.half_width * wedge.half_width * std::tan(wedge.side);
-  const double area = wedge.length * wedge.half_width / normal.z(), w = 2500 * g * volume;
-  EXPECT_NEAR(normal.dot(line), 0, 1e-12);
-  for (const double head : {0.0, 0.5, 1.0}) {
-    const double uplift = weight * head * area;
-    const double pressed = w * std::cos(wedge.plunge) / (2 * normal.dot(up)) - uplift;
-    ASSERT_GT(pressed, 0);
-    const double critical = w * std::sin(wedge.plunge) / (2 * pressed);
+  for (const auto& [head, seismic] :
+       {std::pair(0.0, 0.0), {0.5, 0.0}, {1.0, 0.0}, {0.0, 0.1}, {0.5, 0.1}}) {
+    SlidingMass mass{2500 * g * volume, Vec3::Zero(), {}};
+    for (const double sign : {-1, 1}) {
+      const Vec3 normal = Vec3(std::tan(wedge.plunge), sign * std::tan(wedge.side), 1).normalized();
+      mass.planes.push_back({normal, 1, 0});
+      mass.water += weight * head * wedge.length * wedge.half_width / normal.z() * normal;
+    }
+    const double critical = 1 / sliding_factor(mass, seismic * Vec3::UnitX());
+    ASSERT_GT(critical, 0);
     for (const double share : {0.99, 1.01}) {
       const Trn valley = make_trn([&](double x, double y) { return wedge.floor(x, y); }, 1, 30);
       Scene scene = scene_of(valley, ground_of(std::atan(share * critical) / degree),
@@ -163,8 +162,9 @@ TEST(Water, AWedgeSlidesAtItsFriction) {
       for (double& z : water.surface) z += head;
       add_joint_water(water, scene);
       scene.drained_at = 1e6;
+      shake(seismic, scene);
       EXPECT_EQ(scene.loads.size(), head > 0 ? 2u : 0u);
-      EXPECT_EQ(speed_after(scene, 0.3) > 0.01, share < 1) << head << " " << share;
+      EXPECT_EQ(speed_after(scene, 0.3) > 0.01, share < 1) << head << " " << seismic << share;
     }
   }
 }
