@@ -9,6 +9,7 @@
 #include "base/units.hpp"
 #include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
+#include "terrain/trn_edges_met.hpp"
 
 namespace talus {
 namespace {
@@ -27,26 +28,13 @@ struct Dip {
   Vec2 at = Vec2::Zero();
 };
 
-// Exact: the ground is straight between the places where the line meets the terrain's edges, so the
-// largest depth is at one of them. Those edges lie on lines x = const, y = const and x + y =
-// const of the grid.
 Dip dip_between(const Trn& trn, const Vec3& a, const Vec3& b) {
-  const Vec2 from((a.x() - trn.node0.x()) / trn.cell_size, (trn.node0.y() - a.y()) / trn.cell_size);
-  const Vec2 to((b.x() - trn.node0.x()) / trn.cell_size, (trn.node0.y() - b.y()) / trn.cell_size);
   Dip dip;
-  const auto look = [&](double share) {
+  for_each_edge_met(trn, a.head<2>(), b.head<2>(), [&](double share) {
     const Vec3 at = a + share * (b - a);
     const double depth = at.z() - elevation_at(trn, at.x(), at.y());
     if (depth > dip.depth) dip = {depth, at.head<2>()};
-  };
-  const auto cross_lines = [&](double start, double end) {
-    if (start == end) return;
-    for (double k = std::ceil(std::min(start, end)); k <= std::max(start, end); ++k)
-      look(std::clamp((k - start) / (end - start), 0.0, 1.0));
-  };
-  cross_lines(from.x(), to.x());
-  cross_lines(from.y(), to.y());
-  cross_lines(from.x() - from.y(), to.x() - to.y());  // the diagonals of the cells
+  });
   return dip;
 }
 
@@ -57,10 +45,12 @@ bool is_on(const Vec2& p, const std::vector<Vec3>& line) {
   return false;
 }
 
+}  // namespace
+
 void check_no_crossing(const Trn& trn, const std::vector<Vec3>& posts, const Where& where) {
   std::vector<Vec2> points;
   for (const Vec3& post : posts) points.push_back(post.head<2>());
-  const std::string hint = "draw it anew, or as two fences";
+  const std::string hint = "draw it anew, or in two parts";
   const bool closed = points.front() == points.back();
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = i + 1; j < points.size(); ++j)
@@ -84,8 +74,6 @@ void check_no_crossing(const Trn& trn, const std::vector<Vec3>& posts, const Whe
                      "touches itself at " + place_text(trn, points[meetings.touches.front().point]),
                      hint);
 }
-
-}  // namespace
 
 StandingFence standing_fence(const FenceSettings& settings, const Trn& trn, int line,
                              std::vector<Vec3> posts, const Where& where) {

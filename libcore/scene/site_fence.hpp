@@ -21,6 +21,10 @@ namespace talus {
 [[nodiscard]] StandingFence standing_fence(const FenceSettings& fence, const Trn& trn, int line,
                                            std::vector<Vec3> posts, const Where& where);
 
+/// Throws InputError at `where`, with the place in map coordinates, for a line that crosses,
+/// touches or comes back to itself; a closed one may end where it begins.
+void check_no_crossing(const Trn& trn, const std::vector<Vec3>& points, const Where& where);
+
 /// Throws InputError at `where` for a point with an elevation of its own (NaN: none) that lies
 /// above the ground by more than a quarter of the fence's height. Local coordinates.
 void check_feet(const FenceSettings& fence, const Trn& trn, const std::vector<Vec3>& points,

@@ -107,6 +107,10 @@ SitePlace place_of(const FenceSettings& fence) {
   return {"fence." + fence.name, "fences", VectorKind::lines, fence.file, fence.line, "line"};
 }
 
+SitePlace place_of(const DamSettings& dam) {
+  return {"dam." + dam.name, "dams", VectorKind::lines, dam.file, dam.line, "line"};
+}
+
 SitePlace place_of(const ForestSettings& forest) {
   return {"forest." + forest.name, "forest",       VectorKind::areas,
           forest.polygon_file,     forest.polygon, "polygon"};
@@ -177,6 +181,7 @@ std::vector<RequestedLayer> layers_of(const Site& site) {
   std::vector<SitePlace> places{place_of(site.source)};
   for (const GroundSettings& ground : site.grounds) places.push_back(place_of(ground));
   for (const FenceSettings& fence : site.fences) places.push_back(place_of(fence));
+  for (const DamSettings& dam : site.dams) places.push_back(place_of(dam));
   for (const ForestSettings& forest : site.forests) {
     if (!forest.active) continue;
     places.push_back(place_of(forest));

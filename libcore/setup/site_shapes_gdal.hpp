@@ -34,6 +34,7 @@ struct SitePlace {
 [[nodiscard]] SitePlace place_of(const SourceSettings& source);
 [[nodiscard]] SitePlace place_of(const GroundSettings& ground);
 [[nodiscard]] SitePlace place_of(const FenceSettings& fence);
+[[nodiscard]] SitePlace place_of(const DamSettings& dam);
 [[nodiscard]] SitePlace place_of(const ForestSettings& forest);
 [[nodiscard]] SitePlace stems_of(const ForestSettings& forest);
 [[nodiscard]] SitePlace place_of(const PlaceSettings& place);

@@ -163,6 +163,20 @@ struct FenceSettings {
   double cor = 0.1, friction_deg = 30;
 };
 
+/// [dam.NAME]: burnt into the terrain by talus-trn.
+struct DamSettings {
+  std::string name;
+  int line_number = 0;
+  std::vector<Vec3> line;  ///< middle of the crest, map x, y of at least two points; or file
+  std::string file;
+  double height_m = 5;  ///< of the crest above the ground at each point of the line
+  double crest_width_m = 2;
+  std::vector<double> slopes_deg{60, 34};  ///< of the uphill and the downhill face
+  std::vector<double> ditch_m;             ///< depth below the uphill foot, width; none: no ditch
+  double capacity_kj = not_given;          ///< by the dam's design
+  bool active = true;
+};
+
 /// [forest.NAME]: stems that stand in the way, drawn or from a list; or drag without stems.
 struct ForestSettings {
   std::string name;
@@ -405,6 +419,7 @@ struct Site {
   std::vector<MaterialSettings> materials;  ///< at least one: "rock" with the defaults
   std::vector<GroundSettings> grounds;      ///< at least one: "ground" with the defaults
   std::vector<FenceSettings> fences;
+  std::vector<DamSettings> dams;
   std::vector<ForestSettings> forests;
   std::vector<PlacedSettings> blocks;
   std::vector<RockfallSettings> rockfalls;

@@ -180,6 +180,19 @@ template <> const std::vector<SiteKey<FenceSettings>>& keys_of() {
       {"friction_deg", &S::friction_deg, "friction angle", angle_below_90, "", friction_hint}};
   return table;
 }
+template <> const std::vector<SiteKey<DamSettings>>& keys_of() {
+  using S = DamSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"line", &S::line, "middle of the crest, map x, y", any, "", "a dam needs two points", 2},
+      {"file", &S::file, "vector file with the line, instead of line"},
+      {"height_m", &S::height_m, "height of the crest above the ground at each point of the line; straight between them", {0, 100, true, false}},
+      {"crest_width_m", &S::crest_width_m, "width of the crest", {0, 100, true, false}},
+      {"slopes_deg", &S::slopes_deg, "slopes of the uphill and of the downhill face", {0, 90, true, true}, "", "", 2, 2},
+      {"ditch_m", &S::ditch_m, "depth of a ditch below the foot of the uphill face, and width of its bottom; its far side rises as the downhill face falls", positive, "", "", 2, 2},
+      {"capacity_kj", &S::capacity_kj, "energy of a block that the dam is designed for", positive},
+      {"active", &S::active, "whether it is built"}};
+  return table;
+}
 template <> const std::vector<SiteKey<ForestSettings>>& keys_of() {
   using S = ForestSettings;
   static const std::vector<SiteKey<S>> table = {

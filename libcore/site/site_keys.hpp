@@ -55,6 +55,7 @@ template <> const std::vector<SiteKey<MaterialSettings>>& keys_of();
 template <> const std::vector<SiteKey<GroundSettings>>& keys_of();
 template <> const std::vector<SiteKey<SolverSettings>>& keys_of();
 template <> const std::vector<SiteKey<FenceSettings>>& keys_of();
+template <> const std::vector<SiteKey<DamSettings>>& keys_of();
 template <> const std::vector<SiteKey<ForestSettings>>& keys_of();
 template <> const std::vector<SiteKey<OutputSettings>>& keys_of();
 template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of();
@@ -123,6 +124,7 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("rockfall", site.rockfalls);
   visit("solver", site.solver);
   visit("fence", site.fences);
+  visit("dam", site.dams);
   visit("forest", site.forests);
   visit("base_motion", site.base_motion);
   visit("water", site.water);

@@ -147,11 +147,13 @@ VectorStyle style_of(const SiteLayer& layer) {
       {"source", {178, 24, 43, 70}},          {"forest", {27, 120, 55, 60}},
       {"grounds", {140, 81, 10, 50}},         {"release_areas", {178, 24, 43, 70}},
       {"observed_boulders", {0, 0, 0, 255}},  {"observed_scars", {27, 120, 55, 255}},
-      {"observed_outlines", {0, 0, 0, 30}}};
+      {"observed_outlines", {0, 0, 0, 30}},   {"dams", {127, 59, 8, 255}}};
   const SymbolKind kind = layer.shape == SiteLayer::points  ? SymbolKind::point
                           : layer.shape == SiteLayer::lines ? SymbolKind::line
                                                             : SymbolKind::polygon;
-  const double size = kind == SymbolKind::point ? 3 : layer.name == "fences" ? 1 : 0.5;
+  const double size = kind == SymbolKind::point                        ? 3
+                      : layer.name == "fences" || layer.name == "dams" ? 1
+                                                                       : 0.5;
   return {kind, "", {{"", "", colours.at(layer.name)}}, size, has_names(layer) ? "\"name\"" : ""};
 }
 

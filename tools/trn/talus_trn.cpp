@@ -16,6 +16,7 @@
 #include "io/judged_heights_gdal.hpp"
 #include "io/trn_digest.hpp"
 #include "io/trn_file_gdal.hpp"
+#include "setup/site_dams_gdal.hpp"
 #include "setup/vector_inputs_gdal.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/grid_tin.hpp"
@@ -25,6 +26,7 @@
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/doubts.hpp"
 #include "tools/frame/import_options.hpp"
+#include "tools/frame/site_options.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace {
@@ -94,7 +96,8 @@ void declare(Tool& tool, Options& o) {
   tool.output("--hillshade", o.hillshade, "picture of the terrain (PNG)");
   tool.footer(
       "Example:\n  talus-trn slope.ply -o slope.tif --cell-size-m 5 --report slope.json\n"
-      "  talus-trn dem.tif -o slope.tif --window 248400,351100,249200,351700");
+      "  talus-trn dem.tif -o slope.tif --window 248400,351100,249200,351700\n"
+      "  talus-trn dem.tif site.toml -o slope.tif   (with the dams of the site)");
 }
 
 // --- the terrain ---------------------------------------------------------------------------------
@@ -464,12 +467,50 @@ Json report_on(Tool& tool, const Options& o, Ground& ground) {
   return report;
 }
 
+// --- dams ----------------------------------------------------------------------------------------
+
+Json as_json(const talus::Earthwork& work) {
+  return {{"fill_m3", work.fill}, {"cut_m3", work.cut}};
+}
+
+Json as_json(const talus::BuiltDam& built, const Trn& trn) {
+  Json points = Json::array();
+  for (const talus::Vec3& p : built.dam.crest) {
+    const talus::Vec3 at = p + trn.origin;
+    points.push_back({at.x(), at.y(), at.z()});
+  }
+  return {{"name", built.name},
+          {"crest", points},
+          {"least_height_m", built.dam.least_height},
+          {"most_height_m", built.dam.most_height},
+          {"designed", as_json(built.burn.designed)},
+          {"in_cells", as_json(built.burn.in_cells)},
+          {"crest_loss_m", built.burn.crest_loss},
+          {"n_nodes", built.burn.nodes.size()}};
+}
+
+// Behind what is said of the ground itself. Returns a sentence each.
+std::string add_dams(Tool& tool, const talus::Site& site, Trn& trn, Json& report) {
+  std::string sentences;
+  Json list = Json::array();
+  for (const talus::BuiltDam& built : talus::build_dams(tool, site, trn)) {
+    sentences += "\n" + sentence_on(built);
+    list.push_back(as_json(built, trn));
+    tool.metric("dam_" + built.name + "_fill_m3", built.burn.designed.fill, "m3");
+    tool.metric("dam_" + built.name + "_cut_m3", built.burn.designed.cut, "m3");
+  }
+  if (!list.empty()) report["dams"] = list;
+  return sentences;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Options o;
   Tool tool("talus-trn", "Makes the terrain of nodes (TRN) from a TIN or an elevation raster.");
   declare(tool, o);
+  talus::SiteOptions site(tool, {}, false);
+  site.take_inputs();
   return tool.run(argc, argv, [&] {
     if (!talus::is_tin_file(o.source)) talus::read_members(tool, "source", o.source);
     talus::read_members(tool, "like", o.like);
@@ -479,10 +520,12 @@ int main(int argc, char** argv) {
     talus::check_trn(ground.trn, o.source);
     o.doubts.crs_wkt = ground.trn.crs_wkt;
     tool.content_read("terrain", talus::trn_digest(ground.trn));
-    const Json report = report_on(tool, o, ground);
+    Json report = report_on(tool, o, ground);
+    const std::string dams =
+        site.file().empty() ? "" : add_dams(tool, site.load(), ground.trn, report);
     talus::write_trn(tool.stage(o.out), ground.trn, {{{"RUN_ID", tool.run_id()}}, ground.accepted});
     if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), ground.trn);
     tool.report(o.report, report);
-    tool.result(report, summary_of(report));
+    tool.result(report, summary_of(report) + dams);
   });
 }

@@ -9,7 +9,7 @@ shown() { ogrinfo -q -al "$1" | grep -E '^ +(POLYGON|LINESTRING|MULTI)' | sort; 
 site plain
 site drawn
 expect 0 talus-site --new-layers drawn/site.gpkg --crs-of drawn/contours.gpkg --no-db
-prints "13 layers in EPSG:32633"
+prints "14 layers in EPSG:32633"
 edit drawn "INSERT INTO source (geom) VALUES (AsGPB(GeomFromText('MULTIPOLYGON(((500096 5200248, 500144 5200248, 500144 5200296, 500096 5200296, 500096 5200248)))', 32633)))"
 edit drawn "INSERT INTO fences (geom, name, height_m, active) VALUES (AsGPB(GeomFromText('LINESTRING(500060 5200150, 500164 5200150)', 32633)), 'valley', 8, 1)"
 sed -e '/^polygon = /d' -e '/^\[fence.valley\]/,$d' -e 's/^crs = .*/&\nlayers = "site.gpkg"/' plain/site.toml >drawn/site.toml

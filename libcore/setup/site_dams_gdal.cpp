@@ -1,0 +1,189 @@
+#include "setup/site_dams_gdal.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "base/text.hpp"
+#include "base/units.hpp"
+#include "geometry/plan2d.hpp"
+#include "scene/site_fence.hpp"
+#include "setup/site_shapes_gdal.hpp"
+#include "terrain/extent_text.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double cells_of_a_part = 2;  // fewer do not show how wide it is
+constexpr double other_height = 0.25;  // of the height, that the crest may be off it between points
+
+Where where_of_dam(const Site& site, const DamSettings& dam) {
+  return {site.file, dam.line_number, "dam." + dam.name};
+}
+
+std::string place_text(const Trn& trn, const Vec2& at) {
+  return text(at.x() + trn.origin.x(), 10) + ", " + text(at.y() + trn.origin.y(), 10);
+}
+
+InputError error_of(const DamFault& fault, const Where& where, const DamSettings& s,
+                    const Trn& trn) {
+  const std::string at = " at " + place_text(trn, fault.at);
+  const auto face = [&](const char* name, double slope_deg) {
+    return std::string("the ") + name + " of " + text(slope_deg, 4) +
+           " degrees does not meet the ground within ten heights of the line,";
+  };
+  switch (fault.kind) {
+    case DamFault::uphill_face:
+      return {where, face("uphill face", s.slopes_deg[0]) + at,
+              "draw the line where the ground rises on one side of it"};
+    case DamFault::downhill_face:
+      return {where, face("downhill face", s.slopes_deg[1]) + at,
+              "the ground falls nearly as steeply: a steeper face (slopes_deg), or flatter ground"};
+    case DamFault::ditch_side:
+      return {where, face("far side of the ditch", s.slopes_deg[1]) + at,
+              "the ground rises nearly as steeply: a shallower or narrower ditch (ditch_m), or a "
+              "steeper downhill face, which the ditch's far side is as steep as (slopes_deg)"};
+    default:
+      return {where, "reaches beyond the known ground" + at + "; " + extent_text(trn),
+              "make the terrain larger, or move the dam"};
+  }
+}
+
+Doubt doubt_on_cells(const Where& where, const std::string& key, const std::string& finding,
+                     double wide, double low, const Trn& trn, const Vec2& at) {
+  Doubt doubt;
+  doubt.where = {where.file, where.line};
+  doubt.what = where.item + "." + key;
+  doubt.found = text(wide, 3) + " m on cells of " + text(trn.cell_size, 3) + " m: " + finding;
+  doubt.expected = "at least " + text(low, 3) + " m";
+  doubt.hint = "a finer elevation model; of contours, terrain.cell_size_m";
+  const Vec2 place = at + trn.origin.head<2>();
+  doubt.at = {{place.x(), place.y(), Doubt::none}};
+  doubt.value = wide;
+  doubt.low = low;
+  return doubt;
+}
+
+// What the cells cannot represent, and what the line makes of the height.
+std::vector<Doubt> doubts_on(const BuiltDam& built, const Where& where, const Trn& trn) {
+  const DamShape& shape = built.dam.shape;
+  const DamBurn& burn = built.burn;
+  const Vec2 first = shape.line.front();
+  const double least = cells_of_a_part * trn.cell_size;
+  std::vector<Doubt> doubts;
+  if (shape.crest_width < least)
+    doubts.push_back(doubt_on_cells(where, "crest_width_m",
+                                    "the terrain lies up to " + text(burn.crest_loss, 3) +
+                                        " m below the crest and holds " +
+                                        text(std::round(burn.in_cells.fill)) + " of its " +
+                                        text(std::round(burn.designed.fill)) + " m3",
+                                    shape.crest_width, least, trn, burn.crest_loss_at));
+  if (shape.ditch_depth > 0 && shape.ditch_width < least)
+    doubts.push_back(doubt_on_cells(where, "ditch_m",
+                                    "the terrain has " + text(std::round(burn.in_cells.cut)) +
+                                        " of its " + text(std::round(burn.designed.cut)) + " m3",
+                                    shape.ditch_width, least, trn, first));
+  const double run = shape.height / shape.tan_uphill;
+  if (run < trn.cell_size)
+    doubts.push_back(doubt_on_cells(
+        where, "slopes_deg",
+        "the uphill face runs so far in plan; in the cells it is at most " +
+            text(std::atan(shape.height / trn.cell_size) / degree, 3) + " degrees steep",
+        run, trn.cell_size, trn, first));
+  const double off =
+      std::max(built.dam.most_height - shape.height, shape.height - built.dam.least_height);
+  if (off > other_height * shape.height) {
+    Doubt doubt = doubt_on(where,
+                           "the crest stands " + text(built.dam.least_height, 3) + " to " +
+                               text(built.dam.most_height, 3) +
+                               " m above the ground between the points of its line, height_m is " +
+                               text(shape.height, 3),
+                           "give the line more points: the crest is straight between them");
+    doubts.push_back(std::move(doubt));
+  }
+  return doubts;
+}
+
+void check_share_no_node(const Site& site, const DamSettings& settings, const BuiltDam& built,
+                         const Trn& trn, std::map<int, std::string>& dam_of_node) {
+  for (const int node : built.burn.nodes) {
+    const auto [known, is_new] = dam_of_node.emplace(node, built.name);
+    if (is_new) continue;
+    const Vec3 at = node_point(trn, node / trn.n_cols, node % trn.n_cols);
+    throw InputError(
+        where_of_dam(site, settings),
+        "shares ground with dam " + known->second + " at " + place_text(trn, at.head<2>()),
+        "draw them as one line, or farther apart");
+  }
+}
+
+}  // namespace
+
+std::vector<SiteDam> dams_of(InputLog& log, const Site& site, const Trn& trn,
+                             const DamSettings& settings) {
+  const Where where = where_of_dam(site, settings);
+  if (settings.line.empty() == settings.file.empty())
+    throw InputError(where, settings.line.empty() ? "has no line" : "has both line and file",
+                     "give one of line and file");
+  DamShape shape;
+  shape.height = settings.height_m;
+  shape.crest_width = settings.crest_width_m;
+  shape.tan_uphill = tangent_of_degrees(settings.slopes_deg[0]);
+  shape.tan_downhill = tangent_of_degrees(settings.slopes_deg[1]);
+  if (!settings.ditch_m.empty()) {
+    shape.ditch_depth = settings.ditch_m[0];
+    shape.ditch_width = settings.ditch_m[1];
+  }
+  std::vector<SiteDam> dams;
+  const auto lines = local_shapes(log, site, trn, place_of(settings)).shapes;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    shape.line.clear();
+    std::vector<Vec3> points;
+    for (const Vec3& p : lines[i])
+      if (shape.line.empty() || shape.line.back() != p.head<2>()) {
+        shape.line.push_back(p.head<2>());
+        points.emplace_back(p.x(), p.y(), 0);
+      }
+    if (points.size() < 2)
+      throw InputError(where, "has a line with one point", "a dam needs two points");
+    check_no_crossing(trn, points, where);
+    dams.push_back({settings.name + (lines.size() > 1 ? "." + std::to_string(i + 1) : ""), shape});
+  }
+  return dams;
+}
+
+std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn) {
+  const Trn ground = trn;
+  std::map<int, std::string> dam_of_node;
+  std::vector<BuiltDam> all;
+  for (const DamSettings& settings : site.dams) {
+    const Where where = where_of_dam(site, settings);
+    for (const SiteDam& planned : dams_of(log, site, ground, settings)) {
+      if (!settings.active) continue;
+      BuiltDam built{planned.name, {}, {}};
+      built.burn.fault = lay_dam(ground, planned.shape, built.dam);
+      if (built.burn.fault.kind == DamFault::none) built.burn = burn_dam(built.dam, trn);
+      if (built.burn.fault.kind != DamFault::none)
+        throw error_of(built.burn.fault, where, settings, trn);
+      check_share_no_node(site, settings, built, trn, dam_of_node);
+      log.doubts(doubts_on(built, where, trn));
+      all.push_back(std::move(built));
+    }
+  }
+  return all;
+}
+
+std::string sentence_on(const BuiltDam& built) {
+  const Dam& dam = built.dam;
+  const auto volumes = [](const Earthwork& work, bool has_cut) {
+    return "fill " + text(std::round(work.fill)) + " m3" +
+           (has_cut ? ", cut " + text(std::round(work.cut)) + " m3" : "");
+  };
+  const bool has_cut = dam.shape.ditch_depth > 0;
+  return "dam " + built.name + ": " + text(length_of(dam.shape.line), 4) + " m long, crest " +
+         text(dam.least_height, 3) + " to " + text(dam.most_height, 3) + " m above the ground, " +
+         volumes(built.burn.designed, has_cut) + "; in the cells " +
+         volumes(built.burn.in_cells, has_cut) + ", the crest up to " +
+         text(built.burn.crest_loss, 2) + " m lower";
+}
+
+}  // namespace talus

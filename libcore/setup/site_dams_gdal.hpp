@@ -1,0 +1,38 @@
+// libcore/setup/site_dams_gdal.hpp: public
+// The [dam.*] of a site, burnt into its terrain.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/input_log.hpp"
+#include "site/site.hpp"
+#include "terrain/dam.hpp"
+
+namespace talus {
+
+/// The dam, or of a section with several lines the dams, that a section says, whether it is built
+/// or not, in the local coordinates of the terrain; several are named NAME.1, NAME.2 ...
+struct SiteDam {
+  std::string name;
+  DamShape shape;
+};
+/// Throws InputError for a section without a line or with two, and for a line that crosses itself.
+[[nodiscard]] std::vector<SiteDam> dams_of(InputLog& log, const Site& site, const Trn& trn,
+                                           const DamSettings& settings);
+
+struct BuiltDam {
+  std::string name;
+  Dam dam;
+  DamBurn burn;
+};
+
+/// Burns all that are active into `trn`, each laid on the ground that was there before all of
+/// them. Tells the log what cells of this size cannot represent. Throws InputError as dams_of(),
+/// for a dam that cannot be built where it is (DamFault), and for two that share a node.
+std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn);
+
+/// "dam valley: 62 m long, crest 4.9 to 5.2 m above the ground, fill 1240 m3, cut 310 m3 ..."
+[[nodiscard]] std::string sentence_on(const BuiltDam& built);
+
+}  // namespace talus

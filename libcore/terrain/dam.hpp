@@ -1,0 +1,74 @@
+// libcore/terrain/dam.hpp: public
+// Dams of earth, and ditches at the foot of their uphill faces, burnt into a terrain.
+// in:    the middle of the crest in plan, the cross-section; a terrain
+// out:   nodes of the terrain on dam and ditch moved, all others bit for bit as they were; volumes
+// Definitions: docs/guide/dams.md
+#pragma once
+
+#include <vector>
+
+#include "terrain/trn.hpp"
+
+namespace talus {
+
+/// A dam as it is designed. The crest is straight between the points of its line.
+struct DamShape {
+  std::vector<Vec2> line;   ///< middle of the crest, local x, y; at least two, no two alike [m]
+  double height = 0;        ///< of the crest above the ground at each point of the line [m]
+  double crest_width = 0;   ///< > 0 [m]
+  double tan_uphill = 0;    ///< slope of the uphill face across the line, > 0 [-]
+  double tan_downhill = 0;  ///< of the downhill face, and of the ditch's far side [-]
+  double ditch_depth = 0;   ///< below the foot of the uphill face; 0: no ditch [m]
+  double ditch_width = 0;   ///< of its bottom [m]
+};
+
+/// A dam on the ground that was there before it.
+struct Dam {
+  DamShape shape;
+  std::vector<Vec3> crest;  ///< points of the line at the height of the crest, local   (n_points)
+  std::vector<Vec3> foot;   ///< where the uphill face meets the ground across each     (n_points)
+  int uphill = 1;           ///< +1: left of the line seen from its first point, -1: right
+  double least_height = 0, most_height = 0;  ///< of the crest above the ground along the line [m]
+};
+
+/// What cannot be built there: why, and where on the ground.
+struct DamFault {
+  enum Kind { none, off_the_ground, uphill_face, downhill_face, ditch_side } kind = none;
+  Vec2 at = Vec2::Zero();  ///< local
+};
+
+/// The side of the line on which the ground lies higher, beyond faces and ditch, whether the dam
+/// stands there or not: +1 left of it seen from its first point, -1 right.
+[[nodiscard]] int uphill_side(const Trn& ground, const DamShape& shape);
+
+/// Lays the dam on the ground. The side on which the ground lies higher is uphill. A point of the
+/// line off the known ground, and an uphill face that does not meet the ground within ten heights,
+/// are faults.
+[[nodiscard]] DamFault lay_dam(const Trn& ground, const DamShape& shape, Dam& dam);
+
+struct Earthwork {
+  double fill = 0, cut = 0;  ///< between the ground before and after [m3]
+};
+
+/// What burning a dam did.
+struct DamBurn {
+  DamFault fault;          ///< none, or nothing was changed
+  Earthwork designed;      ///< of the dam itself on the ground between the nodes
+  Earthwork in_cells;      ///< of the terrain, which has a height a node
+  std::vector<int> nodes;  ///< that were moved, ascending
+  double crest_loss = 0;   ///< most that the terrain lies below the crest along the line [m]
+  Vec2 crest_loss_at = Vec2::Zero();
+};
+
+/// Moves the nodes of `trn` that stand on the dam or in its ditch:
+/// z = max(min(ground, ditch), dam), as far as these reach from the line without a gap. A face or
+/// a side of the ditch that runs on over unknown ground, over the border, or for more than ten
+/// heights from the line is a fault.
+[[nodiscard]] DamBurn burn_dam(const Dam& dam, Trn& trn);
+
+/// Height of the dam's crest and faces above a place, and of its ditch; minus and plus infinity
+/// where the dam has none, local [m].
+[[nodiscard]] double dam_height_at(const Dam& dam, const Vec2& at);
+[[nodiscard]] double ditch_height_at(const Dam& dam, const Vec2& at);
+
+}  // namespace talus
