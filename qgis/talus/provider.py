@@ -1,5 +1,6 @@
 """The provider: an algorithm a tool, an algorithm a goal of make, and one for a new site."""
 import os
+import shlex
 
 from qgis.core import QgsApplication, QgsProcessingProvider, QgsSettings
 from qgis.PyQt.QtGui import QIcon
@@ -9,13 +10,18 @@ from .goal_algorithm import GoalAlgorithm
 from .new_site_algorithm import NewSiteAlgorithm
 from .tool_algorithm import ToolAlgorithm
 
-FOLDER_SETTING = "TALUS_FOLDER"
+FOLDER_SETTING, COMMAND_SETTING = "TALUS_FOLDER", "TALUS_COMMAND"
+
+
+def setting(name):
+    return QgsSettings().value("Processing/Configuration/" + name, "", type=str)
 
 
 def tools_folder():
-    """Folder of the tools as set; empty: they are on the search path."""
-    found = QgsSettings().value("Processing/Configuration/" + FOLDER_SETTING, "", type=str)
-    return found if found and os.path.isdir(found) else ""
+    """Folder of the tools as set; empty: they are on the search path. Sets the command before them, too."""
+    tools.before = shlex.split(setting(COMMAND_SETTING) or "")
+    found = setting(FOLDER_SETTING)
+    return found if found and (tools.before or os.path.isdir(found)) else ""
 
 
 class TalusProvider(QgsProcessingProvider):
@@ -52,12 +58,16 @@ class TalusProvider(QgsProcessingProvider):
         ProcessingConfig.addSetting(Setting("Talus", FOLDER_SETTING,
                                             "Folder of the tools (empty: the search path)", "",
                                             valuetype=Setting.FOLDER))
+        ProcessingConfig.addSetting(Setting("Talus", COMMAND_SETTING,
+                                            "Command before the tools, e.g. wsl.exe (empty: none)", "",
+                                            valuetype=Setting.STRING))
         ProcessingConfig.readSettings()
 
     def unload(self):
         try:
             from processing.core.ProcessingConfig import ProcessingConfig
             ProcessingConfig.removeSetting(FOLDER_SETTING)
+            ProcessingConfig.removeSetting(COMMAND_SETTING)
         except (ImportError, KeyError):
             pass
 

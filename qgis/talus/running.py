@@ -38,6 +38,7 @@ def run(program, arguments, feedback):
         raise QgsProcessingException(
             "The tools of Talus were not found: install the package talus, or name their folder under Settings, "
             "Options, Processing, Providers, Talus.")
+    program, *arguments = tools.started([program] + arguments)
     course = Course(feedback)
     out, err = tools.Lines(course.take), tools.Lines(course.take)
     feedback.pushCommandInfo(" ".join([program] + arguments))

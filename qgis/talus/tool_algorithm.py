@@ -76,10 +76,10 @@ class ToolAlgorithm(QgsProcessingAlgorithm):
         return self.tool["tool"] + (" " + self.command["name"] if self.command else "")
 
     def group(self):
-        return "Tools"
+        return tools.group_of(self.tool["tool"])
 
     def groupId(self):
-        return "tools"
+        return re.sub("[^a-z]", "_", self.group().lower())
 
     def shortDescription(self):
         return (self.command or self.tool)["purpose"]

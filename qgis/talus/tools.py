@@ -3,6 +3,7 @@
 What a tool takes comes from itself (`talus-x --describe json`), the goals of make from `make help`:
 neither stands here a second time.
 """
+import functools
 import json
 import os
 import re
@@ -18,17 +19,54 @@ EXTENSIONS = {"GeoTIFF": "tif", "GeoPackage": "gpkg", "HDF5": "h5", "JSON": "jso
 # Goals that a dialog of their own stands for, or that need a terminal.
 GOALS_NOT_SHOWN = {"new-site", "submit", "runs-shard"}
 LONGEST_WAIT_S = 20
+# What an engineer looks for a tool under; others are "Files and runs".
+GROUPS = {"Terrain": ["import", "tin", "trn"], "Source and blocks": ["source", "blocks", "stability", "check"],
+          "Runs": ["dda", "batch", "verify"], "Run-out and maps": ["runout", "maps", "profile", "calibrate", "places"],
+          "Hazard and objects": ["hazard", "trace"], "Protection": ["fence", "fence-search"]}
+
+# Words that start the tools elsewhere, in WSL or in a container; empty: they are of this machine.
+before = []
 
 
 # --- where they are ------------------------------------------------------------------------------
 
+def inside(word):
+    """A word of a command line as the place behind `before` sees it: C:\\a\\b is /mnt/c/a/b in WSL, and has to
+    be in a container."""
+    if not before:
+        return word
+    found = re.match(r"(?s)(.*=|)([A-Za-z]):[\\/](.*)", word)
+    return "%s/mnt/%s/%s" % (found[1], found[2].lower(), found[3].replace("\\", "/")) if found else word
+
+
+def started(words):
+    """A command line, behind `before` where the tools are elsewhere."""
+    return before + [inside(word) for word in words]
+
+
+def answer_of(script):
+    """Lines that a script of the shell prints behind `before`."""
+    return output_of(before + ["sh", "-c", script]).split()
+
+
 def tool_path(name, folder=""):
     """Path of a tool: in `folder` where that is given, else on the search path; "" where it is not."""
+    if before:
+        return (folder.rstrip("/") + "/" + name if folder else name) if name in tool_names(folder) else ""
     return shutil.which(name, path=folder or None) or ""
+
+
+@functools.lru_cache(maxsize=None)
+def names_elsewhere(words, folder):
+    """As tool_names(), asked once of each place: a container takes its time."""
+    place = "'%s'" % folder if folder else '"$(dirname "$(command -v talus-site)")"'
+    return tuple(sorted(n for n in answer_of("ls " + place) if re.fullmatch(r"talus-[a-z-]+", n)))
 
 
 def tool_names(folder=""):
     """Names of the tools that there are, in alphabetical order."""
+    if before:
+        return list(names_elsewhere(tuple(before), folder))
     places = [folder] if folder else os.environ.get("PATH", "").split(os.pathsep)
     names = set()
     for place in places:
@@ -45,6 +83,11 @@ def pipelines_folder(folder=""):
     tool = tool_path("talus-site", folder)
     if not tool:
         return ""
+    if before:
+        found = answer_of('here=$(dirname "$(readlink -f "$(command -v %s)")"); for there in ../share/talus/pipelines '
+                          '../../../pipelines; do [ -f "$here/$there/site.mk" ] && cd "$here/$there" && pwd && break; '
+                          'done' % tool)
+        return found[0] if found else ""
     here = os.path.dirname(os.path.realpath(tool))
     for place in ("../share/talus/pipelines", "../../../pipelines"):
         found = os.path.normpath(os.path.join(here, place))
@@ -68,7 +111,7 @@ def output_of(words):
 def description(name, folder=""):
     """What `name` says of itself, or None."""
     try:
-        found = json.loads(output_of([tool_path(name, folder), "--describe", "json"]))
+        found = json.loads(output_of(started([tool_path(name, folder), "--describe", "json"])))
     except ValueError:
         return None
     return found if isinstance(found, dict) and isinstance(found.get("options"), list) else None
@@ -76,6 +119,8 @@ def description(name, folder=""):
 
 def stamp_of(path):
     """Tells one build of a tool from another."""
+    if before:
+        return " ".join(before + [path])
     at = os.stat(path)
     return "%s %d %d" % (path, at.st_size, at.st_mtime_ns)
 
@@ -114,9 +159,15 @@ def goals(folder=""):
     pipelines = pipelines_folder(folder)
     if not pipelines:
         return []
-    words = output_of(["make", "-s", "-f", os.path.join(pipelines, "site.mk"), "help"])
+    words = output_of(started(["make", "-s", "-f", pipelines + "/site.mk", "help"]))
     found = [Goal(*m.groups()) for m in re.finditer(r"^  ([a-z-]+): (.+)$", words, re.MULTILINE)]
     return [goal for goal in found if goal.name not in GOALS_NOT_SHOWN]
+
+
+def group_of(tool):
+    """What an engineer looks for `tool` under."""
+    name = tool.removeprefix("talus-")
+    return next((group for group, names in GROUPS.items() if name in names), "Files and runs")
 
 
 # --- options -------------------------------------------------------------------------------------
@@ -206,13 +257,13 @@ def goal_command(site, goal, variables, jobs=1, folder=""):
     words = ["TALUS_PROGRESS=json", "make", "-C", site, "-j%d" % max(1, jobs), "--no-print-directory", goal]
     place = folder or os.path.dirname(tool_path("talus-site"))
     if place:
-        words.append("BIN=" + os.path.join(place, ""))
+        words.append("BIN=" + place.rstrip("/") + "/")
     return "env", words + [v for v in variables if v]
 
 
 def new_site_command(folder_of_site, ground, source, folder=""):
     pipelines = pipelines_folder(folder)
-    return "sh", [os.path.join(pipelines, "new_site.sh"), folder_of_site, ground, source, pipelines, folder]
+    return "sh", [pipelines + "/new_site.sh", folder_of_site, ground, source, pipelines, folder]
 
 
 # --- what they say -------------------------------------------------------------------------------

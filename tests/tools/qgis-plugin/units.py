@@ -72,6 +72,11 @@ class Descriptions(unittest.TestCase):
                 self.assertTrue(entry["help"], tool["tool"] + " " + entry["key"])
                 self.assertEqual(entry["positional"], not entry["spelling"].startswith("-"))
 
+    def test_groups_name_tools_that_there_are(self):
+        names = [name for group in tools.GROUPS.values() for name in group]
+        self.assertEqual(len(names), len(set(names)))
+        self.assertFalse({"talus-" + name for name in names} - set(tools.tool_names()))
+
     def test_inputs_and_outputs_are_known_as_such(self):
         of = {o["key"]: o for o in tools.description("talus-site")["options"]}
         self.assertEqual((of["site"]["role"], of["site"]["positional"]), ("input", True))
@@ -133,6 +138,36 @@ class Goals(unittest.TestCase):
 
     def test_files_to_show_know_only_goals_of_make(self):
         self.assertFalse(set(tools.SHOWN_OF_GOAL) - {goal.name for goal in tools.goals()})
+
+
+class Elsewhere(unittest.TestCase):
+    """Tools in WSL or in a container; here `env` starts them, which is as good a command as any."""
+
+    def setUp(self):
+        self.here = (tools.tool_names(), tools.pipelines_folder(), tools.goals())
+        tools.before = ["env", "ELSEWHERE=1"]
+
+    def tearDown(self):
+        tools.before = []
+
+    def test_tools_and_goals_are_asked_for_there(self):
+        self.assertEqual((tools.tool_names(), tools.pipelines_folder(), tools.goals()), self.here)
+        self.assertEqual(tools.tool_path("talus-site"), "talus-site")
+        self.assertEqual(tools.tool_path("talus-nothing"), "")
+        self.assertTrue(tools.description("talus-site")["options"])
+
+    def test_nothing_is_offered_where_the_command_is_not_there(self):
+        tools.before = ["/no/such/command"]
+        self.assertEqual((tools.tool_names(), tools.goals(), tools.tool_path("talus-site")), ([], [], ""))
+
+    def test_paths_of_windows_are_those_of_the_place(self):
+        for word, there in (("C:\\data\\a b.tif", "/mnt/c/data/a b.tif"), ("--out=D:/x\\y", "--out=/mnt/d/x/y"),
+                            ("--set=fence.a.file=C:\\f.gpkg|layername=b", "--set=fence.a.file=/mnt/c/f.gpkg|layername=b"),
+                            ("/data/a", "/data/a"), ("--crs=EPSG:2056", "--crs=EPSG:2056"), ("RUNS=5", "RUNS=5")):
+            self.assertEqual(tools.inside(word), there)
+        self.assertEqual(tools.started(["make", "-C", "C:\\s"]), ["env", "ELSEWHERE=1", "make", "-C", "/mnt/c/s"])
+        tools.before = []
+        self.assertEqual(tools.started(["make", "-C", "C:\\s"]), ["make", "-C", "C:\\s"])
 
 
 class CommandLines(unittest.TestCase):
@@ -229,7 +264,7 @@ class Loading(unittest.TestCase):
         self.assertGreater(n, 0)
 
     def test_nothing_but_python_and_qgis_is_imported(self):
-        allowed = {"glob", "json", "os", "re", "shlex", "shutil", "subprocess", "collections", "qgis", "processing", ""}
+        allowed = {"functools", "glob", "json", "os", "re", "shlex", "shutil", "subprocess", "collections", "qgis", "processing", ""}
         for name in os.listdir(plugin_folder):
             if not name.endswith(".py"):
                 continue
