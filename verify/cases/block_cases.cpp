@@ -1,3 +1,4 @@
+// Cases of several blocks with a closed form: towers, piles, collisions, toppling.
 #include "verify/cases/block_cases.hpp"
 
 #include <Eigen/Geometry>
@@ -31,8 +32,8 @@ Scene on_plane(const SlopeFrame& frame, const std::vector<Body>& bodies, double 
   return scene;
 }
 
-// Largest movement of a block from `settling_s` on; nothing sleeps. What it moved by before counts
-// beyond a tenth of a metre: blocks that were thrown off do not stand.
+// Largest movement of a block from `settling_s` on; nothing sleeps. Its movement before counts
+// beyond a tenth of a metre: blocks that were thrown off have not stayed.
 CaseResult movement_after(Run run, double settling_s, double duration_s) {
   run.scene.settings.sleep = false;
   const std::vector<Vec3> start = places(run);
@@ -44,8 +45,8 @@ CaseResult movement_after(Run run, double settling_s, double duration_s) {
   return run.finish(moved, 0, moved);
 }
 
-// How far the last block came down the dip in 1.5 s against a t^2 / 2, and how far the others,
-// which should stay, moved.
+// How far the last block came down the dip in 1.5 s against a t^2 / 2, and how far the remaining
+// ones, which should stay, moved.
 CaseResult slides_on_the_others(Run run, const SlopeFrame& frame, double a) {
   const std::vector<Vec3> before = places(run);
   run.advance_to(1.5);
@@ -194,7 +195,7 @@ CaseResult thin_plate(const CaseSettings& settings) {
 
 namespace {
 
-// Momentum and angular momentum about the local zero, less what gravity did since time 0.
+// Momentum and angular momentum about the local zero, less the impulse of gravity since time 0.
 Vec6 momentum(const Run& run) {
   const Vec3 fall = run.state.time * run.scene.gravity;
   Vec6 sum = Vec6::Zero();

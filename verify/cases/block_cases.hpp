@@ -1,6 +1,6 @@
 // verify/cases/block_cases.hpp
-// Cases of several blocks with a closed form; as closed_form.hpp. Where blocks should stand, a way
-// of more than 0.1 m before they are watched counts too.
+// Cases of several blocks with a closed form; as closed_form.hpp. Where blocks should stay, a
+// displacement of more than 0.1 m before they are watched counts too.
 #pragma once
 
 #include "verify/cases/closed_form.hpp"
@@ -19,16 +19,16 @@ CaseResult tower_slide(const CaseSettings& settings);
 CaseResult tower_holds(const CaseSettings& settings);
 
 /// Four cubes, friction 40 degrees: dip at which they topple, tan(dip) = 1 / 4, 14.036 degrees, by
-/// bisection: error [deg]. What they stand on gives way under their edge, so it is a little less.
+/// bisection: error [deg]. Their support yields under their edge, so it is a little less.
 CaseResult pile_topples(const CaseSettings& settings);
 
 /// Cube on a plate that sticks to a slope of 30 degrees, friction 20 between the two, 1.5 s:
-/// relative error of its way (26), or how far the plate moved over that way, the larger.
+/// relative error of its displacement (26), or that of the plate over it, the larger.
 CaseResult block_on_block(const CaseSettings& settings);
 
 /// Keel of 90 degrees in the groove of two long blocks on 35 degrees, friction 20, 1.5 s: relative
-/// error of its path. Each face bears W cos(dip) / sqrt(2), so
-/// a = g (sin(dip) - sqrt(2) tan(phi) cos(dip)).
+/// error of its path. Each face carries W cos(dip) / sqrt(2), so a = g (sin(dip) - sqrt(2) tan(phi)
+/// cos(dip)).
 CaseResult groove(const CaseSettings& settings);
 
 /// Equal cubes meeting face to face at 8 m/s, no friction. `value`: the speed they part with [m/s];
@@ -53,11 +53,11 @@ CaseResult thin_plate(const CaseSettings& settings);
 /// Eight tumbling boxes thrown at each other far above the ground, 1.5 s: change of momentum and of
 /// angular momentum about the local zero beyond gravity's, the larger, over the momentum that the
 /// boxes bring [-, 1 m for the angular one]. `value`: energy gained over the kinetic one brought,
-/// below 0 for what collisions cost.
+/// below 0 for the losses of collisions.
 CaseResult collision(const CaseSettings& settings, double restitution);
 
-/// Sixteen columns that dip into the slope, on a stepped base, as Goodman and Bray (1976) have
-/// them: the friction angle from which the toe stands without help, by bisection: error [deg].
+/// Sixteen columns that dip into the slope, on a stepped base, as in Goodman and Bray (1976): the
+/// friction angle from which the toe is stable without help, by bisection: error [deg].
 /// Expected: their limit equilibrium, 38.146 degrees.
 CaseResult columns_topple(const CaseSettings& settings);
 
@@ -73,14 +73,14 @@ CaseResult dominoes(const CaseSettings& settings);
 CaseResult tower_topples(const CaseSettings& settings);
 
 struct Pile;
-/// A pile that should stand: the farthest that a cube gets within `duration_s`, over its side.
+/// A pile that should be stable: largest displacement of a cube within `duration_s`, over its side.
 CaseResult pile_moves(const CaseSettings& settings, const Pile& pile, double duration_s);
 
 /// Twelve pairs of tumbling cubes that meet in space, no friction: largest error of the restitution
 /// of their hits [-].
 CaseResult tumbling_pairs(const CaseSettings& settings, double restitution);
 
-/// Cube that falls from 2 m on a slab of eight times its mass that the ground bears, COR 0.7:
+/// Cube that falls from 2 m on a slab of eight times its mass that lies on the ground, COR 0.7:
 /// relative error of its speed after, against hits in turn in one dimension.
 CaseResult borne_slab(const CaseSettings& settings);
 
@@ -95,9 +95,10 @@ CaseResult plastic_row(const CaseSettings& settings);
 /// Eight elastic cubes in a bowl, no friction, 4 s: change of their energy as a part of it.
 CaseResult elastic_bowl(const CaseSettings& settings);
 
-/// Top of what follows [m].
+/// Height of the ridge below [m].
 inline constexpr double ridge_height = 10;
-/// A wall along y whose top is a ridge at `x`; its sides stand at `half_angle_deg` to the vertical.
+/// A wall along y whose top is a ridge at `x`; its sides are inclined by `half_angle_deg` to the
+/// vertical.
 [[nodiscard]] Body ridge_wall(double half_angle_deg, double x);
 /// A plate on the top of the ridge, cut in two by an upright plane whose normal lies at
 /// `azimuth_deg` to x, `off` the middle.

@@ -1,3 +1,4 @@
+// The slope as fixed polyhedral blocks, as the original method models it.
 #include "verify/cases/blocky_slope.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// A block that breaks in two when it is hit, against its energy balance.
 #include "verify/cases/breakage_case.hpp"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ Scene falling_cube(const Settings& settings, double side, double speed) {
   const double above = 0.003 * speed;
   BlockSet set;
   set.material_names = {"rock"};
-  // what it gains on the way down is taken off
+  // the speed gained on the way down is taken off
   add_body(set, body_of(box(Vec3(0, 0, above), Vec3(side, side, side + above)),
                         Vec3(0, 0, -std::sqrt(speed * speed - 2 * g * above))));
   SplitSettings split;

@@ -1,5 +1,5 @@
 // verify/cases/case_run.hpp
-// Moves the scene of a case on and counts what its steps report; finds where something begins.
+// Moves the scene of a case on and counts the reports of its steps; finds where something begins.
 // in:    a Scene
 // out:   a CaseResult, complete once finish() has its error
 #pragma once
@@ -18,8 +18,8 @@ namespace talus::cases {
 
 inline constexpr double g = 10;  // [m/s2]
 
-/// What reading the processor's clock takes by itself, at least: no part of a case, some of which
-/// take a few microseconds [s].
+/// Least time to read the processor's clock: not part of a case, some of which take a few
+/// microseconds [s].
 inline double clock_seconds() {
   static const double seconds = [] {
     double least = 1;
@@ -32,8 +32,8 @@ inline double clock_seconds() {
   return seconds;
 }
 
-/// A scene on its way by law talus, or by law paper where `paper` has its settings, and the sums
-/// that a case reports of it.
+/// A scene moved by law talus, or by law paper where `paper` has its settings, and the sums that a
+/// case reports of it.
 struct Run {
   Scene scene;
   double clock = clock_seconds();      ///< [s]
@@ -82,7 +82,7 @@ struct Run {
   }
 };
 
-/// Counts what `one` took to `total`; value, expected and error stay.
+/// Adds the counts of `one` to `total`; value, expected and error stay.
 inline void add_counts(const CaseResult& one, CaseResult& total) {
   total.steps += one.steps;
   total.passes += one.passes;

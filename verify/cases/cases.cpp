@@ -1,3 +1,4 @@
+// Building blocks of scenes with a closed form: planes, valleys, profiles, prisms, boxes.
 #include "verify/cases/cases.hpp"
 
 #include <Eigen/Geometry>

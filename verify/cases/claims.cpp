@@ -1,3 +1,4 @@
+// Tables of claims: CPU time at equal error, and comparisons with law paper and other engines.
 #include "verify/cases/claims.hpp"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ bool has_paper(const MeasuredCase& measured) {
 
 bool has_peers(const MeasuredCase& measured) { return !measured.peers.empty(); }
 
-// Smallest error of the other engines and what it cost.
+// Smallest error of the other engines and its cost.
 std::string best_peer(const std::vector<PeerPoint>& peers) {
   const auto best =
       std::min_element(peers.begin(), peers.end(),

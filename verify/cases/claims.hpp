@@ -11,7 +11,7 @@
 
 namespace talus {
 
-/// How law talus stands to law paper, errors below what the reference is known to made equal.
+/// Law talus against law paper; errors below the uncertainty of the reference count as equal.
 [[nodiscard]] LawComparison laws_of(const MeasuredCase& measured);
 
 /// CPU time of other engines over that of law talus at equal error, least over the front of their

@@ -24,7 +24,7 @@ namespace talus::cases {
 
 /// Outcome of a case. What `error` is, and its unit, is said at the case.
 struct CaseResult {
-  double value = 0;     ///< what was computed
+  double value = 0;     ///< computed
   double expected = 0;  ///< closed form
   double error = 0;     ///< as said at the case
   long steps = 0;       ///< calls of step()
@@ -98,7 +98,8 @@ CaseResult rocking_ratio(const CaseSettings& settings);
 CaseResult shaken_block(const CaseSettings& settings);
 
 /// Slab on the flat, friction 15 degrees, base motion 4 sin(2 pi 0.7 (t - 0.3)) m/s2 at 60 degrees
-/// east of north from 0.3 to 2.7 s: error of its way after 4 s along and across that, over the way.
+/// east of north from 0.3 to 2.7 s: error of its displacement after 4 s along and across that, over
+/// it.
 CaseResult harmonic_slide(const CaseSettings& settings);
 
 /// Block of 0.2 m sliding down a slope that eases from 27 to 23 degrees, friction 25 degrees:
@@ -115,7 +116,7 @@ CaseResult own_weight(const CaseSettings& settings);
 CaseResult ghost_collisions(const CaseSettings& settings, double dip_deg);
 
 /// Slab of 2 x 2 x 0.3 m that falls flat from 1 m on 20 degrees, friction 25 degrees: relative
-/// error of the way down the dip after all of its bounces, 5 s.
+/// error of the distance down the dip after all of its bounces, 5 s.
 CaseResult bouncing_slab(const CaseSettings& settings, double restitution);
 
 /// A prism of radius 1 m that turns about its lower edge at first.
@@ -126,8 +127,8 @@ struct Rolling {
   double begin =
       -1;  ///< its centroid from the normal at that edge, as a share of half a side's angle
 };
-/// Of 3 to 128 sides. Two come to rest, one after a side, one after rocking; the others go on
-/// rolling. None flies.
+/// Of 3 to 128 sides. Two come to rest, one after a side, one after rocking; the rest continues
+/// to roll. None flies.
 inline constexpr std::array<Rolling, 10> rolling_prisms = {{{3, 0, 0, 0.6},
                                                             {4, 0, 2.6},
                                                             {5, 15, 1.2},
@@ -138,7 +139,7 @@ inline constexpr std::array<Rolling, 10> rolling_prisms = {{{3, 0, 0, 0.6},
                                                             {32, 5, 1},
                                                             {64, 5, 0},
                                                             {128, 4, 0}}};
-/// Friction 85 degrees: largest error of the way in `duration_s`, as a part of all of it, side by
+/// Friction 85 degrees: largest error of the path in `duration_s`, as a part of all of it, side by
 /// side (pivot, plastic hit, next pivot).
 CaseResult prism_rolls(const CaseSettings& settings, const Rolling& rolling, double duration_s);
 
@@ -155,7 +156,7 @@ CaseResult lifted_slab(const CaseSettings& settings);
 CaseResult slab_over_edge(const CaseSettings& settings);
 
 /// Slab sliding down 30 degrees from ground of friction 10 degrees onto ground of 22: relative
-/// error of the way, 1.6 s.
+/// error of the path, 1.6 s.
 CaseResult border_slide(const CaseSettings& settings);
 
 /// Elastic cube of modulus `young` that falls on its face at 4 m/s and loses nothing else (COR 1;
@@ -163,36 +164,36 @@ CaseResult border_slide(const CaseSettings& settings);
 /// before, error 1 less that.
 CaseResult elastic_restitution(const CaseSettings& settings, double young);
 
-// --- ground that gives way (closed_form_soil.cpp) ---------------------------------------------
+// --- yielding ground (closed_form_soil.cpp) ---------------------------------------------------
 
 /// Cube dropped on its face from 5 m, COR 0.9 that falls by speed (v_h 10 m/s) or by energy (20
 /// kJ): largest relative error of the first three heights.
 CaseResult falling_restitution(const CaseSettings& settings, bool by_energy);
 
 /// Prism of n sides, as heavy as a ball of its radius, that rolls at 2 m/s on the flat: relative
-/// error of the way to its stop by rolling resistance and plastic hits of its edges.
+/// error of the path to its stop by rolling resistance and plastic hits of its edges.
 CaseResult rolling_stop(const CaseSettings& settings, int n_sides, double resistance);
 
 /// Critical rolling initiation angle of a prism with rolling resistance, tan = tan(pi / n) + mu_r
 /// R_e / (R cos(pi / n)): error by bisection [deg].
 CaseResult resisted_rolling_angle(const CaseSettings& settings, int n_sides, double resistance);
 
-/// Cube on its edge, its weight off it: how far off it stands, in arms mu_r R_e; error by bisection
-/// of the one that is known, 1.
+/// Cube on its edge, its weight off it: the offset at which it balances, in arms mu_r R_e; error by
+/// bisection of the one that is known, 1.
 CaseResult standing_on_edge(const CaseSettings& settings, double resistance);
 
 /// Cube that pivots on its face at 10 rad/s without friction: relative error of the time to its
 /// stop.
 CaseResult pivoting_stop(const CaseSettings& settings);
 
-/// Ground whose friction grows from tan(phi) = `least` to 2 along the way slid.
+/// Ground whose friction grows from tan(phi) = `least` to 2 along the slid distance.
 GroundClass scarring_ground(double least, double rate, double decay);
-/// Slab at `speed` on the flat: relative error of the way to its stop.
+/// Slab at `speed` on the flat: relative error of the path to its stop.
 CaseResult scarring_stop(const CaseSettings& settings, const GroundClass& ground, double speed);
-/// Slab from rest on 35 degrees: relative error of its largest speed or of the way to its stop.
+/// Slab from rest on 35 degrees: relative error of its largest speed or of the path to its stop.
 CaseResult scarring_creep(const CaseSettings& settings, const GroundClass& ground);
 
-/// Friction 0.84 at rest, 0.11 at high speed, halfway at 4 m/s; and the way on the flat from
+/// Friction 0.84 at rest, 0.11 at high speed, halfway at 4 m/s; and the distance on the flat from
 /// `speed` to rest, the integral of v / (g mu(v)) [m].
 [[nodiscard]] GroundClass weakening_ground();
 [[nodiscard]] double weakening_way(double speed);
@@ -203,10 +204,10 @@ CaseResult weakening_stop(const CaseSettings& settings, double speed);
 /// friction is tan(20 degrees), 7.497 m/s.
 CaseResult weakening_runaway(const CaseSettings& settings);
 
-/// Slab from rest on 40 degrees, friction 30 degrees, drag per time (0.6 1/s, 5 s) or per way (0.02
-/// 1/m, 10 s): relative error of its speed, by time or by way, and of its way.
+/// Slab from rest on 40 degrees, friction 30 degrees, drag per time (0.6 1/s, 5 s) or per distance
+/// (0.02 1/m, 10 s): relative error of its speed, by time or by distance, and of its path.
 CaseResult dragged_slide(const CaseSettings& settings, bool per_way);
-/// Slab at 10 m/s on the flat, friction 0.3, drag 0.5 1/s: relative error of the way to its stop.
+/// Slab at 10 m/s on the flat, friction 0.3, drag 0.5 1/s: relative error of the path to its stop.
 CaseResult dragged_stop(const CaseSettings& settings);
 
 }  // namespace talus::cases

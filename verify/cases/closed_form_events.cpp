@@ -27,8 +27,8 @@ std::array<double, n> runge_kutta(const std::array<double, n>& y, double h, cons
   return end;
 }
 
-// Way down 20 degrees of a slab that falls on its face from `drop` above, restitution e, friction
-// 25 degrees: bounce after bounce; when they are over it slides on until it stands.
+// Distance down 20 degrees of a slab that falls on its face from `drop` above, restitution e,
+// friction 25 degrees: bounce after bounce; then it slides to rest.
 double way_of_bounces(double drop, double e, double duration_s) {
   const double across = g * std::cos(20 * degree), along = g * std::sin(20 * degree),
                friction = std::tan(25 * degree);
@@ -193,7 +193,7 @@ AccelerationRecord drop_of_ground() {
   return base;
 }
 
-// Height of what the ground of drop_of_ground() lets go, above the ground, after `time`.
+// Height of a body dropped by the ground of drop_of_ground(), above the ground, after `time`.
 double height_above_drop(double time) {
   constexpr double ramp = 1e-3, away = 0.2 + ramp / 2, plain = 0.3 - ramp;
   double z = 0, v = 0;
@@ -263,9 +263,9 @@ CaseResult slab_over_edge(const CaseSettings& settings) {
 
 namespace {
 
-// Way down a slope of `dip` of a slab whose front and rear corners cross, one after the other, onto
-// ground of other friction `ahead` and `behind` them; friction is that of the corners by what they
-// bear.
+// Distance down a slope of `dip` of a slab whose front and rear corners cross, one after the other,
+// onto ground of other friction `ahead` and `behind` them; friction is that of the corners by their
+// loads.
 double way_across_border(double dip, double length, double height, double ahead, double rear_at,
                          double friction_before, double friction_after, double duration_s) {
   double x = 0, v = 0;

@@ -184,7 +184,8 @@ CaseResult toppling_angle(const CaseSettings& settings) {
                       });
 }
 
-// By its way in the second second: what a block does when it drops into its springs is over then.
+// By its displacement in the second second: the motion of a block that drops into its springs is
+// over then.
 CaseResult sliding_angle(const CaseSettings& settings) {
   return column_angle(settings, 20, 19, 21, 20, [](const SlopeFrame& frame, Run& run) {
     run.advance_to(1);
@@ -247,7 +248,7 @@ CaseResult harmonic_slide(const CaseSettings& settings) {
     for (double t = 0; t < run.state.time; t += h) {
       const bool shakes = t >= begin && t < end;
       const double a = shakes ? -amplitude * std::sin(frequency * (t + h / 2 - begin)) : 0;
-      // what friction may do in the interval brings it to rest at most
+      // friction within the interval brings it to rest at most
       const double driven = v + h * a;
       const double next = driven - std::copysign(std::min(h * friction, std::abs(driven)), driven);
       x += h * (v + next) / 2;

@@ -1,4 +1,4 @@
-// Cases of closed_form.hpp: ground that gives way.
+// Cases of closed_form.hpp: yielding ground.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ Run slab_run(const CaseSettings& settings, const SlopeFrame& frame, const Ground
              settings.paper);
 }
 
-// Way down the dip until it stands, or until `longest` seconds are over.
+// Distance down the dip until it is at rest, or until `longest` seconds are over.
 double way_to_rest(const SlopeFrame& frame, Run& run, double longest) {
   const Vec3 from = run.motion().pose.position;
   double way = 0;
@@ -49,7 +49,7 @@ double root_of(double low, double high, const std::function<double(double)>& f) 
   return (low + high) / 2;
 }
 
-// Integral of scarring friction along the way slid.
+// Integral of scarring friction along the slid distance.
 double scar_integral(const GroundClass& ground, double x) {
   const double k = ground.scar_rate;
   return ground.friction * x + 2 / pi * (ground.scar_friction - ground.friction) *
@@ -204,7 +204,7 @@ CaseResult pivoting_stop(const CaseSettings& settings) {
                    body_of(cube_on(flat, 1), Vec3::Zero(), spin * Vec3::UnitZ()), 10),
           settings.paper);
   const double radius = std::cbrt(3 / (4 * pi));
-  // a quarter of the time and three quarters on: from the speeds there when it would stand still
+  // a quarter of the time and three quarters on: from the speeds there the time of its stop
   const double expected = spin / (6 * resistance * radius * g);
   run.advance_to(expected / 4);
   const double t0 = run.state.time, w0 = run.spin(run.motion()).z();

@@ -75,8 +75,8 @@ CaseResult pile_moves(const CaseSettings& settings, const Pile& pile, double dur
 
 namespace {
 
-// Normal speeds of two cubes' point of contact before and after what changed their motions, told by
-// what it did to momentum and angular momentum.
+// Normal speeds of two cubes' point of contact before and after their motions changed, derived from
+// the changes of momentum and angular momentum.
 double restitution_of(const Run& run, const std::vector<Motion>& before) {
   double speed_before = 0, speed_after = 0;
   const Vec3 p = run.scene.blocks.mass[0] * (run.state.motion[0].velocity - before[0].velocity);
@@ -269,7 +269,7 @@ CaseResult parts_land_flat(const CaseSettings& settings) {
   Body slab;
   slab.parts = {box(Vec3(-2, -1, side + height), Vec3(0.3, 1, side + height + 0.5)),
                 box(Vec3(0.3, -1, side + height), Vec3(2, 1, side + height + 0.5))};
-  slab.velocity = Vec3(1, 0, 0);  // for half a second: to the middle of what it falls on
+  slab.velocity = Vec3(1, 0, 0);  // for half a second: to the middle of the lower body
   const std::vector<Body> bodies = {slab, body_of(box(Vec3(-7.5, -8, 0), Vec3(8.5, 8, side)))};
   Run run(all_alike(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5), bodies, settings),
           settings.paper);

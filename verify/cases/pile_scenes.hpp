@@ -19,7 +19,7 @@ struct Pile {
   double share = 0;
   double step = 0.005;  ///< [s]
   double friction_deg = 35;
-  double heavy = 1;  ///< the last block is so many times as heavy as the others
+  double heavy = 1;  ///< mass of the last block over that of the rest
 };
 
 [[nodiscard]] inline double dip_of(const Pile& pile) {

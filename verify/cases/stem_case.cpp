@@ -1,3 +1,4 @@
+// A stem that stops a block, or breaks; a forest that drags.
 #include "verify/cases/stem_case.hpp"
 
 #include <algorithm>

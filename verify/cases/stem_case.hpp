@@ -12,7 +12,7 @@ namespace talus::cases {
 CaseResult stem(const CaseSettings& settings);
 
 /// A cube of 1000 kg flies at 15 m/s without gravity through a forest that drags by 500 kg/s, 40 s:
-/// relative error of its way, m v / d = 30 m.
+/// relative error of its path, m v / d = 30 m.
 CaseResult dragged_flight(const CaseSettings& settings);
 
 }  // namespace talus::cases

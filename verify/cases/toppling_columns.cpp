@@ -35,9 +35,9 @@ Columns columns() {
   return c;
 }
 
-// What the toe would have to be held with, by the limit equilibrium of the paper: the thrust of
-// each column on the one below, from the top, is the larger of what keeps it from toppling and from
-// sliding. Per weight of a cube of 1 m and metre of width [m2].
+// The force to hold the toe, by the limit equilibrium of the paper: the thrust of each column on
+// the one below, from the top, is the larger of the thrusts against toppling and against sliding.
+// Per weight of a cube of 1 m and metre of width [m2].
 double thrust_at_toe(double friction_deg) {
   const Columns c = columns();
   const double mu = std::tan(friction_deg * degree);
@@ -48,7 +48,7 @@ double thrust_at_toe(double friction_deg) {
     const double pushed_at = k < crest ? y : y - c.above_crest;
     const double leans_at = k <= crest ? y - c.below_crest : y;
     const double slides = thrust - weight * (co * mu - s) / (1 - mu * mu);
-    // Nothing stands before the toe that it could lean on.
+    // The toe has no column before it that it could lean on.
     const double topples =
         leans_at > 0
             ? (thrust * (pushed_at - mu * thickness) + weight / 2 * (y * s - thickness * co)) /
@@ -71,7 +71,7 @@ Scene scene_of_columns(double friction_deg, const Settings& settings) {
     const double base = (k - 1) * c.step;
     bodies.push_back(body_of(column(k, base, base + c.height[static_cast<std::size_t>(k) - 1], 0)));
   }
-  // The ground lies far below: the columns stand on fixed bodies.
+  // The ground lies far below: the columns are on fixed bodies.
   Scene scene = scene_of(plane_trn(frame, 40, 400, -60 * frame.normal), ground_of(friction_deg),
                          bodies, settings);
   scene.fixed.classes.push_back(ground_of(friction_deg));

@@ -1,3 +1,4 @@
+// The list of cases that talus-verify runs, with claims, references and methods.
 #include "verify/cases/verify_cases.hpp"
 
 #include <algorithm>
@@ -224,7 +225,7 @@ std::vector<VerifyCase> single_block_cases() {
   };
 }
 
-// Ground that gives way. Law paper knows none of it: its errors are those of firm ground.
+// Yielding ground. Law paper knows none of it: its errors are those of firm ground.
 std::vector<VerifyCase> soil_cases() {
   const auto of_soil = [](VerifyCase c) {
     c.paper_dt = {1e-2, 1e-3};

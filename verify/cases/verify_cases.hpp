@@ -1,7 +1,7 @@
 // verify/cases/verify_cases.hpp
 // The cases that talus-verify runs: those of verify/cases/closed_form.hpp and
-// verify/cases/block_cases.hpp, with what each claims, what it is compared with, and over which
-// settings it is worth running.
+// verify/cases/block_cases.hpp, with the claim and reference of each, and the settings that it is
+// worth running with.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ struct VerifyCase {
   std::string name;       ///< as given on the command line and in file names
   std::string claim;      ///< one sentence
   std::string reference;  ///< closed form or integration it is compared with
-  std::string norm;       ///< what the error is, with its unit
+  std::string norm;       ///< meaning of the error, with its unit
   std::string test;       ///< test that bounds it
   double bound = 0;       ///< law talus at the default step must stay below, unit of `norm`
   std::function<cases::CaseResult(const CaseSettings&)> run;
@@ -33,14 +33,14 @@ struct VerifyCase {
 /// All cases in the order of the report.
 [[nodiscard]] const std::vector<VerifyCase>& verify_cases();
 
-/// One way of running a case: law, stiffness, strains, solver tolerance, a ladder of time steps.
+/// One method of running a case: law, stiffness, strains, solver tolerance, a ladder of time steps.
 struct Method {
   std::string name;  ///< in the legend
   CaseSettings settings;
   std::vector<double> dt;  ///< longest first [s]
 };
 
-/// The ways to run `c`: those of the whole study, or the few that CI has time for.
+/// The methods to run `c` with: those of the whole study, or the few that CI has time for.
 [[nodiscard]] std::vector<Method> methods_of(const VerifyCase& c, bool full);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// Means and errors of a slide from many slightly different starts.
 #include "verify/study/ensemble.hpp"
 
 #include <algorithm>

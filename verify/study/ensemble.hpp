@@ -1,7 +1,7 @@
 // verify/study/ensemble.hpp
 // Error of a slide that has no closed form: the same slide from several slightly different starts,
 // compared by the mean place of the rock, where nine tenths of it stay behind, and its spread.
-// Single blocks go their own way (their toe is never compared); these three hardly do.
+// Single blocks scatter (their toe is never compared); these three hardly do.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// Scenes with and without each item that the scene plan leaves out.
 #include "verify/study/leaving_out.hpp"
 
 #include <algorithm>
@@ -153,7 +154,7 @@ OmissionRun run_many(const std::function<Scene(std::uint64_t seed)>& scene, int 
 
 // --- plans ---------------------------------------------------------------------------------------
 
-// What decides about strains and contacts; the rest of the facts decides about what files hold.
+// Facts that decide about strains and contacts; the rest decides about the content of files.
 PlanFacts facts_of(const Scene& scene, const std::string& strain) {
   PlanFacts facts;
   facts.n_blocks = n_blocks(scene);
@@ -190,7 +191,7 @@ void add_plans(const SlideData& slide, bool full, std::vector<Omission>& out) {
                      return run_scene(planned(make(0), kept, strains ? "on" : "off"), duration);
                    }});
   };
-  // Strains that are left out change no block by more than this share of itself.
+  // Strains that are left out change no block by more than this relative size.
   const auto add_all = [&out](const std::string& scene, double duration, const auto& make) {
     out.push_back({"all", scene, 1e-9, strain_that_matters,
                    [=](bool kept) { return run_scene(planned(make(0), kept), duration); }});
@@ -262,7 +263,7 @@ void add_items_of_blocks(std::vector<Omission>& out) {
 }
 
 void add_items_of_ground(std::vector<Omission>& out) {
-  // edges of a plane that are looked at bear a part of the weight, each at a point of its own
+  // edges of a plane that are looked at carry a part of the weight, each at a point of its own
   out.push_back({"terrain edges and nodes", "cube slides on a plane, 2 s", 0, 1e-5, [](bool kept) {
                    Scene scene = cube_on_plane(1, ground_of(20));
                    const std::uint8_t all = trn_flag::convex_east | trn_flag::convex_south |

@@ -1,7 +1,7 @@
 // verify/study/leaving_out.hpp
-// What the scene plan leaves out, on scenes that show it: with it and without, side by side.
+// Parts that the scene plan leaves out, on scenes that show them: with and without, side by side.
 // in:    the slide of 39 blocks; the other scenes are made here
-// out:   how far the answers are apart, and what leaving out saves
+// out:   how far the answers are apart, and the time saved
 #pragma once
 
 #include <functional>
@@ -18,8 +18,8 @@ struct OmissionRun {
   std::vector<Vec3> places;     ///< of the blocks at the end; of an ensemble, the mean path [m]
   double uncertainty = 0;       ///< standard error of an ensemble's mean path [m]
   double path = 0;              ///< largest of the blocks [m]
-  double cpu = 0;               ///< the start, all steps and what is recorded of them [s]
-  long shown = 0;               ///< hits, skipped steps: whatever must come up to show anything
+  double cpu = 0;               ///< the start, all steps and their records [s]
+  long shown = 0;               ///< hits, skipped steps: counts that must not be 0 to show anything
 };
 
 /// Something that a scene can do without.

@@ -1,3 +1,4 @@
+// Error beside run time: rows of cases, Pareto fronts, comparison of laws.
 #include "verify/study/measure.hpp"
 
 #include <algorithm>

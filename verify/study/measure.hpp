@@ -1,6 +1,6 @@
 // verify/study/measure.hpp
-// Error beside run time: what one run of a case gave, the Pareto front of several, and how law
-// talus stands to law paper.
+// Error beside run time: the result of one run of a case, the Pareto front of several, and law
+// talus compared with law paper.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct VerifyRow {
   int runs = 1;                 ///< that the error is the mean of
   long steps = 0;               ///< of all runs, as iterations and unconverged
   double error = 0;             ///< NaN where the run gave none: not finite, or a block was lost
-  std::string norm;             ///< what the error is, with its unit
+  std::string norm;             ///< meaning of the error, with its unit
   double cpu = 0;   ///< of a run, start and all steps: median, of an ensemble the mean [s]
   double wall = 0;  ///< with the scene's set-up and an integrated reference [s]
   long iterations = 0, unconverged = 0;
@@ -48,7 +48,7 @@ struct MeasuredCase {
   const VerifyCase* about = nullptr;
   std::vector<VerifyRow> rows;
   std::vector<PeerPoint> peers;  ///< empty: not measured with other engines
-  double worst = useful_error;   ///< larger errors are no answers
+  double worst = useful_error;   ///< larger errors are not answers
   double known_to = 0;           ///< uncertainty of the reference: smaller errors count as this
 };
 
@@ -75,7 +75,7 @@ struct MeasuredCase {
 /// count.
 [[nodiscard]] double cheapest(const std::vector<VerifyRow>& rows, double error);
 
-/// How law talus with its default settings, whatever the step, stands to law paper on one case.
+/// Law talus with its default settings, whatever the step, compared with law paper on one case.
 struct LawComparison {
   bool is_on_front = false;  ///< a row of law talus is on the front of both
   bool is_compared = false;  ///< law paper has an error that is an answer

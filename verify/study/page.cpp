@@ -1,3 +1,4 @@
+// Writes the page of a study from its results and a template.
 #include "verify/study/page.hpp"
 
 #include <algorithm>
@@ -91,8 +92,8 @@ void add_corners(Values& values, const Study& study) {
   values["corner_table"] = as_lines(corner_table(study.corners));
 }
 
-// The rules of the scene plan as it prints them, and what the full plan does with a scene that has
-// nothing to keep them for.
+// The rules of the scene plan as it prints them, and the effect of the full plan on a scene that
+// has nothing to keep them for.
 std::string table_of_rules() {
   std::string table = "| Item | Rule | Kept by `--plan=full` |\n|---|---|---|\n";
   PlanFacts nothing;

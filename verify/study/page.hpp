@@ -1,8 +1,8 @@
 // verify/study/page.hpp
-// The page of a study, docs/evidence/verification.md: what is claimed, against what, the error, the
-// CPU time, the test; diagrams, stability chart, what leaving out saves, and what is not verified.
+// The page of a study, docs/evidence/verification.md: claims, references, errors, CPU times, tests;
+// diagrams, stability chart, savings of the scene plan, and parts not verified.
 // in:    everything that was measured, and the page's text with marks (page.md.in)
-// out:   Markdown, each figure of it from what was measured
+// out:   Markdown, each figure of it from the measurements
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace talus {
 
-/// A study; what was not run is empty.
+/// A study; parts that were not run are empty.
 struct Study {
   std::string commit, commit_date, machine;
   std::string command;  ///< that makes it again

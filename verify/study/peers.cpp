@@ -1,3 +1,4 @@
+// Reads tables of other engines' results on the same cases.
 #include "verify/study/peers.hpp"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ const std::string& field(const Record& record, const std::string& name, const st
   return at->second;
 }
 
-// NaN for what is no number: the engine failed there.
+// NaN for text that is not a number: the engine failed there.
 double number(const Record& record, const std::string& name, const std::string& path) {
   double value = 0;
   return parse_double(field(record, name, path), value) ? value : std::nan("");

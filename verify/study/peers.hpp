@@ -1,5 +1,5 @@
 // verify/study/peers.hpp
-// What other engines needed on the same cases, from tables measured elsewhere: for the diagrams and
+// Results of other engines on the same cases, from tables measured elsewhere: for the diagrams and
 // one column of the summary.
 // in:    a folder with sliding.csv, sliding_friction_angles.csv, oblique.csv, rolling.csv,
 //        bounce.csv, free_rotation.csv and slide39_seeds.csv

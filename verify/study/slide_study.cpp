@@ -1,3 +1,4 @@
+// The slide of 39 blocks at several settings, as means of many starts.
 #include "verify/study/slide_study.hpp"
 
 #include <cmath>
@@ -41,7 +42,7 @@ std::vector<Method> slide_methods(bool full) {
 }
 
 // One block in a run goes far now and then, which moves the mean of eight runs by half a metre; so
-// what is compared with the reference, and the reference, are means of many.
+// the compared values and the reference are means of many.
 int slide_runs(const Method& method, bool full) {
   if (!full) return 1;
   if (method.settings.paper) return 6;

@@ -1,6 +1,6 @@
 // verify/study/slide_study.hpp
 // The slide of 39 blocks, for which nothing exact is known: means of many starts at several
-// settings, and their distance to what the shortest steps tend to.
+// settings, and their distance from the limit of short steps.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// Runs scenes at the ends of every range of input and judges their outcome.
 #include "verify/study/stability.hpp"
 
 #include <algorithm>
@@ -21,8 +22,8 @@ using namespace cases;
 
 constexpr double gravity = 10;
 
-// Mechanical energy and what has been dissipated or is stored in contacts: constant but for what
-// the numbers add.
+// Mechanical energy and the energy dissipated or stored in contacts: constant but for numerical
+// errors.
 double total_energy(const Scene& scene, const State& state) {
   const Energies e = energies(scene, state);
   const EnergyLedger& l = state.ledger;
@@ -77,8 +78,8 @@ double depth_of(const Run& run, int b) {
   return deepest / shapes.radius[b];
 }
 
-// Moves the scene on and watches every step. The energy in play: kinetic at the start, what a fall
-// by the blocks' own radii gives, and what has been dissipated.
+// Moves the scene on and watches every step. The energy in play: kinetic at the start, that of a
+// fall by the blocks' own radii, and that dissipated.
 Seen watch(Run& run, double duration) {
   Seen seen;
   const Blocks& blocks = run.scene.blocks;
@@ -303,7 +304,7 @@ Seen lean(double share, double dt) {
   return seen;
 }
 
-// What a case says of itself.
+// The record of a case from its result.
 Seen seen_of(const CaseResult& result) {
   Seen seen;
   seen.error = result.error;

@@ -1,5 +1,5 @@
 // verify/study/stability.hpp
-// The stability chart: scenes at the ends of every range of input, and what becomes of each.
+// The stability chart: scenes at the ends of every range of input, and the outcome of each.
 // in:    settings of law talus
 // out:   right, outside its tolerance, refused with a reason, or broken (which must not happen)
 #pragma once
@@ -34,22 +34,22 @@ struct Seen {
 
 /// One place of the chart.
 struct Corner {
-  std::string axis;  ///< what is varied
+  std::string axis;  ///< varied quantity
   double value = 0;  ///< of it
   std::string unit;
-  std::string scene;  ///< what happens in it
-  std::string norm;   ///< what the error is; empty: no closed form, watched only
+  std::string scene;  ///< motion in it
+  std::string norm;   ///< meaning of the error; empty: no closed form, watched only
   double tolerance = 0;
   std::function<Seen()> run;
 };
 
-/// Limits of what is right: energy gained, and depth, which the give of contacts explains. From
-/// `deep_share` (solver/law_numbers.hpp) on a depth is broken.
+/// Limits of a right result: energy gained, and depth, which the compliance of contacts explains.
+/// From `deep_share` (solver/law_numbers.hpp) on a depth is broken.
 inline constexpr double gain_limit = 1e-3, depth_limit = 0.02;
 
 [[nodiscard]] Outcome judge(const Corner& corner, const Seen& seen);
 
-/// All corners in the order of the chart, at the default settings but for what is varied.
+/// All corners in the order of the chart, at the default settings but for the varied one.
 [[nodiscard]] std::vector<Corner> stability_corners();
 
 /// A corner with its verdict.

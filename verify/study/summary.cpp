@@ -1,3 +1,4 @@
+// Tables of all cases as Markdown: claims, errors, bounds, times.
 #include "verify/study/summary.hpp"
 
 #include <cmath>
@@ -7,7 +8,7 @@
 namespace talus {
 namespace {
 
-// Law paper's smallest error and what it cost.
+// Law paper's smallest error and its cost.
 const VerifyRow* best_of_paper(const std::vector<VerifyRow>& rows) {
   const VerifyRow* best = nullptr;
   for (const VerifyRow& row : rows)
@@ -28,7 +29,7 @@ std::string line_of(const MeasuredCase& measured) {
   return line + " | `" + c.test + "` |\n";
 }
 
-// One way of running a case, at one step.
+// One method of running a case, at one step.
 struct Column {
   std::string head;
   double dt = 0;
