@@ -84,7 +84,7 @@ void flying_block(benchmark::State& bench) {
 }
 BENCHMARK(flying_block)->Arg(1)->Arg(0);
 
-// Whole cases: the counter `error` stands beside the time.
+// Whole cases: the counter `error` is listed beside the time.
 void case_sliding(benchmark::State& bench) {
   CaseResult result;
   for (auto _ : bench) result = sliding({}, 20, 37, 4, Vec3::Zero(), 4);

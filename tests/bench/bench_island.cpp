@@ -1,7 +1,7 @@
 // Coupled solve of islands: time of a solve, of its parts, and how they grow. CPU time; `rows`,
-// passes and conjugate-gradient iterations per solve stand in the counters. Steps follow each other
-// as in a run: velocities and states of the last solve start the next, the free motion changes by
-// the argument `noise` (in per mille) of itself.
+// passes and conjugate-gradient iterations per solve are counters. Steps follow each other as in a
+// run: velocities and states of the last solve start the next, the free motion changes by the share
+// `noise` (in per mille).
 #include <benchmark/benchmark.h>
 
 #include "../unit/solver/island_scenes.hpp"

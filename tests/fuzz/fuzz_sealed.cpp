@@ -50,14 +50,14 @@ const Bytes& sound_file(std::size_t number) {
   return all[number];
 }
 
-// One edit: an array or attribute, what is done to it, where, and with what.
+// One edit: an array or attribute, the kind of change, its place, and its value.
 struct Edit {
   std::uint8_t object, kind, value, type;
   std::uint16_t at, extent;
 };
 static_assert(sizeof(Edit) == 8);
 
-// Numbers at the borders of what indices, counts and measures may be.
+// Numbers at the borders of the ranges of indices, counts and measures.
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array numbers = {

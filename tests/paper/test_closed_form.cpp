@@ -1,6 +1,6 @@
 // The closed forms of theory 4 with law talus: one default setting for all. Each case runs at the
-// default step, at dt = 1e-2 and at a small step; the bounds are those asked for, not those reached
-// (docs/evidence/verification.md lists what is reached).
+// default step, at dt = 1e-2 and at a small step; the bounds are the required ones, not the errors
+// reached (listed in docs/evidence/verification.md).
 #include <gtest/gtest.h>
 
 #include "verify/cases/closed_form.hpp"
@@ -53,7 +53,7 @@ TEST_P(LawTalus, SlidesTheSameOnAnyCellSize) {
     EXPECT_LT(sliding(settings, 20, 37, 1, Vec3::Zero(), cell).error, 1e-6) << cell;
 }
 
-// The cells' diagonal runs one way: turning the slope turns it against the block.
+// The cells' diagonal has one direction: turning the slope turns it against the block.
 TEST_P(LawTalus, SlidesTheSameAcrossAnyDiagonal) {
   for (const double azimuth : {0.0, 45.0, 90.0, 135.0, 225.0, 300.0})
     EXPECT_LT(sliding(settings, 20, azimuth, 1).error, 1e-6) << azimuth;

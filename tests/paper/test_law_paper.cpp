@@ -1,6 +1,6 @@
-// Law paper on the paper's four benchmarks and on blocks that meet: what the printed method gives,
-// bounded loosely, since its errors are its own (docs/evidence/verification.md reports them). What
-// it must do exactly is asserted tightly.
+// Law paper on the paper's four benchmarks and on blocks that meet: results of the printed method,
+// bounded loosely, since its errors are its own (docs/evidence/verification.md reports them). Exact
+// properties are asserted tightly.
 #include <gtest/gtest.h>
 
 #include "verify/cases/block_cases.hpp"
@@ -108,7 +108,7 @@ TEST(LawPaper, CollisionBetweenBlocksKeepsMomentum) {
   EXPECT_LT((momentum() - before).norm(), 1e-10 * exchanged);
 }
 
-// A column of three: each face carries what stands on it, four corners of stiffness k_n.
+// A column of three: each face carries the blocks above it, four corners of stiffness k_n.
 TEST(LawPaper, ColumnPressesWithItsWeight) {
   const double k_n = 1e9;
   cases::Run run(tower(3, 0, 30, law_paper(2e-4, k_n)), PaperSettings{});
@@ -124,7 +124,7 @@ TEST(LawPaper, ColumnPressesWithItsWeight) {
   }
 }
 
-// The weight comes on all at once, so the bond has to bear twice what the slope asks for:
+// The weight acts at once, so the bond has to carry twice the static load of the slope:
 // sin(a) - tan(20) cos(a) = 0.3 / 2.
 TEST(LawPaper, BondBearsALoadPutOnAtOnce) {
   const double expected = 20 + std::asin(0.15 * std::cos(20 * degree)) / degree;

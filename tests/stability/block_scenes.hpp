@@ -1,6 +1,6 @@
 // tests/stability/block_scenes.hpp
-// Scenes of many blocks and what is measured of them: walls and heaps on a plane; energy and the
-// farthest way a block went.
+// Scenes of many blocks and measures of them: walls and heaps on a plane; energy and the largest
+// displacement of a block.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -110,7 +110,7 @@ inline double spring_energy(const State& state) {
 
 /// Heaps stay finite and above the ground and lose energy. No step of any gains more than 5 % of
 /// the kinetic energy at the start, 0.1 % with the stiffness and the steps that talus would choose,
-/// besides what springs give back that were pressed in before.
+/// besides the energy of springs that were pressed before.
 inline void expect_bounded(double stiffness, double dt, double duration, int n_heaps) {
   Settings settings;
   settings.dt = dt;

@@ -29,7 +29,7 @@ struct Outcome {
   std::set<int> thin_too_deep;  ///< plates and needles that were too deep at some time
   int left = 0, still_there = 0;
   double deepest = 0, deepest_thin = 0;  ///< over the tolerance [-]
-  double balance = 0;                    ///< of all energies over what was lost [-]
+  double balance = 0;                    ///< of all energies over the energy lost [-]
   long unconverged = 0, substeps = 0;
   StepFlag flags = StepFlag::none;
 };
@@ -97,7 +97,7 @@ inline double energy_of(const Scene& scene, const Motion& m, int b) {
          scene.gravity.dot(m.pose.position);
 }
 
-/// How deep a block stands in the ground, square to it where it is deepest [m]; 0 where part of it
+/// Depth of a block in the ground, normal to it where it is deepest [m]; 0 where part of it
 /// lies beside the terrain.
 inline double depth_in_ground(const Scene& scene, const Body& body, int b, const Motion& m) {
   const Trn& trn = scene.ground.trn;

@@ -1,5 +1,5 @@
-// The energy budget of a mass with all laws at once (test E1): kinetic and potential energy and all
-// that the laws took add up to what there was.
+// The energy budget of a mass with all laws at once (test E1): kinetic and potential energy and the
+// losses by all laws add up to the initial energy.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -20,7 +20,7 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-// Ground that gives way in all ways; its friction follows the slid distance, or the speed.
+// Ground with all laws of yielding; its friction follows the slid distance, or the speed.
 GroundClass yielding_ground(bool scars) {
   GroundClass ground;
   ground.friction = 0.5;
@@ -132,10 +132,10 @@ double missed_by(const Scene& scene, State& state) {
   return missed;
 }
 
-// What is left is what a step gives or takes where a pressed block turns: contacts turn it, and its
-// angular momentum stays. It was measured by itself: all laws together miss 1e-9 (theory 1.13).
-// Here it is 1.7e-6 of the fall; 2e-7 where pairs of bodies that were hit pressed for a shorter
-// time and turned them less.
+// The rest is the energy that a step gives or takes where a pressed block turns: contacts turn it,
+// and its angular momentum stays. It was measured on its own: all laws together miss 1e-9 (theory
+// 1.13). Here it is 1.7e-6 of the fall; 2e-7 where pairs of bodies that were hit pressed for a
+// shorter time and turned them less.
 TEST(Budget, OfAMassWithAllLawsCloses) {
   State state;
   EXPECT_LT(std::abs(missed_by(mass(true), state)), 5e-6);
@@ -143,8 +143,8 @@ TEST(Budget, OfAMassWithAllLawsCloses) {
   EXPECT_GT(state.ledger.breakage, 0);
 }
 
-// Cubes have one moment of inertia, so that no turn changes their energy but for moments of what
-// presses late in a substep, after hits: 1e-8.
+// Cubes have one moment of inertia, so that no turn changes their energy but for moments of
+// contacts that press late in a substep, after hits: 1e-8.
 TEST(Budget, OfCubesClosesToTheLawsAlone) {
   State state;
   EXPECT_LT(std::abs(missed_by(mass(false), state)), 5e-8);

@@ -1,5 +1,5 @@
-// Many blocks on each other: what stands, stands; what slides, topples or collides does so as rigid
-// bodies do; whatever stiffness and step, the outcome is bounded. Long forms:
+// Many blocks on each other: stable scenes stay, and blocks slide, topple or collide as rigid
+// bodies do; with any stiffness and step, the outcome is bounded. Long forms:
 // unit/step/test_many_blocks_long.cpp.
 #include <gtest/gtest.h>
 
@@ -74,7 +74,7 @@ std::vector<Body> large_on_a_layer(const SlopeFrame& frame) {
   return bodies;
 }
 
-// A large block falls on small ones that the ground bears: impulses on a small one are large and
+// A large block falls on small ones that lie on the ground: impulses on a small one are large and
 // balance. No step displaces it farther than the speeds that it has would take it.
 TEST(ManyBlocks, ImpulsesThatBalanceDisplaceNothing) {
   for (const double speed : {4.0, 8.0, 12.0}) {
@@ -101,10 +101,9 @@ TEST(ManyBlocks, ImpulsesThatBalanceDisplaceNothing) {
   }
 }
 
-// Contacts of small blocks among large ones are as stiff as they have to bear: a large one sinks in
-// by no more than 2 g dt^2 a contact, slides on them as one with them, and no step is repeated for
-// the sake of stiff contacts that bear nothing, but the first two, while what they bear is not
-// known.
+// Contacts of small blocks among large ones are as stiff as their loads need: a large one sinks in
+// by no more than 2 g dt^2 a contact, slides on them as one with them, and no step is repeated
+// because of stiff contacts without load, but the first two, while the loads are unknown.
 TEST(ManyBlocks, ALayerOfSmallBlocksBearsALargeOne) {
   for (const double dt : {1e-3, 5e-3, 1e-2}) {
     Settings settings;
@@ -145,7 +144,8 @@ TEST(ManyBlocks, AnyStiffnessAndStepIsBounded) {
   for (const double stiffness : {0.0, 1e6, 1e14}) expect_bounded(stiffness, 1e-3, 2, 1);
 }
 
-// What heaps lose is what friction, impacts and contacts took, to a half per cent of what they had.
+// The energy lost by heaps is the work of friction, impacts and contacts, to a half per cent of the
+// initial energy.
 TEST(ManyBlocks, EnergyBalanceCloses) {
   for (int number = 0; number < 10; ++number) {
     const Scene scene = heap({}, number);
@@ -173,7 +173,7 @@ void expect_same_bits(const State& a, const State& b) {
   }
 }
 
-// A run that goes on from a copy of its state, with new scratch, gives the same bits.
+// A run that continues from a copy of its state, with new scratch, gives the same bits.
 TEST(ManyBlocks, ResumedRunHasTheSameBits) {
   const Scene scene = heap({});
   State whole = start(scene);
@@ -202,7 +202,7 @@ TEST(ManyBlocks, RunsInTwoThreadsHaveTheSameBits) {
 }
 
 // Stones of a wall on a slope that is too steep for them: a step shared by threads has the bits of
-// one thread, also where it goes on in another number of them.
+// one thread, also where it continues in another number of them.
 void expect_bits_of_one_thread(int n_courses, int n_long, double duration) {
   const Scene scene =
       on_plane(slope_frame(35, 30), wall_of(n_courses, n_long, 1), 25, 25, {}, 2, 40);
