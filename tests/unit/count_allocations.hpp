@@ -1,5 +1,5 @@
 // tests/unit/count_allocations.hpp
-// Counts what an executable asks of operator new, for tests that a step asks for nothing. It
+// Counts calls of operator new by an executable, for tests that a step allocates nothing. It
 // replaces the operators: one source of an executable may include it.
 #pragma once
 

@@ -36,7 +36,7 @@ TEST(Doubt, SentenceSaysPlaceFindingAndExpectation) {
   EXPECT_EQ(sentence_on(doubt_on({"a.dxf"}, "is odd")), "a.dxf: is odd");
 }
 
-// Of a kind and state the first is said; what has no kind stays by itself.
+// Of a kind and state the first is said; a doubt without a kind is a group of its own.
 TEST(Doubt, GroupsCountAll) {
   Doubt many = spot(3);
   many.n = 40;

@@ -26,7 +26,7 @@ TEST(Template, PutsValuesInPlaceOfMarks) {
             "1 of | x |\n| y |, 1\nplain { } }}\n");
 }
 
-// A value is text, never a mark: what a file name holds cannot pull in another value.
+// A value is text, never a mark: the content of a file name cannot pull in another value.
 TEST(Template, DoesNotLookForMarksInValues) {
   EXPECT_EQ(filled_template("page.in", "{{a}}{{b}}\n", {{{"a", "{{b}}"}, {"b", "2"}}, {}}),
             "{{b}}2\n");

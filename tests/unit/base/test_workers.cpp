@@ -35,7 +35,7 @@ TEST(Workers, WakeForALoopThatComesLate) {
   EXPECT_EQ(times, std::vector<int>(50, 5));
 }
 
-// Each chunk waits for the one before it: in any other order of beginning nobody would go on.
+// Each chunk waits for the one before it: in any other order of beginning the loop would not end.
 TEST(Workers, BeginChunksInAscendingOrder) {
   Workers workers(4);
   for (int loop = 0; loop < 100; ++loop) {

@@ -45,7 +45,7 @@ inline std::vector<Joint> draw_all(const std::vector<JointSet>& sets, const Vec3
   return joints;
 }
 
-/// A rough slope and a bed below part of it, sometimes daylighting: what a source leaves.
+/// A rough slope and a bed below part of it, sometimes daylighting: as made by a source.
 struct Scene {
   Trn ground, bed;
 };

@@ -28,7 +28,7 @@ TEST(BaseLevel, ProfileRunsThroughTheMiddleDownTheSlope) {
   EXPECT_NEAR(profile.foot.y(), 50, 0.03);
 }
 
-// The surface sags by what was asked for whatever the cells: along a strip that is long across the
+// The surface sags by the requested depth whatever the cells: along a strip that is long across the
 // slope the base level is that of a profile.
 TEST(BaseLevel, SagIsTheSameOnEveryCellSize) {
   for (const double cell : {4.0, 2.0}) {

@@ -62,7 +62,7 @@ bool touch(const Polyhedron& one, const Polyhedron& other) {
 }
 
 // A ridge of the bed may cut a part off from the plane in which the block was divided: such parts
-// are no body.
+// are not bodies.
 TEST(ConvexParts, HangTogether) {
   std::mt19937_64 random(3);
   const auto uniform = [&](double low, double high) {

@@ -129,7 +129,7 @@ TEST(FailurePlane, LargestMassIsTakenUnlessASetIsWanted) {
 }
 
 TEST(FailurePlane, UnevenFootThatLeavesNoRockIsARefusal) {
-  // A quarter of the foot stands on a rib 40 m high, which ends just inside the area.
+  // A quarter of the foot is on a rib 40 m high, which ends just inside the area.
   const Trn ground =
       grid(60, 60, 2, [](double x, double y) { return y + (x > 50 && y < 15 ? 40 : 0); });
   const FailurePlanes found =

@@ -47,8 +47,8 @@ TEST(Fragments, FillTheirParentToRounding) {
   EXPECT_GT(n_cut, 50);
 }
 
-// A plane passes the centroid by up to a fifth of the width, so pieces are no halves: limits.md has
-// these numbers.
+// A plane passes the centroid by up to a fifth of the width, so pieces are not halves: limits.md
+// has these numbers.
 TEST(Fragments, AreNoHalves) {
   struct Case {
     Vec3 size;
@@ -95,7 +95,7 @@ TEST(Fragments, NoneIsSmallerThanAskedForAndNoneCutMoreOften) {
   EXPECT_NEAR(shares, 1, 1e-12);
 }
 
-// The pieces of a block are the same whatever stands beside it.
+// The pieces of a block are the same whatever is beside it.
 TEST(Fragments, DependOnSeedAndBlockAlone) {
   const Polyhedron one = box(Vec3(0, 0, 0), Vec3(3, 2, 1));
   BlockSet alone = set_of({one}), together = set_of({one, box(Vec3(9, 0, 0), Vec3(12, 1, 1))}),

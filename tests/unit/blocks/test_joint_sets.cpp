@@ -169,7 +169,7 @@ TEST(ExpectedCells, IsThatOfTheArrangement) {
   struct Case {
     std::vector<JointSet> sets;
     Vec3 half;       // of the box [m]
-    double largest;  // cells to those expected: what is cut off at the sides comes on top
+    double largest;  // cells to those expected: cells cut off at the sides come on top
   };
   for (const auto& [sets, half, largest] :
        std::vector<Case>{{four, Vec3::Constant(20), 1.6},

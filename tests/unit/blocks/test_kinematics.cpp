@@ -122,7 +122,7 @@ TEST(Kinematics, WedgeThatBearsOnOnePlaneIsNoWedge) {
 }
 
 TEST(Kinematics, ColumnsToppleOverABaseThatDipsOutOfTheSlope) {
-  // The line of 85/045 and 85/225+90 stands upright; 80/315 and 85/045 dip into the slope.
+  // The line of 85/045 and 85/225+90 is vertical; 80/315 and 85/045 dip into the slope.
   const KinematicSet rear{"rear", plane(75, 315), {}, std::tan(phi)};
   const KinematicSet side{"side", plane(89, 45), {}, std::tan(phi)};
   const KinematicSet base{"base", plane(15, 135), {}, std::tan(phi)};

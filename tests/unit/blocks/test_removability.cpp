@@ -26,8 +26,8 @@ RestPlane on(double dip_deg, double direction_deg, double phi_deg) {
 
 const Vec3 weight = -Vec3::UnitZ();
 
-// The projection of a force on the pyramid, by trying all sets of up to three planes that may bear:
-// what they leave of the force goes into no plane, and none of them pulls.
+// The projection of a force on the pyramid, by trying all sets of up to three planes in contact:
+// the remaining force points into no plane, and no plane pulls.
 Vec3 projected(const Vec3& force, const std::vector<Vec3>& normals) {
   constexpr double tiny = 1e-9;
   for (unsigned set = 0; set < 1u << normals.size(); ++set) {
@@ -54,7 +54,7 @@ double trend_deg(const Vec3& v) { return std::fmod(std::atan2(v.x(), v.y()) / de
 double plunge_deg(const Vec3& v) { return std::asin(-v.z() / v.norm()) / degree; }
 
 // n cubes of weight 1 in a row on a plane that dips `dip`, each resting on the plane and against
-// the one in front; `ahead` stands before the first.
+// against the one in front; `ahead` is before the first.
 std::vector<std::vector<BlockContact>> row_of_cubes(int n, double dip_deg,
                                                     const std::vector<BlockContact>& ahead) {
   const double tangent = std::tan(30 * degree), dip = dip_deg * degree;
@@ -171,7 +171,7 @@ TEST(BlockMode, IsTheProjectionOnWhatIsLeftFree) {
     const Vec3 slip = projected(weight, normals);
     const BlockMode mode = block_mode(weight, planes);
     ASSERT_NEAR((mode.direction - slip).norm(), 0, 1e-8) << trial;
-    // The forces on the bearing planes close the balance, and none pulls.
+    // The forces on the planes in contact close the balance, and none pulls.
     if (!mode.is_free()) continue;
     const Vec3 missing = mode.direction - weight;
     Eigen::Matrix<double, 3, Eigen::Dynamic> bearing(3, mode.bearing.size());

@@ -10,7 +10,7 @@ namespace {
 
 using talus::power_law_volume;
 
-// (low / V)^b of the rocks of a power law are larger than V, less what is cut off above.
+// (low / V)^b of the rocks of a power law are larger than V, less those cut off above.
 TEST(RockDraws, VolumesFollowTheTruncatedPowerLaw) {
   for (const double exponent : {0.5, 1.0, 2.3}) {
     const double low = 0.2, high = 5, tail = std::pow(low / high, exponent);

@@ -104,8 +104,8 @@ TEST(MakeSolid, NonConvexBodiesBecomeConvexPartsOfTheSameVolume) {
   }
 }
 
-// Coordinates of files are rounded, so polygons are not quite flat. A convex body stays one, others
-// are taken apart into parts that fill them.
+// Coordinates of files are rounded, so polygons are not quite flat. A convex body stays one, any
+// other is taken apart into parts that fill it.
 TEST(MakeSolid, TakesPolygonsThatAreNotQuiteFlat) {
   Random random(5);
   const auto turned_and_rounded = [&random](Polyhedron body, double step) {
@@ -160,8 +160,8 @@ TEST(MakeSolid, RefusesWhatIsNoSolidAndSaysWhere) {
   EXPECT_NE(refusal(strange).find("not finite"), std::string::npos);
 }
 
-// Parts stay the parts that they are; what lies between them is internal, also where a part stands
-// on a larger face.
+// Parts stay the parts that they are; faces between them are internal, also where a part lies on a
+// larger face.
 TEST(MakeSolid, GivenPartsAreKept) {
   Polyhedron turned = box({0, 0, 1}, {1, 1, 2});
   for (int f = 0; f < 6; ++f)

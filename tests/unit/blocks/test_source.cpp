@@ -180,7 +180,7 @@ TEST(FindSource, APlaneThatDaylightsBetweenNodesGainsASecondOrderShare) {
     }
 }
 
-// A raster that ends at the polygon: beside it the depth of the nearest node goes on, so that the
+// A raster that ends at the polygon: beside it the depth of the nearest node continues, so that the
 // mass is as deep at its walls as within.
 TEST(FindSource, ARasterIsExtendedBesideThePolygon) {
   const Trn ground = grid(31, 31, 5, [](double x, double y) { return 0.8 * y + 0.1 * x; });
@@ -202,7 +202,7 @@ TEST(FindSource, ARasterIsExtendedBesideThePolygon) {
             std::string::npos);
 }
 
-// The base level comes back to the ground at the first nodes outside: what is cut off at the
+// The base level comes back to the ground at the first nodes outside: the part cut off at the
 // polygon is thin.
 TEST(FindSource, TheBaseLevelMeetsTheGroundBesideThePolygon) {
   const Trn ground = grid(61, 61, 2, [](double, double y) { return 0.7 * y; });
@@ -240,7 +240,7 @@ TEST(FindSource, SlopingLocalBaseLevelIsAParabolaAlongAProfile) {
               1e-9);
 }
 
-// A long profile takes more sweeps than are made; what is missing is told to within a factor of
+// A long profile takes more sweeps than are made; the remaining error is told to within a factor of
 // two.
 TEST(FindSource, ABaseLevelThatHasNotSettledSaysHowFar) {
   const int n = 401;

@@ -20,8 +20,8 @@ struct WaysOut {
   std::vector<bool> is_face;  ///< of the surface that bounds all x at which the parts overlap
 };
 
-/// Do parts meet in more than a line along `u`, which leads out of B? Their corners farthest that
-/// way, within 1e-12 m, then span a plane.
+/// Do parts meet in more than a line along `u`, which leads out of B? Their corners farthest in
+/// that direction, within 1e-12 m, then span a plane.
 inline bool meet_in_face(const Hulls& hulls, const PlacedHulls& placed, int a, int b, const Vec3& u,
                          double h) {
   std::vector<Vec3> list;
@@ -44,7 +44,7 @@ inline bool meet_in_face(const Hulls& hulls, const PlacedHulls& placed, int a, i
   return false;
 }
 
-/// Faces, and all products of edges both ways round.
+/// Faces, and all products of edges of both signs.
 inline WaysOut ways_out(const Hulls& hulls, const PlacedHulls& placed, int a, int b) {
   WaysOut ways;
   const auto add_way = [&](const Vec3& n, bool is_face) {
@@ -88,7 +88,7 @@ inline std::vector<WaysOut> ways_out_of_bodies(const Bodies& bodies, int body_a,
   return list;
 }
 
-/// How far A moves along `direction` until it is out of all of B, past what it meets on the path.
+/// How far A moves along `direction` until it is out of all of B, past all parts on the path.
 inline double path_along(const std::vector<WaysOut>& pairs, const Vec3& direction) {
   double at = 0;
   for (bool moved = true; moved;) {

@@ -1,5 +1,5 @@
 // tests/unit/contact/ground_overlap.hpp
-// How deep a convex body stands in the ground, without any notion of contacts.
+// How deep a convex body is in the ground, without any notion of contacts.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,7 @@ inline double lower_side(const Polyhedron& body, double x, double y) {
   return low <= high + 1e-9 ? low : beside;
 }
 
-/// Both surfaces are piecewise linear, so the largest overlap stands at a vertex of one or where
+/// Both surfaces are piecewise linear, so the largest overlap is at a vertex of one or where
 /// their edges cross in plan. The body lies over known ground.
 inline GroundOverlap vertical_overlap(const Trn& trn, const Polyhedron& body) {
   GroundOverlap overlap;

@@ -40,7 +40,7 @@ inline std::vector<Polyhedron> parts_of_a_body(Draws& random) {
 struct Pressed {
   Bodies bodies;
   double thickness = std::numeric_limits<double>::infinity();
-  double path = 0;  ///< back the way they were pressed, out of all parts [m]
+  double path = 0;  ///< back against their pressing, out of all parts [m]
 };
 
 inline Pressed press_together(Draws& random, double share) {
@@ -120,8 +120,8 @@ inline Followed follow_contacts(Bodies bodies) {
   return followed;
 }
 
-// Whatever the parts and poses: bodies that overlap have a contact that is in, and what their
-// contacts push together is the least path that frees the bodies, not one that frees two parts. In
+// Whatever the parts and poses: bodies that overlap have a contact that is in, and their contacts
+// together push along the least path that frees the bodies, not one that frees two parts. In
 // corners the next best path may be a quarter longer: of how many of `n_pairs`.
 inline int follow_pairs(int n_pairs) {
   Draws random(71);

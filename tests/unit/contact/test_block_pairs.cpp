@@ -123,7 +123,7 @@ TEST(BlockPairs, FindsWhatOnlyTurningBringsTogether) {
 }
 
 // A plate that rocks on a ridge: the axis is that of the ridge and now of one side of the plate,
-// now of the other. Both sides bear.
+// now of the other. Both sides are in contact.
 TEST(BlockPairs, RockingOnTwoEdgesKeepsBoth) {
   const double tilt = 1e-3, depth = 2e-3;
   Polyhedron ridge = box(Vec3(-2, -5, -2), Vec3(2, 5, 1));
@@ -206,8 +206,8 @@ TEST(BlockPairs, CommonMotionUsesNoBudget) {
   EXPECT_EQ(n_clipped, 0);
 }
 
-// Bodies that need closing points alone have those of all points that come near, now or by the
-// motion ahead, and no others.
+// Bodies that need closing points alone have exactly those of all points that come near, now or by
+// the motion ahead.
 TEST(BlockPairs, PointsThatStayOpenAreLeftOut) {
   Draws random(37);
   Bodies bodies = heap(random, 40, 5);
@@ -373,7 +373,7 @@ void slide_over_floor(AddFloor&& add_floor, double turn, double penetration, con
       east = std::max(east, p.point_b.x());
     }
     ASSERT_NEAR(deepest, -penetration, 1e-12);
-    // the points bear the whole cube: they reach to its ends, but for what is grazed
+    // the points support the whole cube: they reach to its ends, but for grazing ones
     const double half = 0.4 * (std::abs(std::cos(turn)) + std::abs(std::sin(turn)));
     ASSERT_LT(west - (bodies.poses[cube].position.x() - half), 0.02) << k;
     ASSERT_LT(bodies.poses[cube].position.x() + half - east, 0.02) << k;
@@ -486,7 +486,7 @@ TEST(BlockPairs, DegenerateShapesGiveFiniteContacts) {
   }
 }
 
-// What is saved and restored goes on bit for bit.
+// A saved and restored state continues bit for bit.
 TEST(BlockPairs, ResumesBitForBit) {
   Draws random(35);
   Bodies bodies = heap(random, 20, 3.5);

@@ -30,7 +30,7 @@ TEST(BodyOverlap, IsTheLeastDisplacementOutOfAllParts) {
 }
 
 // A cube in the corner of a floor and a wall, 0.1 and 0.05 m in them: along an axis it would have
-// to go on to the end of one of the two.
+// to move to the end of one of the two.
 TEST(BodyOverlap, InANotchLeadsOutOfBothFlanks) {
   Bodies bodies;
   add(bodies, box(Vec3(0, 0, 0), Vec3(1, 1, 1)), {Vec3(-0.1, 1, -0.05), Quat::Identity()});

@@ -72,7 +72,7 @@ TEST(CylinderContact, HasTheGapThatBruteForceFinds) {
   EXPECT_GT(n_inside, 30);
 }
 
-// A face that stands upright touches along a line: two points, its upper and its lower edge.
+// A vertical face touches along a line: two points, its upper and its lower edge.
 TEST(CylinderContact, AFaceTouchesAtItsEdges) {
   const PlacedBody body(box(Vec3::Constant(-0.5), Vec3::Constant(0.5)),
                         {Vec3(0, 0, 2), Quat::Identity()});

@@ -69,7 +69,7 @@ TEST(GroundDepth, CountsWhatStandsInTheBody) {
   EXPECT_NEAR(depth_of(peak, plate), 0.12, 1e-6);
 }
 
-// The seam between two parts is no way out for a ridge under it.
+// A ridge under the seam between two parts is not outside of them.
 TEST(GroundDepth, InsideABodyOfTwoPartsIsNotBesideThem) {
   const Trn ridge = trn_of([](double x, double) { return -std::abs(x); }, 2, 20);
   const Vec3 shift(0, 0, -0.12);
@@ -81,7 +81,7 @@ TEST(GroundDepth, InsideABodyOfTwoPartsIsNotBesideThem) {
   EXPECT_NEAR(depth_of(ridge, bodies), 0.12, 2e-6);
 }
 
-// Never less than any point found by sampling, and not more than what lifting the body out takes.
+// Never less than any point found by sampling, and not more than the lift that frees the body.
 TEST(GroundDepth, HoldsAgainstSampling) {
   Draws random(5);
   const auto rough = [](double x, double y) {

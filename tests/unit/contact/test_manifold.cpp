@@ -292,7 +292,7 @@ TEST(Manifold, LargeBlockOnSmallCubeTouchesTheWholeCube) {
   }
 }
 
-// A rock that is in behind a wide face bears with every vertex that is, whichever of its faces it
+// A rock behind a wide face has a contact at every vertex behind it, whichever of its faces it
 // lies on and whichever of the two bodies comes first.
 TEST(Manifold, EveryVertexBehindAWideFaceBears) {
   Draws random(27);
@@ -363,8 +363,7 @@ TEST(Manifold, FaceOnTheOtherSideOfASlightBendTakesOver) {
 }
 
 // An upright edge leans by half a degree over the upper edge of a cube. The edges overlap least,
-// and meet at one point; where the edge ends half a metre below, it stands in the cube's side as
-// well.
+// and meet at one point; where the edge ends half a metre below, it is in the cube's side as well.
 TEST(Manifold, EdgesNearlyAlongAFaceBearWhereTheyEndToo) {
   const double lean = 0.5 * std::numbers::pi / 180, depth = 5e-3;
   Bodies bodies;

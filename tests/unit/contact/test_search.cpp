@@ -15,7 +15,7 @@ namespace {
 using namespace talus;
 using namespace talus::test;
 
-// A peak of height `top` at (x, 0) that stands out of ground far below, on half-metre cells.
+// A peak of height `top` at (x, 0) above ground far below, on half-metre cells.
 Ground peak(double x, double top) {
   Trn trn;
   trn.n_rows = trn.n_cols = 9;
@@ -129,8 +129,8 @@ TEST(FindContacts, AFaceRestsOnBothEndsOfACrest) {
   }
 }
 
-// A long crest bears a shorter face through two edges of the block, also when its overlap is larger
-// at one of them: at large steps that is what tilts the face.
+// A long crest supports a shorter face through two edges of the block, also when its overlap is
+// larger at one of them: at large steps this tilts the face.
 TEST(FindContacts, AFaceRestsOnALongCrestByItsEdges) {
   const Ground ground = crest(2);
   for (const double tilt : {-3e-3, 0.0, 3e-3}) {
@@ -143,7 +143,8 @@ TEST(FindContacts, AFaceRestsOnALongCrestByItsEdges) {
 }
 
 // A box leans with one face on the flank of a fin whose crest it overlaps by 5 cm. The edges of its
-// next face cross the crest as well, where they read as a metre deep: that is not the way out.
+// next face cross the crest as well, where they read as a metre deep: that is not the shortest way
+// out.
 TEST(FindContacts, EdgesAreInContactOnlyAlongTheShortestWayOut) {
   Trn trn;
   trn.n_rows = trn.n_cols = 17;
@@ -235,8 +236,8 @@ bool same_contacts(const std::vector<Contact>& a, const std::vector<Contact>& b)
 }
 
 // A block that wanders and turns over rough ground, now slowly, now fast, strained a little, with
-// margins that come and go: what earlier searches left changes no contact and no bit, and the slow
-// ones do live on it.
+// margins that come and go: the lists of earlier searches change no contact and no bit, and the
+// slow ones do use them.
 TEST(FindContacts, AreTheSameToTheBitWithAListOfFeatures) {
   Draws random(11);
   std::vector<Vec3> vertices;

@@ -149,7 +149,7 @@ TEST(FindAxis, IdenticalBodiesInTheSamePlaceOverlapByTheirThickness) {
               2e-3 * bodies.hulls.thickness[0]);
 }
 
-// A step of two parts: of the tall part's side, only what the low part leaves bare stops a body,
+// A step of two parts: of the tall part's side, only the part above the low one stops a body,
 // though the cutting named all of it a face in the rock.
 TEST(FindAxis, BareRestOfACoveredFaceStops) {
   const Vec2 tall[] = {{0, 0}, {1, 0}, {1, 2}, {0, 2}}, low[] = {{1, 0}, {2, 0}, {2, 1}, {1, 1}};
@@ -175,7 +175,7 @@ TEST(FindAxis, BareRestOfACoveredFaceStops) {
 
 // A box of two parts, the second one set against the first for `covered` to both sides of y = 0,
 // tops flush; and a bar at y = `across` that leans on the edge between the tops, which is none of
-// the body's where they meet. Its own lower edge is `gap` above that one and goes on for `past`.
+// the body's where they meet. Its own lower edge is `gap` above that one and continues for `past`.
 Bodies bar_over_a_seam(double covered, double across, double gap, double past = 2.8) {
   Bodies bodies;
   const std::vector<Polyhedron> step = {box(Vec3(-1, -5, 0), Vec3(0, 5, 1)),
@@ -205,7 +205,7 @@ TEST(FindAxis, EdgeOfASeamKeepsAPartApart) {
 }
 
 // Also where its end dips below the top of that part by less than a seam is given. Taken for an
-// overlap with the top, it bore a block 5 cm away, which rattled for good.
+// overlap with the top, it supported a block 5 cm away, which rattled for good.
 TEST(FindAxis, EdgeOfASeamKeepsAPartApartThatSeemsToOverlapByLittle) {
   const double gap = 0.05, dip = 0.003;
   const Bodies bodies = bar_over_a_seam(5, 0, gap, gap + dip * std::sqrt(2.0));
@@ -215,7 +215,8 @@ TEST(FindAxis, EdgeOfASeamKeepsAPartApartThatSeemsToOverlapByLittle) {
   EXPECT_NEAR(choice.separation, gap, 1e-12);
 }
 
-// The edge is covered in its middle and bare at its ends: there it keeps a bar apart, and bears it.
+// The edge is covered in its middle and bare at its ends: there it keeps a bar apart, and carries
+// it.
 TEST(FindAxis, EdgeCoveredInItsMiddleBearsAtItsEnds) {
   for (const double gap : {0.2, 0.005, -0.01}) {
     const Bodies bodies = bar_over_a_seam(2, 3, gap);
@@ -242,8 +243,8 @@ Bodies saddle_on_a_ridge(double rise, double steep, double sunk, double aside) {
   return bodies;
 }
 
-// An edge that stands in a concave seam, or under a flat one, is borne by both parts, however far
-// it is in: neither leaves it to the other.
+// An edge in a concave seam, or under a flat one, is in contact with both parts, however far it is
+// in: neither leaves it to the other.
 TEST(FindAxis, AnEdgeUnderASeamIsBorneByBothParts) {
   AxisScratch scratch;
   for (const double rise : {-0.6, -0.1, 0.0})
@@ -263,7 +264,7 @@ TEST(FindAxis, AnEdgeUnderASeamIsBorneByBothParts) {
         }
 }
 
-// A plate on the convex edge of a seam, tipped to one side: that side's part bears it.
+// A plate on the convex edge of a seam, tipped to one side: that side's part supports it.
 TEST(FindAxis, APlateOnAConvexSeamIsNotDeepInThePartBehindIt) {
   AxisScratch scratch;
   const double rise = 0.5;

@@ -31,7 +31,7 @@ TEST(Shapes, KeepConvexEdgesOnly) {
   EXPECT_EQ(edges_of(shapes, 1).size(), 17U);
 }
 
-// A column on a thin foot: the foot's upper face lies deep inside of what the body measures.
+// A column on a thin foot: the foot's upper face lies deep inside the body's extent.
 TEST(Shapes, ThicknessIsTheSmallestExtentOfTheWholeBody) {
   const Polyhedron parts[] = {box(Vec3(0, 0, 0), Vec3(2, 1, 0.1)),
                               box(Vec3(0, 0, 0.1), Vec3(1, 1, 2))};

@@ -70,7 +70,7 @@ TEST(BlockOverlaps, GiveDepthVolumeAndPlaceDeepestFirst) {
   EXPECT_NEAR(overlaps[2].volume, 0.1 * 0.5 * 0.3, 1e-12);
   EXPECT_EQ(block_overlaps(bodies.hulls, bodies.placed, 0.2).size(), 1u);
   const std::vector<BlockOverlap> with_first = block_overlaps(bodies.hulls, bodies.placed, 1e-6, 1);
-  ASSERT_EQ(with_first.size(), 2u);  // bodies 1 and 2 stand still
+  ASSERT_EQ(with_first.size(), 2u);  // bodies 1 and 2 are fixed
   EXPECT_EQ(with_first[0].block_a, 0);
   EXPECT_EQ(with_first[1].block_a, 0);
   EXPECT_EQ(block_overlaps(bodies.hulls, bodies.placed, 1e-6, 1, false).size(), 2u);

@@ -1,5 +1,5 @@
-// ensemble.json: derived from the run files beside it, whoever writes it and whatever ends the
-// writer.
+// ensemble.json: derived from the run files beside it, whichever process writes it or is killed
+// while writing.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -103,8 +103,8 @@ TEST(Ensemble, FollowsItsRunFiles) {
   EXPECT_EQ(read_file(folder.file()), first);
 }
 
-// Without a plan, what is there counts: a damaged or missing file is made anew, and nothing is
-// lost.
+// Without a plan, the files in the folder count: a damaged or missing one is made anew, and nothing
+// is lost.
 TEST(Ensemble, IsRebuiltFromAFolderOfRuns) {
   const Folder folder("rebuilt");
   put(folder, "low/run_1.h5", run_of(1, "low"));
@@ -143,7 +143,7 @@ TEST(Ensemble, WeighsCasesAndCountsUnits) {
   EXPECT_NE(read.members[0].unit, read.members[3].unit);
 }
 
-// Twenty processes add runs and write at a time, half of them are killed on the way.
+// Twenty processes add runs and write at a time, half of them are killed while they do.
 TEST(Ensemble, LosesNoMemberToTwentyWritersAndKills) {
   const Folder folder("writers");
   constexpr int n_writers = 20, n_runs = 8;

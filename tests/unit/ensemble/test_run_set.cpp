@@ -110,7 +110,7 @@ TEST(RunSet, RunsThatAreTheSameButForTheirSeedCountOnce) {
   EXPECT_EQ(n_repeats({member_of("run_1.h5", file), member_of("run_2.h5", file)}), 0);
 }
 
-// Beds of rock masses differ; what they were cut from does not.
+// Beds of rock masses differ; the terrain that they were cut from does not.
 TEST(RunSet, RunsOfSeveralRockMassesBelongTogetherOnTheTerrainBefore) {
   RunMember first;
   first.info.status = "done";
@@ -127,7 +127,7 @@ TEST(RunSet, RunsOfSeveralRockMassesBelongTogetherOnTheTerrainBefore) {
   EXPECT_TRUE(
       units_of(std::vector<RunMember>{first, second}).empty());  // each has a mass of its own
   EXPECT_TRUE(units_of(std::vector<RunMember>{first, first})
-                  .empty());  // one mass: nothing is said of others
+                  .empty());  // one mass: no message on further ones
   RunMember plain = first;
   plain.info.terrain_digest.clear();
   RunMember other = plain;
@@ -135,7 +135,7 @@ TEST(RunSet, RunsOfSeveralRockMassesBelongTogetherOnTheTerrainBefore) {
   EXPECT_TRUE(units_of(std::vector<RunMember>{plain, other, plain}).empty());
 }
 
-// Cases of 1 and 3 runs that shall count 1 : 1: the lone run counts for three of the others.
+// Cases of 1 and 3 runs that shall count 1 : 1: the lone run counts for three of the second case.
 TEST(CaseWeights, MakeRunsCountSoThatCasesHaveTheirShares) {
   const std::vector<RunMember> runs = {
       member("high/run_1.h5", 1, "done", "", "high"), member("low/run_1.h5", 2, "done", "", "low"),

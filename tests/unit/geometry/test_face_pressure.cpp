@@ -64,8 +64,8 @@ TEST(FacePressure, IsTheSumOverSmallPieces) {
   }
 }
 
-// A linear pressure does not change by what parts the face is summed in; one that is not comes
-// nearer to the integral of x^2 with each halving.
+// The sum of a linear pressure does not depend on the parts of the face; one that is not linear
+// comes nearer to the integral of x^2 with each halving.
 TEST(FacePressure, SumsPartsAsShortAsAsked) {
   const std::vector<Vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   const auto linear = [](const Vec3& x) { return 1 + 2 * x.x() - x.y(); };

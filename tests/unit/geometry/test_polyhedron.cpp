@@ -105,7 +105,7 @@ TEST(ClipConvex, HalvesAddUpAndStaySound) {
   }
 }
 
-// Engineers' joints: planes through faces, edges and corners of what they cut.
+// Engineers' joints: planes through faces, edges and corners of the body that they cut.
 TEST(ClipConvex, PlanesThroughFacesEdgesAndCornersAddNoDust) {
   const Polyhedron cube = talus::box({0, 0, 0}, {1, 1, 1});
   const double diagonal = std::sqrt(0.5);
@@ -188,7 +188,7 @@ TEST(Edges, OfACubeAreTwelveWithTheirTwoFaces) {
   EXPECT_EQ(talus::shortest_edge(cube), 1);
 }
 
-// Ears of an outline with many reflex corners: they add up to its area and all turn its way.
+// Ears of an outline with many reflex corners: they add up to its area and all turn in its sense.
 TEST(TrianglesOfFace, FillNonConvexFaces) {
   Random random(6);
   for (int trial = 0; trial < 200; ++trial) {

@@ -72,7 +72,7 @@ TEST(Crs, MetresAreBeyondDegrees) {
   EXPECT_FALSE(talus::is_beyond_degrees("", {{500000, 5e6, 0}}));
 }
 
-// The zone of the place, north and south, is the way out; longitude comes first.
+// The zone of the place, north and south, is the remedy; longitude comes first.
 TEST(Crs, TheUtmZoneOfThePlaceIsOffered) {
   const std::string degrees = crs_from_user("EPSG:4326", "--crs");
   EXPECT_EQ(find_crs_problem(degrees, {11.3, 47}).mend_to, "EPSG:32632");

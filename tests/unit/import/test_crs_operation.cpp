@@ -38,7 +38,7 @@ Refusal refusal_of(const std::function<void()>& work) {
 }
 
 // The same bits each time, and the coordinates that other programs of PROJ give for "MGI to ETRS89
-// (1)": 0.14 m is what the grid of the agency would give.
+// (1)": the grid of the agency would give 0.14 m.
 TEST(CrsOperation, TheBestOperationThatIsHereIsTakenAndABetterOneNamed) {
   const CrsOperation operation = find_operation(wkt("EPSG:31254"), wkt("EPSG:25832"), tyrol, {});
   EXPECT_FALSE(operation.is_ballpark);

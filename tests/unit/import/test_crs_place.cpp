@@ -146,7 +146,7 @@ TEST(CrsPlace, ZoneNumbersBeforeEastingsAreNamed) {
   EXPECT_TRUE(outcome_at("EPSG:21459", 19400000, 3500000).says("begin with the zone number 19"));
 }
 
-// Another number, or the lack of one, stands for another projection: the hint asks for it, and no
+// Another number, or the lack of one, means another projection: the hint asks for it, and no
 // command shifts anything.
 TEST(CrsPlace, NumbersOfOtherZonesAreNoReasonToShift) {
   struct Case {
@@ -199,7 +199,7 @@ TEST(CrsPlace, BesideTheAreaIsWarnedOfAndFarFromItRefused) {
   EXPECT_TRUE(outcome_at("EPSG:4326", 11, 47, "EPSG:2193").says("lie outside the area"));
 }
 
-// A country may be in one zone altogether, as Norway is: what counts there is the scale.
+// A country may be in one zone altogether, as Norway is: the scale is judged there.
 TEST(CrsPlace, AWideExtentInOneZoneIsWarnedOf) {
   const Outcome bergen = outcome_at("EPSG:25833", -31540, 6735100);  // 6.7 degrees beside
   EXPECT_EQ(bergen.refusal, "");
@@ -211,7 +211,7 @@ TEST(CrsPlace, AWideExtentInOneZoneIsWarnedOf) {
   EXPECT_TRUE(outcome_at("EPSG:26943", 3000000, 600000).says("lie outside the area"));
 }
 
-// Northings of a zone go on beyond the equator, as satellite images have them.
+// Northings of a zone continue beyond the equator, as satellite images have them.
 TEST(CrsPlace, TheOtherHemisphereOfAZoneIsReprojected) {
   for (const char* crs : {"EPSG:32619", "EPSG:31973"}) {  // WGS 84, SIRGAS 2000
     const Outcome named = outcome_at(crs, 350000, -1650000);

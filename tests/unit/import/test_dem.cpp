@@ -119,7 +119,7 @@ TEST_F(Raster, WhatCannotBeWrittenIsAnError) {
   EXPECT_THROW(static_cast<void>(talus::read_trn(path("missing.tif"))), talus::InputError);
 }
 
-// A slope with a tower that no ground has, 400 m above what is beside it.
+// A slope with a tower that no ground has, 400 m above its neighbours.
 Trn tower() {
   std::vector<double> z;
   for (int i = 0; i < 20 * 30; ++i) z.push_back(i == 315 ? 1400 : 1000 + i / 30);

@@ -41,7 +41,7 @@ class ClassRaster : public testing::Test {
 };
 
 // Pixels of 10 m whose corner lies 10 m east of the terrain's: the first two columns of cells see
-// none, the others the pixel that holds their centre; the unknown pixel and what lies south too.
+// none, the rest the pixel that holds their centre; the unknown pixel and cells to the south too.
 TEST_F(ClassRaster, GivesTheValueUnderEachCellsCentre) {
   const double nan = std::nan("");
   const std::string path =

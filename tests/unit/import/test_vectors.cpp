@@ -366,7 +366,7 @@ TEST(WriteFootprints, ReadBackAndTheSameBytesEveryTime) {
 }
 
 // Nine squares without the middle one, one of them in halves: corners of the halves lie on sides of
-// the others, and all are off by rounding.
+// whole squares, and all are off by rounding.
 TEST(UnionOf, PiecesThatMeetMakeOneAreaWithItsHole) {
   const auto box = [](double x0, double y0, double x1, double y1) {
     const double off = 1e-9 * std::sin(100 * x0 + y1);

@@ -119,7 +119,7 @@ TEST(BlocksHdf5, DamagedFilesAreRefused) {
 
 namespace {
 
-// A stranger seals what he makes as Talus does.
+// A stranger seals his files as Talus does.
 void resealed(const std::string& path, const std::function<void(hid_t)>& change) {
   constexpr std::uintmax_t seal_size = 77;
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - seal_size);
@@ -162,7 +162,7 @@ TEST(BlocksHdf5, LeadToNoOtherFile) {
         &name);
     ASSERT_NE(name, "");
   };
-  EXPECT_NO_THROW({  // the seal alone is no reason to refuse
+  EXPECT_NO_THROW({  // the seal alone does not refuse it
     write_blocks(path, some_blocks());
     resealed(path, first_array);
     static_cast<void>(read_blocks(path));

@@ -6,7 +6,7 @@
 
 using namespace talus;
 
-// The lines of a plane are straight, and stand where it has their height.
+// The lines of a plane are straight, and are where it has their height.
 TEST(LevelLines, OfAPlaneStandWhereItHasTheirHeight) {
   SampledField field{{10, 50}, 2, 5, 8, {}};
   for (int row = 0; row < 5; ++row)

@@ -404,7 +404,7 @@ TEST(MeshParts, OnlyDividedBlocksHaveGroups) {
   EXPECT_EQ(n_groups(2), 0);
 }
 
-// Parts come in the order of their numbers, a group may go on later and have other names too.
+// Parts come in the order of their numbers, a group may continue later and have other names too.
 TEST(MeshParts, OrderAndOtherNamesDoNotMatter) {
   std::string obj = "o rock\ng rock_part_1 grey\n" + tetrahedron(1) + "o alone\n" + tetrahedron(5) +
                     "o pair\ng x pair_part_0\n" + tetrahedron(9);
@@ -459,7 +459,7 @@ TEST(MeshParts, WhatIsNoWholeSetOfPartsIsRefused) {
             "m:1: group r_part_0 stands outside of object r, which begins in line 10");
 }
 
-// Other groups read as ever; what may have been meant as one body is said.
+// Other groups read as ever; groups that may have been meant as one body are reported.
 TEST(MeshParts, OtherGroupsStayBodiesOfTheirOwn) {
   const auto doubts = [](const std::string& obj, size_t n) {
     const auto bodies = bodies_of(parse_obj(obj, "m"));

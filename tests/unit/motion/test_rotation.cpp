@@ -73,7 +73,7 @@ TEST(FreeRotation, StepsDoNotMatter) {
   for (const double dt : {4.0, 0.4, 0.01}) EXPECT_LT(attitude_error_deg(dt, 4), 1e-7) << dt;
 }
 
-// Plates, needles and rods near the flip: no spin on the way is faster than the bound.
+// Plates, needles and rods near the flip: no spin in between is faster than the bound.
 TEST(FreeRotation, FastestSpinBounds) {
   for (const Vec3& sides : {Vec3(1, 2, 3), Vec3(0.01, 1, 1.2), Vec3(1, 0.02, 0.013)})
     for (const Vec3& omega : {Vec3(0.01, 5, 0.02), Vec3(3, -4, 5), Vec3(40, 1, 2)}) {

@@ -164,7 +164,7 @@ TEST(Calibrate, ALayerThatIsLeftOutIsHeldAgainstWhatTheRestLeaves) {
             std::string::npos);
 }
 
-// What is written is what the next make draws.
+// The next make draws from the section that was written.
 TEST(Calibrate, TheSectionOfTheSetIsDrawnFrom) {
   Calibration found;
   found.keys = {"ground.a.friction_deg", "ground.a.cor"};

@@ -53,7 +53,7 @@ TEST(AddVolume, OfAStraightBoxIsAreaTimesHeight) {
   EXPECT_NEAR(sum_of(volume), 30, 1e-12);
 }
 
-// Turned any way: the cells' volumes add up to the block's, none is negative, and each one equals
+// At any attitude: the cells' volumes add up to the block's, none is negative, and each one equals
 // that of the body cut at its cell's four sides.
 TEST(AddVolume, EqualsTheBodyCutAtTheCellsSides) {
   Random random(1);
@@ -142,7 +142,7 @@ TEST(DepositLayer, HoldsTheDepositedVolume) {
   EXPECT_NEAR(thickness * 4 * 3, volume, 1e-4 * volume);
 }
 
-// Rock that stays where it was cut is no deposit where only what moved is asked for.
+// Rock that stays where it was cut is not a deposit where only moved rock counts.
 TEST(DepositLayer, LeavesOutWhatDidNotMoveFarEnough) {
   RunFile run;
   for (int i = 0; i < 3; ++i) add_box(run, {2, 2, 2}, {0, 0, 0});

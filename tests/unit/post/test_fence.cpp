@@ -136,7 +136,7 @@ TEST(Verdicts, AreExactlyOneABlock) {
   EXPECT_EQ(count.size(), verdicts.size());
 }
 
-// A dip between two posts: what rolls through it below the straight base passes underneath.
+// A dip between two posts: a block that rolls through it below the straight base passes underneath.
 TEST(ExpectedVerdict, SeesTheDipBetweenTwoPosts) {
   Trn trn = flat();
   for (int c = 0; c < trn.n_cols; ++c)
@@ -147,7 +147,7 @@ TEST(ExpectedVerdict, SeesTheDipBetweenTwoPosts) {
   EXPECT_EQ(expected_verdict(arrivals(run, 0, fence, 0)[0], fence, 0.5), Verdict::underpassed);
 }
 
-// With the fence standing, blocks that did not cross but lie at it were stopped.
+// With an active fence, blocks that did not cross but lie at it were stopped.
 TEST(ObservedVerdict, TellsStoppedFromNotReached) {
   RunFile run;
   add_box(run, {2, 2, 2}, {0, 0, 0});
@@ -218,8 +218,8 @@ TEST(Summarise, AddsUpTheHitsOfOneSecond) {
   EXPECT_EQ(s.runs_hit_twice, 1);
 }
 
-// Before the first touch the fence has taken nothing; the crossing is what a panel that gives way
-// has left.
+// Before the first touch the fence has taken nothing; the crossing has the energy left by a panel
+// that yields.
 TEST(Arrivals, OfAStandingFenceAreFirstTouches) {
   RunFile run;
   add_crossing(run, 12, 1, 1, 20e3, 3.5);  // touched, then crossed in the bulge
@@ -287,7 +287,7 @@ TEST(TouchedVerdict, TellsWhoPassesTheEndFromWhoComesRoundIt) {
   EXPECT_EQ(verdict(5), Verdict::stopped);
 }
 
-// Panels 0 to 2 of 10 m; 0 stands, pushed 3 m to the right, 1 broke at 5 s, 2 stands unmoved.
+// Panels 0 to 2 of 10 m; 0 holds, pushed 3 m to the right, 1 broke at 5 s, 2 holds unmoved.
 TEST(Touches, KnowWhoHangsInAPanelThatGaveWay) {
   RunFile run;
   const auto add = [&run](double chainage, double end_x, double end_y) {
@@ -316,8 +316,8 @@ TEST(Touches, KnowWhoHangsInAPanelThatGaveWay) {
   for (int block = 0; block < 5; ++block) EXPECT_EQ(touch[block].held, held[block]) << block;
 }
 
-// Rocks that fell one by one: a panel that one broke stood for the next, and holds only whoever
-// pushed it himself.
+// Rocks that fell one by one: a panel that one broke is whole for the next, and holds only the rock
+// that pushed it.
 TEST(Touches, OfRocksThatFellOneByOneKnowTheirOwnPanels) {
   RunFile run;
   run.info.independent = true;
@@ -441,7 +441,7 @@ TEST(CheckDesign, NamesNoClassAboveTheLargest) {
       << text(r);
 }
 
-// What touched a standing fence may condemn it, but never passes it.
+// Impacts on an active fence may condemn it, but never pass it.
 TEST(CheckDesign, PassesNothingByFirstTouches) {
   DesignInput input{1, 0.8, 2700, 2, false, NAN, NAN};
   Fence fence = straight_fence();

@@ -62,7 +62,7 @@ TEST(FenceChange, TakesNoPassageAsSpeedZero) {
   EXPECT_EQ(layer.bands[1].value, (std::vector<float>{0, 0, -5}));
 }
 
-// Each side of the colours takes what its label says; no change is transparent.
+// Each side of the colours holds the values of its label; no change is transparent.
 TEST(ChangeStyle, TellsLessFromMore) {
   MapLayer layer = change_layer({}, {}, 4);
   const RasterStyle style = change_style(layer);

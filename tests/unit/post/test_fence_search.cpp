@@ -119,7 +119,7 @@ double place_of(const Slope& scene, const FenceOption& option) {
   return scene.lines[option.parts[0].placed.line].fence.post[0].x();
 }
 
-// Cost of the cheapest fence that does what is asked, on the line at s.
+// Cost of the cheapest fence that fulfils the request, on the line at s.
 double cost_at(const Slope& scene, const SearchSettings& settings, double s) {
   const Slope alone = [&] {
     Slope out = scene;

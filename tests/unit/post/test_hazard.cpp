@@ -342,7 +342,7 @@ TEST(Hazard, RaisesCellsOfAMassAndLeavesOutliersTheirEnergy) {
   const std::vector<EventRow> made = event_rows(rows, blocks, recipe, run, 0);
   EXPECT_GT(made[0].intensity, 300);
   EXPECT_GT(made[1].intensity, 300);
-  EXPECT_EQ(made[2].intensity, 5);  // 7.5 s behind the others
+  EXPECT_EQ(made[2].intensity, 5);  // 7.5 s behind the first two
   EXPECT_EQ(made[3].intensity, 5);
   EXPECT_EQ(made[0].energy, 5);
   run.info.independent = true;  // none of them was there when another came
@@ -472,7 +472,7 @@ TEST(Hazard, IsBoundedWhereNoRunCame) {
   EXPECT_NEAR(largest_rate_elsewhere(hundred), 0.036993, 1e-6);
 }
 
-// 40 runs over 20 rock masses: as many trials as masses, whatever way the rate is asked for.
+// 40 runs over 20 rock masses: as many trials as masses, however the rate is asked for.
 TEST(Hazard, OfRunsOfRockMassesCountsTheMasses) {
   HazardRuns runs = runs_of(0.5, 0, 40);
   std::vector<int> unit;

@@ -111,7 +111,7 @@ TEST(MapLayers, OneAloneIsOfTheDeposit) {
   EXPECT_EQ(make_layer(deposit_kind(), made.sources()).cell, std::vector<std::uint32_t>{7});
 }
 
-// make has to know what talus-maps writes, and pages have to define it.
+// make has to know the maps of talus-maps, and pages have to define them.
 TEST(MapLayers, AreThoseOfThePipelineAndOfThePages) {
   std::string rule = text_of(TALUS_SOURCE_DIR "/pipelines/products.mk");
   ASSERT_NE(rule.find("map_names :="), std::string::npos);

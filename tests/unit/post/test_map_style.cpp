@@ -62,7 +62,7 @@ TEST(MapStyle, SaysInWordsWhatIsShown) {
   }
 }
 
-// The colour-blind tell lightness apart: each ramp grows lighter or darker all the way, and no two
+// The colour-blind tell lightness apart: each ramp grows lighter or darker throughout, and no two
 // kinds have the same colours.
 TEST(Ramp, HasItsOwnColoursThatGrowLighterOrDarkerAllTheWay) {
   const auto lightness = [](const Colour& c) {

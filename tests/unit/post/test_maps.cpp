@@ -90,7 +90,7 @@ struct Known {
   double weight;
   Passage passage;
 };
-// What every block did in each cell of `factor` x `factor` recorded ones, the slow way.
+// Passages of every block in each cell of `factor` x `factor` recorded ones, by plain loops.
 std::map<int, std::vector<Known>> by_cell(const HandMade& made, int factor) {
   std::map<std::tuple<int, int, int>, Known> blocks;  // cell, run, block
   const int n_cols = (made.grid.n_cols + factor - 1) / factor;

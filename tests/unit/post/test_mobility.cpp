@@ -47,7 +47,7 @@ TEST(Mobility, PowerLawGivesTheLengthOfItsLineAndOfItsLowerBound) {
       1e-6);
 }
 
-// On its lower 95 % line an event goes farther than 95 % of the others, on the line itself than
+// On its lower 95 % line an event goes farther than 95 % of all events, on the line itself than
 // half; where most of the mass stayed in its source it is none of them.
 TEST(Mobility, PercentileIsThatOfTheLowerLine) {
   const auto list = shipped();

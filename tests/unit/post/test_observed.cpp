@@ -63,7 +63,7 @@ TEST(Observed, AlongIsTheMeanDirectionOfTheBouldersFromTheMeanStart) {
   EXPECT_DOUBLE_EQ(at.across, 3);
 }
 
-// As tests/studies/field.py measures: what scatters is the displacement, not the start.
+// As tests/studies/field.py measures: displacements scatter, starts do not.
 TEST(Observed, WhereStartsAreKnownEachDisplacementHasItsOwn) {
   Computed computed;
   computed.blocks = {{0, 0, 1, Vec2(0, 0), Vec2(10, 1), 1, true, false},
@@ -146,7 +146,7 @@ TEST(Observed, BlocksOfOneRunAreNoTrialsOfTheirOwn) {
   EXPECT_TRUE(std::isnan(interval(9, 2).low));
 }
 
-// Blocks of a mass that stayed are no part of the whole.
+// Blocks of a mass that stayed are not part of the whole.
 TEST(Observed, WhatDidNotMoveIsNoPartOfTheWhole) {
   Computed computed = computed_of(upto(100));
   const ShareBasis released = share_basis(clusters_of_runs(std::vector<double>(100, 5), 5));
@@ -183,7 +183,7 @@ TEST(Observed, OrderStatisticsSayWhatFewPointsCannotTell) {
 }
 
 // Points drawn from the computed distribution are told apart from it once in twenty times, their
-// mean percentile lies beyond what chance does as often; points from elsewhere are told apart.
+// mean percentile lies beyond the range of chance as often; points from elsewhere are told apart.
 TEST(Observed, PointsOfTheComputedDistributionAreRarelyToldApart) {
   const Computed computed = computed_of(upto(400));
   const ShareBasis basis = basis_of(400);
@@ -206,8 +206,8 @@ TEST(Observed, PointsOfTheComputedDistributionAreRarelyToldApart) {
   EXPECT_TRUE(score_of(boulders_at(near), 0, computed, basis).boulders->is_told_apart());
 }
 
-// Where all blocks of a run share what it drew, an event is one run: points near one another are no
-// wonder.
+// Where all blocks of a run share its draws, an event is one run: points near one another are to be
+// expected.
 TEST(Observed, PointsOfOneRunMayLieTogether) {
   Computed computed;
   for (int r = 0; r < 20; ++r)

@@ -12,7 +12,7 @@ using namespace talus::testing;  // NOLINT
 
 constexpr double slope = 0.5;                             // of the plane [m/m]
 constexpr double acceleration = 3;                        // along the plane [m/s2]
-const double along_x = 1 / std::sqrt(1 + slope * slope);  // of a unit way down the plane
+const double along_x = 1 / std::sqrt(1 + slope * slope);  // of a unit distance down the plane
 
 RecordLine line_of(const Trn& trn, const std::vector<Vec2>& corners, double step) {
   return record_line("line", posts_on_ground(trn, corners, step, {"line"}));
@@ -53,7 +53,8 @@ PassageGrid grid_10m() { return {{0, 50}, 10, 5, 10}; }
 
 }  // namespace
 
-// Energy grows with the way from the start, so that it is exact also half way between two frames.
+// Energy grows with the distance from the start, so that it is exact also half-way between two
+// frames.
 TEST(LineSums, OfASlideAreTheClosedForm) {
   const Trn trn = plane_trn(slope, 5, 21, 11);
   const RunFile run = sliding_run({12, 25, 41}, 0.5);

@@ -108,7 +108,7 @@ void expect_same(const ReachLine& a, const ReachLine& b) {
 
 }  // namespace
 
-// The last bit of all that stands for the frames.
+// Data that replace the frames agree to the last bit.
 TEST(WithoutFrames, TellsTheSameReach) {
   for (int number = 0; number < 5; ++number) {
     const RunFile run = random_run(number, false);
@@ -262,7 +262,7 @@ TEST(Part, KeepsWhatBrokeAndWhatWasCrushed) {
   EXPECT_TRUE(other.breaks.empty() && other.crushed.empty());
 }
 
-// The same part by way of run files without frames, and of a part.
+// The same part by run files without frames, and by a part.
 TEST(Part, OfRunsThatBrokeIsTheSameByAnyWay) {
   const std::string direct = part_of({broken_run(), random_run(2, false)}, "part_direct.h5");
   const std::string path = temporary("run_broken_ends.h5");

@@ -98,7 +98,7 @@ TEST(MassReach, LeavesOutTheFewFarthestBlocks) {
   EXPECT_NEAR(reach.angle(), std::atan(reach.height / reach.length), 1e-12);
 }
 
-// The top is that of what moved: a mass that stays above it does not lengthen the run-out.
+// The top is that of the rock that moved: a mass that stays above it does not lengthen the run-out.
 TEST(MassReach, BeginsAtTheTopOfWhatMoved) {
   RunFile run;
   add_box(run, {2, 2, 2}, {-300, 0, 300});
@@ -111,7 +111,7 @@ TEST(MassReach, BeginsAtTheTopOfWhatMoved) {
   EXPECT_EQ(reach.n_beyond, 0);
 }
 
-// Four of nine cubes in a square end beyond its sides, two of these outside a corner: the others
+// Four of nine cubes in a square end beyond its sides, two of these outside a corner: the rest has
 // have not left the source. A cube of twice the mass in the middle counts twice.
 TEST(MassReach, SaysHowMuchLeftTheSource) {
   RunFile run;
@@ -162,7 +162,7 @@ TEST(EventReach, GoesToTheFarthestBlockThoughItStillMoves) {
   EXPECT_NEAR(event.event.chord, 73 - 9, 1e-9);  // the top is an edge of the first block
 }
 
-// A block that stayed low in the source is not what the run-out ends at.
+// A block that stayed low in the source is not the end of the run-out.
 TEST(EventReach, DoesNotEndAtABlockThatStayed) {
   RunFile run;
   for (int block = 0; block < 2; ++block) add_box(run, {2, 2, 2}, {0, 0, 0});
@@ -173,7 +173,7 @@ TEST(EventReach, DoesNotEndAtABlockThatStayed) {
   EXPECT_DOUBLE_EQ(event.moved.share, 0.5);
 }
 
-// The length of a source is no run-out.
+// The length of a source is not a run-out.
 TEST(EventReach, OfAMassThatStaysHasNoReach) {
   RunFile run;
   for (int block = 0; block < 2; ++block) add_box(run, {2, 2, 2}, {0, 0, 0});
@@ -373,7 +373,7 @@ TEST(Sensitivity, OfRunsSaysWhatEachQuantityExplains) {
   }
 }
 
-// Of four runs one stood, one lost a stone, two are events of weight 1 and 0.5.
+// Of four runs one did not move, one lost a stone, two are events of weight 1 and 0.5.
 TEST(RunoutRuns, AreEventsWhereATenthOfTheMassMoved) {
   std::vector<RunoutRun> runs(4);
   const std::vector<double> share = {0, 0.02, 0.1, 0.9}, length = {std::nan(""), 70, 100, 130};
@@ -399,7 +399,7 @@ TEST(RunoutRuns, AreEventsWhereATenthOfTheMassMoved) {
 }
 
 // A rock thrown five times at a plane: the path is straight in plan and lower than the tolerance in
-// height, but each bounce is there, with its height and what the impact took.
+// height, but each bounce is there, with its height and the energy taken by the impact.
 TEST(ShownPath, KeepsEachBounceWithItsHeight) {
   RunFile run;
   add_box(run, {0.2, 0.2, 0.2}, {0, 0, 0});

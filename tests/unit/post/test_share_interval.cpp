@@ -90,7 +90,7 @@ std::vector<BlockWeight> rocks_that_come(Random& random, const std::vector<RunMe
 }
 
 // Of simulated ensembles of rocks, how often intervals hold the truth: those over release cells, 95
-// and 90 %, and what they would be over runs, or with each rock a trial of its own.
+// and 90 %, and those over runs, or with each rock a trial of its own.
 struct CellCoverage {
   double cells = 0, cells_90 = 0, runs = 0, rocks = 0;
 };
@@ -250,7 +250,8 @@ TEST(ShareInterval, HoldsTheTruthInSimulatedRocksOfCells) {
 }
 
 // Cells of which each always or never comes differ as much in any number of runs. Where rocks of
-// one cell differ as much as others, so many runs more make the interval as narrow as wanted.
+// one cell differ as much as rocks of different cells, so many runs more make the interval as
+// narrow as wanted.
 TEST(RunsToAdd, OfReleaseCellsAverageWhatDiffersWithinThem) {
   constexpr int n_cells = 300, n_runs = 4;
   const std::vector<RunMember> runs = runs_of_cells(n_runs, n_cells, 1);

@@ -251,7 +251,7 @@ TEST(Quantiles, AreThoseOfTheTables) {
                                                         {100, 1.983971518523552}}};
   for (const auto& [degrees, t] : table) EXPECT_NEAR(student_quantile(degrees, 0.975), t, 1e-9);
   EXPECT_NEAR(student_quantile(10, 0.95), 1.8124611228107335, 1e-9);
-  // the expansion goes on where the finite sums end
+  // the expansion continues where the finite sums end
   EXPECT_NEAR(student_quantile(100, 0.95), student_quantile(101, 0.95), 2e-4);
   EXPECT_GT(student_quantile(100, 0.975), student_quantile(101, 0.975));
   EXPECT_NEAR(student_quantile(120, 0.975), 1.979930405082417, 1e-9);

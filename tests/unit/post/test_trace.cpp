@@ -45,7 +45,7 @@ TraceSums sums_of(const std::vector<RunFile>& runs, const std::vector<RecordObje
   return sums;
 }
 
-// Each run released as much as the others.
+// Each run released equally much.
 ShareBasis basis_of(const TraceSums& sums) {
   const auto n = static_cast<std::size_t>(sums.n_runs);
   return share_basis(clusters_of_runs(std::vector<double>(n, sums.n_released / sums.n_runs), 2));

@@ -40,7 +40,7 @@ TEST(TreeSummary, CountsRunsBlocksAndWhatIsLeft) {
   EXPECT_EQ(sum.forests[0].work, 90);
 }
 
-// Where each run draws its stand, equal numbers are other stems.
+// Where each run draws its stand, equal numbers are different stems.
 TEST(TreeSummary, StemsOfTwoStandsAreNotOne) {
   RunTrees one{{{"wood", 50}}, {row_of(3, 0, 20, 80, -1)}, {}}, two = one;
   two.hits[0].foot += Vec3(0.5, 0, 0);

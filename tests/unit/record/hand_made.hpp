@@ -1,5 +1,5 @@
 // tests/unit/record/hand_made.hpp
-// Scenes and motions made by hand: what the recorder is shown without a solver behind it.
+// Scenes and motions made by hand: input of the recorder without a solver behind it.
 #pragma once
 
 #include <array>

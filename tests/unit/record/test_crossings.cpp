@@ -90,7 +90,7 @@ TEST(Crossings, AreOneRowPerBlockAndLine) {
   for (const Crossing& row : rows) EXPECT_EQ(row.n_crossings, 2);
 }
 
-// Of two segments that one step meets, the one that is met first is kept, wherever it stands in the
+// Of two segments that one step meets, the one that is met first is kept, wherever it is in the
 // line.
 TEST(Crossings, KeepTheFirstOfTwoInOneStep) {
   const Scene scene = scene_with_box();
@@ -108,7 +108,7 @@ TEST(Crossings, KeepTheFirstOfTwoInOneStep) {
   }
 }
 
-// A step that ends on the line and goes on from there crosses once, one that returns not at all.
+// A step that ends on the line and continues from there crosses once, one that returns not at all.
 TEST(Crossings, AtTheEndOfAStepAreCountedOnce) {
   const Scene scene = scene_with_box();
   const auto step = [](double x0, double x1, double t) {

@@ -81,7 +81,7 @@ TEST(DeepRows, ASplinterThatMattersFailsTheRun) {
   EXPECT_TRUE(Row::broken(at_fence).empty());
 }
 
-// Every limit that is broken says which block, in what, when, where and its share of the mass.
+// Every broken limit says which block, in which body, when, where and its share of the mass.
 TEST(DeepRows, BrokenLimitsNameABlock) {
   Row row(1);
   Runner deep = row.begin();
@@ -105,7 +105,7 @@ TEST(DeepRows, BrokenLimitsNameABlock) {
   EXPECT_EQ(n, 3);
 }
 
-// Blocks that rebound almost in full are watched for what they lose as well.
+// Blocks that rebound almost in full are watched for lost energy as well.
 TEST(DeepRows, ALossOfEnergyFailsWhereHitsReturnAlmostAll) {
   for (const double restitution : {0.3, 0.95}) {
     Scene scene = scene_of(plane_trn(slope_frame(0, 0), 5, 100), ground_of(30, restitution),
@@ -146,7 +146,7 @@ TEST(DeepRows, WordsNameBlockPartnerTimePlaceAndShare) {
             "7 steps, 0.00328 % of the mass");
 }
 
-// A run that is stopped while a block is deep goes on counting where it was.
+// A run that is stopped while a block is deep continues its count.
 TEST(DeepRows, AreResumedFromACheckpoint) {
   Row row(1);
   const auto computed = [&row](int stop) {

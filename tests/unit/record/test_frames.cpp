@@ -13,7 +13,7 @@ using talus::Vec6;
 
 const Vec6 no_strain = Vec6::Zero();
 
-// Block 0 flies in one segment, block 1 slides in steps of 0.03 s, block 2 stands still.
+// Block 0 flies in one segment, block 1 slides in steps of 0.03 s, block 2 is at rest.
 struct ThreeBlocks {
   Scene scene;
   std::vector<Segment> segments;

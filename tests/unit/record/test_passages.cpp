@@ -231,7 +231,7 @@ TEST(Passages, CentroidPassesTheCellsOfDenseSampling) {
   }
 }
 
-// Lower bound: what the true footprint passes. Upper bound: a footprint wider by a tenth of the
+// Lower bound: cells of the true footprint. Upper bound: a footprint wider by a tenth of the
 // longest side and the sagitta.
 TEST(Passages, FootprintPassesTheCellsOfDenseSampling) {
   talus::Random random(4, "passages");
@@ -318,11 +318,11 @@ TEST(Passages, EqualTheClosedFormOfAStraightSlide) {
     EXPECT_NEAR(row.largest.centroid_height, 0.4, 1e-4) << col;
     const double entry = (std::max(2.0 * col, 1.0) - 1) / along.x();
     EXPECT_NEAR(row.first_time, std::sqrt(2 * entry / a), 1e-3) << col;
-    if (col == 0) {  // where it started: no path yet, and it stood
+    if (col == 0) {  // where it started: no path yet, and it was at rest
       EXPECT_TRUE(std::isnan(row.travel_angle) && std::isnan(row.heading));
       continue;
     }
-    // a h^2 / 8 = 4e-5 m: between two steps the way in plan is taken as even in time
+    // a h^2 / 8 = 4e-5 m: between two steps the displacement in plan is taken as even in time
     EXPECT_NEAR(row.travel_angle, std::numbers::pi / 6, 2e-5) << col;
     EXPECT_EQ(row.heading, 0) << col;
   }

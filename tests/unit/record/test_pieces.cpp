@@ -17,7 +17,7 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-/// Blocks that are thrown down a slope of 30 degrees and break on it; a line across their way.
+/// Blocks that are thrown down a slope of 30 degrees and break on it; a line across their path.
 struct Thrown {
   Thrown() {
     set.material_names = {"rock"};
@@ -72,7 +72,7 @@ double sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// What maps and tables sum over the pieces is what was released: mass, volume, weight.
+// Sums of maps and tables over the pieces are those of the released blocks: mass, volume, weight.
 TEST(Pieces, HoldTheMassVolumeAndWeightOfTheReleasedBlocks) {
   const Thrown thrown;
   RunFile run = thrown.computed(0);
@@ -129,7 +129,7 @@ TEST(Pieces, PassAndCrossWithTheirShareOfTheBlock) {
                              }));
 }
 
-// A run that was stopped before, between and after breaks goes on to the bit.
+// A run that was stopped before, between and after breaks continues to the same bits.
 TEST(Pieces, OfAResumedRunAreTheSameToTheBit) {
   const Thrown thrown;
   const RunFile whole = thrown.computed(0);

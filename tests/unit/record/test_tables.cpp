@@ -39,7 +39,7 @@ std::string section() {
   return out;
 }
 
-// TALUS_PRINT_FIELDS=1 prints what should stand in docs/reference/fields.md.
+// TALUS_PRINT_FIELDS=1 prints the text for docs/reference/fields.md.
 TEST(Tables, ThePageOfFieldsIsTheLists) {
   const std::string rows = section<Passage>() + section<Crossing>() + section<ObjectHit>() +
                            section<PanelRow>() + section<FenceHit>() + section<TreeHitRow>() +

@@ -60,7 +60,7 @@ TEST(CheckView, MapShowsEachThingOnce) {
   EXPECT_EQ(count(svg, "nan"), 0u);
 }
 
-// A road that leaves the map is drawn as far as the map goes; what lies beyond it is not.
+// A road that leaves the map is drawn up to its edge; the rest is not.
 TEST(CheckView, ObjectsAndSurfacesAreDrawnAndNamed) {
   CheckView made = view();
   const auto width_of = [](const MapGround& part) { return (part.view.high - part.view.low).x(); };

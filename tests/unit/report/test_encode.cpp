@@ -19,7 +19,7 @@ TEST(Base64, NumbersAreLittleEndianAndSingle) {
   EXPECT_EQ(base64(std::vector<std::uint32_t>{1}), "AQAAAA==");
 }
 
-// A fence called "</script>" must not end the script element that its name stands in.
+// A fence called "</script>" must not end the script element that holds its name.
 TEST(JsonString, CannotEndAScriptElement) {
   EXPECT_EQ(json_string("</script>\"\\\n"), "\"\\u003c/script>\\\"\\\\\\u000a\"");
 }

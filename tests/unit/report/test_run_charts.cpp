@@ -15,7 +15,7 @@ TEST(CurveChart, HasALineForEachRun) {
   EXPECT_NE(chart.series[0].colour, chart.series[1].colour);
 }
 
-// Medians of 0, 2, 7 and of 4, 5, 7: run c has ended and keeps its value; b is half way at 1 s.
+// Medians of 0, 2, 7 and of 4, 5, 7: run c has ended and keeps its value; b is half-way at 1 s.
 TEST(CurveChart, ShowsMedianAndBandOfThreeRuns) {
   const CsvTable table =
       parse_csv("run_id,time_s,front_m\na,0,0\na,1,4\na,2,4\nb,0,2\nb,2,8\nc,0,7\n", "curves.csv");

@@ -55,7 +55,7 @@ std::vector<int> counts_of(const nlohmann::json& counts) {
 }  // namespace
 
 // Elevations are given from the lowest known one on, poses as x y z speed, then the quaternion;
-// half a step of the packing is what they may differ by.
+// they may differ by half a step of the packing.
 TEST(ViewerScene, HoldsThePosesOfTheFrames) {
   const Trn trn = talus::testing::plane_trn(0.5, 2, 101, 101);  // 0 m at its eastern end
   const nlohmann::json scene = nlohmann::json::parse(viewer_scene(sliding_box(), trn, {}));

@@ -11,7 +11,7 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-/// A cube of 2 m on a splinter of 0.5 m x 0.5 m x 0.1 m that bears 0.9 times its weight.
+/// A cube of 2 m on a splinter of 0.5 m x 0.5 m x 0.1 m that can carry 0.9 times its weight.
 struct Pinched {
   Pinched() {
     set.material_names = {"rock"};
@@ -46,7 +46,7 @@ struct Pinched {
   RunOptions options;
 };
 
-// What was crushed stands in the run file, counts as deposit where it lies, and no mass is missing.
+// Crushed blocks are in the run file, count as deposit where they lie, and no mass is missing.
 TEST(CrushedRun, KeepsTheDebrisInItsFileAndInTheDeposit) {
   Pinched pinched;
   const RunFile run = pinched.computed(0);

@@ -112,7 +112,7 @@ void expect_same(const RunFile& a, const RunFile& b) {
   }
 }
 
-// What a few rocks do among many is, to the bit, what they do in a scene of their own.
+// A few rocks move among many, to the bit, as in a scene of their own.
 TEST(Rocks, FallAmongManyAsAmongFew) {
   const Scene many = rocks(0, 50), few = rocks(20, 30);
   const RunFile all = ended(begun(many, options())), some = ended(begun(few, options()));

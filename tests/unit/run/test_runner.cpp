@@ -104,7 +104,7 @@ void expect_same_rows(const RunFile& a, const RunFile& b) {
   }
 }
 
-// A fence that stands across the way of the boxes, and gives way.
+// A fence across the path of the boxes, which yields.
 Scene fenced_scene() {
   Scene scene = bouncing_scene();
   StandingFence fence;
@@ -147,7 +147,7 @@ TEST(Runner, ResumesWhatFencesHaveMet) {
   }
 }
 
-// The boxes run into a stand on the way.
+// The boxes run into a stand of trees.
 Scene wooded_scene() {
   Scene scene = bouncing_scene();
   std::vector<Stem> stems;
@@ -255,7 +255,7 @@ TEST(Runner, ResumesWhileBlocksSleep) {
   expect_same_frames(whole, computed(scene, wanted, {300, 400, 507, 520}));
 }
 
-// Steps are longer while most of what moves is a mass; a run goes on with them where it was.
+// Steps are longer while most of the moving rock is a mass; a resumed run continues with them.
 TEST(Runner, ResumesInAMassOfLongSteps) {
   const SlopeFrame frame = slope_frame(40, 30);
   std::vector<Body> bodies;

@@ -142,8 +142,8 @@ TEST(Stability, ARowOfColumnsHasTheFactorOfGoodmanAndBray) {
   }
 }
 
-// What falls into a gap and stops there does not move; what has no strength in its way has no
-// factor.
+// A block that falls into a gap and stops there does not move; one that slides without strength has
+// no factor.
 TEST(Stability, WhatSettlesDoesNotMove) {
   const Scene gap = scene_of(plane_trn(slope_frame(0, 0), 1, 10), ground_of(30),
                              {body_of(box(Vec3(-1, -1, 0.02), Vec3(1, 1, 1.02)))}, {});

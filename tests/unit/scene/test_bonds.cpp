@@ -80,9 +80,9 @@ TEST_P(Bond, HoldsExactlyToItsLimit) {
   EXPECT_GT(slid(above, failed), 0.1);
 }
 
-// Brittle: what broke slides with the friction of the joint alone.
-// What keeps the forces of a contact whose stiffness changes is an offset. On a bond it would stay,
-// and pull when the load is gone: bonds have none.
+// Brittle: a broken bond slides with the friction of the joint alone. An offset keeps the forces of
+// a contact whose stiffness changes. On a bond it would stay, and pull when the load is gone: bonds
+// have none.
 TEST(Bonds, KeepTheirZeroWhateverTheirStiffness) {
   GroundClass set = ground_of(20);
   set.cohesion = set.tension = 5000;
@@ -148,7 +148,7 @@ constexpr double c = 20000, t = 30000;  // of the bonds below; friction of 10 de
 const double k = c + std::tan(10 * degree) * weight / area;
 const double torsion = (std::sqrt(2) + std::log(1 + std::sqrt(2))) / 6;  // of a unit square
 
-// What a face of 1 m2 that bears the cube's weight just holds, in closed form.
+// Loads that a face of 1 m2 under the cube's weight just holds, in closed form.
 const FaceLoad face_loads[] = {
     {"tension", Vec3(0, 0, weight + t), {}},
     {"shear", Vec3(0.6, -0.8, 0) * k, {}},
@@ -160,7 +160,7 @@ const FaceLoad face_loads[] = {
 };
 
 // A cube on a slab that holds to the ground, or on the ground itself, with `share` of the load
-// besides its weight. The weight stays, so the share is of what the load is more than that.
+// besides its weight. The weight stays, so the share is of the load beyond it.
 Scene loaded_cube(bool on_ground, const FaceLoad& load, double share) {
   GroundClass bonded = ground_of(10);
   bonded.cohesion = c;

@@ -91,7 +91,7 @@ TEST(Fence, TakesTheEnergyOfABlockOverItsDeflection) {
 class FenceCapacity : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Fence, FenceCapacity, testing::Values(0.5, 1 - 1e-4, 1 + 1e-4, 1.5, 10));
 
-// A block with less energy is stopped, one with more goes on with the rest.
+// A block with less energy is stopped, one with more continues with the rest.
 TEST_P(FenceCapacity, HoldsExactly) {
   const double energy = energy_of(12), capacity = energy / GetParam();
   const Scene scene =
@@ -131,7 +131,7 @@ TEST(Fence, LetsThroughWhatComesAfterItBroke) {
   EXPECT_EQ(state.fence.hits.size(), 1u);
 }
 
-// Rocks that fall one by one meet each a whole fence: what one broke stands for the next.
+// Rocks that fall one by one meet each a whole fence: a panel that one broke is whole for the next.
 TEST(Fence, EachRockThatFallsAloneBreaksItsOwnPanel) {
   const double energy = energy_of(10), capacity = 0.5 * energy;
   const Scene scene = smooth_plane(
@@ -147,7 +147,7 @@ TEST(Fence, EachRockThatFallsAloneBreaksItsOwnPanel) {
   EXPECT_NEAR(state.ledger.fence, 2 * capacity, 1e-5 * energy);
 }
 
-// Hits that a net takes one by one do not add up, and each pushes it from where it stood first.
+// Hits that a net takes one by one do not add up, and each pushes it from its first place.
 TEST(Fence, HitsOfRocksThatFallAloneDoNotAddUp) {
   const double energy = energy_of(10), force = 1.5 * energy / 2;
   std::vector<Body> cubes;
@@ -164,8 +164,8 @@ TEST(Fence, HitsOfRocksThatFallAloneDoNotAddUp) {
   }
 }
 
-// However many others fall, a rock moves as in a run of its own: along and through panels that
-// others have pushed or broken, hit askew, rolling and asleep.
+// However many rocks fall, each moves as in a run of its own: along and through panels that other
+// rocks have pushed or broken, hit askew, rolling and asleep.
 TEST(Fence, ARockThatFallsAloneMovesAsInARunOfItsOwn) {
   std::mt19937 draw(4);
   std::uniform_real_distribution<double> of(0, 1);
@@ -299,7 +299,7 @@ TEST(Fence, RocksThatMeetItsTopEdgeAreNotDeepInIt) {
   EXPECT_LT(deepest, 0.1 * 0.8);
 }
 
-// Beside the fence nothing stands.
+// There is no obstacle beside the fence.
 TEST(Fence, DoesNotReachBeyondItsEnds) {
   const Scene scene = smooth_plane({cube_at(Vec3(0, 10.5, 0), Vec3(10, 0, 0))},
                                    fence_across(Yielding::no_limit, 0));

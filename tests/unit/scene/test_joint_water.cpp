@@ -115,7 +115,7 @@ TEST(JointWater, StandsInACrackAboveItsFoot) {
 }
 
 // A mass of even upright thickness on a slope, piezometric surface at a depth below its top: the
-// head on its base is what is left of the thickness, all over it; the top and the sides are dry.
+// head on its base is the rest of the thickness, all over it; the top and the sides are dry.
 TEST(JointWater, IsSoDeepBelowTheTop) {
   const SlopeFrame frame = slope_frame(25, 30);
   const double thick = 2, depth = 0.7;

@@ -60,7 +60,7 @@ TEST(Phase, ABlockFliesLandsSleepsAndWakes) {
   EXPECT_EQ(lives.phase[0], Phase::near_ground);
 }
 
-// Cube 0 slides down a slope or rests on it; with `with_fragment` cube 1 stands half inside of it.
+// Cube 0 slides down a slope or rests on it; with `with_fragment` cube 1 is half inside it.
 Scene cubes(bool with_fragment, double dip_deg, const Settings& settings) {
   const SlopeFrame slope = slope_frame(dip_deg, 30);
   const auto cube_at = [&](double along) {

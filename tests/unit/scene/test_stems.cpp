@@ -65,11 +65,11 @@ TEST(Stems, CapacityFollowsTheDiameter) {
     EXPECT_NEAR(stem_capacity(1, dbh) / 1e3, energy, 1e-3 * energy);
 }
 
-// The mass of the cubes scales the speed at which the stem gives way.
+// The mass of the cubes scales the speed at which the stem yields.
 class CentralHit : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Stems, CentralHit, testing::Values(10.0, 15.0, 20.0, 25.0));
 
-// A stem takes its energy over its deflection; the block is stopped, or goes on with the rest.
+// A stem takes its energy over its deflection; the block is stopped, or continues with the rest.
 TEST_P(CentralHit, TakesTheCapacityAndNoMore) {
   const double v = GetParam();
   for (const double dt : {0.005, 0.0025}) {
@@ -144,7 +144,7 @@ TEST(Stems, HitsOneAfterTheOtherAddUp) {
   EXPECT_NEAR(sum, state.ledger.fence, 1e-6 * sum);
 }
 
-// Rocks that fall one by one find each stem whole, whatever others left of it.
+// Rocks that fall one by one find each stem whole, whatever earlier rocks did to it.
 TEST(Stems, EachRockThatFallsAloneMeetsTheWholeStem) {
   Settings settings;
   settings.block_contacts = false;
@@ -241,13 +241,13 @@ TEST(Stems, ABrokenStemIsGoneWithoutAKick) {
     step(scene, state, work);
   const Vec3 v = state.motion[0].velocity;
   for (int k = 0; k < 20; ++k) step(scene, state, work);
-  // the ground bears its weight again, so that it goes up and down by less than 1 mm/s
+  // the ground supports its weight again, so that it moves up and down by less than 1 mm/s
   EXPECT_NEAR((state.motion[0].velocity - v).head<2>().norm(), 0, 1e-9);
   EXPECT_NEAR(state.motion[0].angular_momentum.norm(), 0, 1e-9);
   EXPECT_LT(v.x(), 25);
 }
 
-// What stands out of every block's reach is not looked at, however many they are.
+// Stems out of every block's reach are not looked at, however many they are.
 TEST(Stems, CostNothingUntilABlockIsNear) {
   const std::vector<Body> bodies = {cube_at(Vec3(-40, 0, side / 2), Vec3(15, 0, 0)),
                                     cube_at(Vec3(-40, 5, 9), Vec3(5, 0, 4))};
@@ -277,7 +277,7 @@ TEST(Stems, CostNothingUntilABlockIsNear) {
   }
 }
 
-// A stem ends at its height, and what flies over it flies on.
+// A stem ends at its height, and a block above it flies on.
 TEST(Stems, AreNotHitAboveTheirTop) {
   Stem low = stem_at(Vec3::Zero());
   low.height = 2;

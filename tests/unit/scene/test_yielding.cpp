@@ -45,8 +45,8 @@ State run(const Scene& scene, double time) {
 class Heading : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Yielding, Heading, testing::Values(0.0, 0.7, 2.5));
 
-// What has no axis takes its energy and breaks, whichever side it is hit from; the block goes on
-// with the rest, and no fence has met anything.
+// A body without an axis takes its energy and breaks, whichever side it is hit from; the block
+// continues with the rest, and no fence has met anything.
 TEST_P(Heading, ABodyWithoutAnAxisTakesItsCapacityAndBreaks) {
   const double capacity = 0.4 * energy;
   const Scene scene = post_in_the_path(capacity, capacity / 0.5, GetParam());
@@ -108,8 +108,8 @@ TEST(Yielding, AWorldIsOfAllBlocksOrOfOneRock) {
   for (int b = 0; b < 5; ++b) EXPECT_EQ(world_of(scene, b), worlds[b]);
 }
 
-// A hundred thousand rocks among as many stems: what a rock did not touch costs nothing, what it
-// touched 64 bytes and the room that lists grow by.
+// A hundred thousand rocks among as many stems: a stem that a rock did not touch costs nothing, one
+// that it touched 64 bytes and the room that lists grow by.
 TEST(Yielding, ARockKeepsOnlyWhatItTouched) {
   constexpr int n = 100000, touched = 5;
   Scene scene;
@@ -178,7 +178,7 @@ std::int64_t fixed_bodies_looked_at(const Scene& scene, int n_steps) {
   return work.search.n_fixed_near;
 }
 
-// Of ten thousand fixed bodies those that stand far away are never looked at; near ones are, a few
+// Of ten thousand fixed bodies those far away are never looked at; near ones are, a few
 // for each block, not all.
 TEST(FixedBodies, AreFoundByPlaceAndNeverInALoop) {
   for (const bool block_contacts : {true, false}) {

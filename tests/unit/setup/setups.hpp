@@ -1,5 +1,5 @@
 // A slope of 30 degrees that runs out on a flat beyond 100 m, three boxes on it, and a log that
-// keeps what it is told: for the tests of the set-up.
+// keeps its messages: for the tests of the set-up.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ struct CollectedLog : InputLog {
       return sentence_on(doubt).find(part) != std::string::npos;
     });
   }
-  /// Of what was read of a role; "" where nothing was.
+  /// Of the content read for a role; "" where nothing was.
   [[nodiscard]] std::string digest_of(const std::string& role) const {
     for (const auto& [name, digest] : contents)
       if (name == role) return digest;

@@ -15,7 +15,7 @@ using namespace talus::cases;
 constexpr double pi = std::numbers::pi;
 
 // A core of 50 mm fails at I_s50 D_e^2, I_s50 a 23rd of the uniaxial strength; ten times the size
-// bears 10^1.55 times the load.
+// carries 10^1.55 times the load.
 TEST(PointLoadStrength, IsThatOfTheStandardCoreAndGrowsWithSizeToThePower155) {
   EXPECT_NEAR(point_load_strength(100e6, 0.05), 100e6 / 23 * 0.0025, 1e-6);
   EXPECT_NEAR(point_load_strength(100e6, 0.5) / point_load_strength(100e6, 0.05),

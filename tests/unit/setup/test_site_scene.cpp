@@ -11,7 +11,7 @@ namespace {
 
 using namespace talus;
 
-// What the cases of talus-verify and the tests run with is what a site file without settings does.
+// The cases of talus-verify and the tests run with the settings of a site file without settings.
 TEST(SettingsOf, DefaultsOfASiteFileAreThoseOfTheEngine) {
   ScenePlan plan;
   plan.block_contacts = true;
@@ -28,8 +28,8 @@ TEST(SettingsOf, DefaultsOfASiteFileAreThoseOfTheEngine) {
   EXPECT_EQ(of_site.sleep, engine.sleep);
 }
 
-// Weakening friction begins at the smaller of its own and the section's, after what is drawn; a
-// section with a law of its own keeps it.
+// Weakening friction begins at the smaller of its own and the section's, after the draws; a section
+// with a law of its own keeps it.
 TEST(DrawnGrounds, WeakenAllAlike) {
   const auto ground_of = [](const std::string& keys, const std::string& friction) {
     return ground_class(

@@ -56,7 +56,7 @@ TEST_F(SiteShapes, PointsOfTheSiteFileAreLayersAsThoseOfFiles) {
     EXPECT_EQ(local[i].head<2>(), (inputs.shapes[1].shapes[0][i] - trn.origin).head<2>());
 }
 
-// Two fences and a stand of the same site, as talus-import writes them.
+// Two fences and a stand of trees of the same site, as talus-import writes them.
 struct ImportedSite : SiteShapes {
   Site site;
   std::string inputs;

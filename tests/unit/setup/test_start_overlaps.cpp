@@ -24,7 +24,7 @@ BlockSet cubes_at(const std::vector<Vec3>& lows) {
   return set;
 }
 
-// Cube 1 stands 0.02 m inside cube 0; cube 2 touches both by a millionth less than the tolerance.
+// Cube 1 is 0.02 m inside cube 0; cube 2 touches both by a millionth less than the tolerance.
 TEST(StartOverlaps, SayHowDeepWhichTwoAndWhere) {
   const BlockSet set = cubes_at({{0, 0, 0}, {0.98, 0, 0}, {0, 0.999001, 0}});
   const std::vector<StartOverlap> found = start_overlaps(set, {}, true, 1e-3);
@@ -100,7 +100,7 @@ TEST(Settle, MovesARowApartAndLeavesItsCentreOfMassInPlace) {
   EXPECT_NEAR(set.vertices[0].x(), set.centroid[0].x() - 0.5, 1e-12);
 }
 
-// The lowest cube stands on the ground and stays; each of the others rises by what lies below it.
+// The lowest cube is on the ground and stays; each of the others rises by the overlaps below it.
 TEST(Settle, LiftsAStackOffTheBlockThatStandsOnTheGround) {
   BlockSet set = cubes_at({{0, 0, 0.97}, {0, 0, 0}, {0, 0, 1.94}});
   const Settled settled = settle(set, flat_ground(), true, 1e-6);

@@ -20,7 +20,7 @@ Trn grid(int n_rows, int n_cols, double cell) {
   return trn;
 }
 
-// Winding by angles: another way to ask whether a point lies in a ring.
+// Winding by angles: another method to ask whether a point lies in a ring.
 bool is_inside(const std::vector<Vec2>& ring, const Vec2& point) {
   double angle = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {

@@ -92,7 +92,7 @@ TEST(Plausibility, DepthBeyondTheReliefIsRefused) {
   EXPECT_NE(doubts[1].found.find("800 m deep"), std::string::npos);
 }
 
-// A hint does not name what the site file says already.
+// A hint does not name settings that the site file has already.
 TEST(Plausibility, HintsKnowTheFailureSurface) {
   PlausibilityFacts facts = sound();
   facts.step_at_foot = 5;

@@ -195,7 +195,7 @@ TEST(Site, PrintedConfigurationReadsBackTheSame) {
             without_comments(talus::print_config(parse_site(printed, "s/site.toml"))));
 }
 
-// A key with a dimension says its unit, so that no number stands alone.
+// A key with a dimension says its unit, so that no number is without one.
 TEST(Site, EveryKeyIsDescribedAndUnique) {
   std::set<std::string> seen;
   for (const auto& row : talus::site_keys()) {
@@ -227,8 +227,7 @@ TEST(Site, AKeyThatIsGoneSaysWhatToWriteInstead) {
   EXPECT_EQ(refusal("[fence.a]\nbreaklines_layer = 'a'\n").find("gone"), std::string::npos);
 }
 
-// docs/reference/site-file.md holds the table of keys; TALUS_PRINT_KEYS=1 prints what should stand
-// there.
+// docs/reference/site-file.md holds the table of keys; TALUS_PRINT_KEYS=1 prints its text.
 TEST(Site, ThePageOfKeysIsTheTable) {
   std::string rows, section;
   for (const auto& row : talus::site_keys()) {
@@ -352,8 +351,7 @@ TEST(SiteSoil, KeysThatExcludeOrNeedEachOtherAreRefused) {
   says("rolling_resistance = 0.1\nspin_resistance = 0.05\ndrag_1_s = 1\n", "accepted");
 }
 
-// --- layers that stand for sections
-// ---------------------------------------------------------------
+// --- layers for sections -------------------------------------------------------------------------
 
 namespace {
 
@@ -387,7 +385,7 @@ TEST(SiteLayers, ASectionOfALayerIsAsOneOfTheFile) {
   EXPECT_EQ(site.fences[0].post_spacing_m, 10);  // the default
   ASSERT_EQ(site.blocks.size(), 2u);
   EXPECT_EQ(site.blocks[1].size_m, (std::vector<double>{1, 2, 3}));
-  ASSERT_EQ(site.grounds.size(), 1u);  // joins the section that stands in the file
+  ASSERT_EQ(site.grounds.size(), 1u);  // joins the section of the file
   EXPECT_EQ(site.grounds[0].friction_deg, 32);
   EXPECT_EQ(site.grounds[0].cor, 0.2);
   for (const talus::EffectiveValue& value : effective_values(site)) {

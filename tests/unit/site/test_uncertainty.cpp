@@ -182,7 +182,7 @@ TEST(Uncertainty, ASampleIsTheSameInAnyOrderAndWithMoreRuns) {
       EXPECT_EQ(again, friction[sample]);
     }
   }
-  // a quantity behind the others leaves theirs as they are
+  // a quantity behind the earlier ones leaves theirs as they are
   Site more = site_of(std::string(whole) +
                           "[uncertainty.last]\nkeys = \"solver.start_jitter_m_s\"\n"
                           "distribution = \"uniform\"\nmin = 0\nmax = 1\n",

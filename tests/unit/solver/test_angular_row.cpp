@@ -1,6 +1,6 @@
 // Angular rows: a couple bounded by the normal impulses of its pair. A disc that rolls on a plane
 // with rolling resistance M <= e N, its radius R, slows down by e g / R / (1 + J / (m R^2)), and
-// stands on a slope up to tan(dip) = e / R.
+// rests on a slope up to tan(dip) = e / R.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -186,7 +186,7 @@ TEST(AngularRow, BoundsRollingAndPivotingApart) {
   EXPECT_EQ(row.couple, Vec3(0, 0, 2));
 }
 
-// The disc rolls on a plate that is free to move: what it loses the plate has.
+// The disc rolls on a plate that is free to move: the plate takes the momentum that it loses.
 TEST(AngularRow, KeepsMomentumBetweenTwoBodies) {
   InIsland disc;
   Island& island = disc.island;
@@ -344,8 +344,8 @@ struct Pendulum {
   }
 };
 
-// What such a block pivots by changes sign with the mean normal, which follows the impulses: a rock
-// at 13 m/s on meadow, which no other way of solving gets through.
+// The pivoting of such a block changes sign with the mean normal, which follows the impulses: a
+// rock at 13 m/s on meadow, which no other method of solving gets through.
 TEST(CouplesOfALoneBlock, AreFoundWhereItSlidesAndSpinsAcrossItsMeanNormal) {
   BlockSystem<6> system;
   system.mass.setZero();

@@ -50,7 +50,7 @@ TEST(ContactLaw, GivesWayAtTheLimitOfItsOtherSide) {
 }
 
 TEST(ContactLaw, SticksUpToFrictionAndCohesion) {
-  ContactRow row = on_the_level();  // presses with 2 N s: friction bears 1 N s
+  ContactRow row = on_the_level();  // presses with 2 N s: friction holds 1 N s
   const Vec3 slow(0.33, 0, -1), fast(0.34, 0, -1);
   EXPECT_EQ(at(slow, row).state, ContactState::stick);
   EXPECT_EQ(at(slow, row).impulse.x(), -3 * 0.33);

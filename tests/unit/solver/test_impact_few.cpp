@@ -67,9 +67,9 @@ struct Landing {
   }
 };
 
-// What is found is the law: nothing comes slower than asked for, what is open bears nothing, what
-// slides does so against its friction; and most is found, also where more contacts share a
-// load than there are ways to move.
+// A result fulfils the law: no point comes slower than asked for, open contacts carry nothing, slip
+// is against its friction; and most problems have a result, also where more contacts share a load
+// than there are degrees of freedom.
 TEST(SolveFew, WhatIsFoundIsTheLaw) {
   Random random(3);
   FewContacts few;

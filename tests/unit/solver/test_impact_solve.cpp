@@ -99,7 +99,7 @@ TEST(SolveImpact, OneContactReturnsItsRestitution) {
   }
 }
 
-// The k-th of a column that meets what is below. Drawn one by one: arguments have no order.
+// The k-th of a column that meets a body below. Drawn one by one: arguments have no order.
 ImpactBody random_box(Random& random, int k) {
   const Vec3 spin = random_vector(random, 3);
   const Vec3 velocity = Vec3(0, 0, -2.0 * k) + random_vector(random, 1);
@@ -152,7 +152,7 @@ TEST(SolveImpact, KeepsWhatMustBeKept) {
 
 // A plate that lands flat on a slope, with friction, does not begin to turn; whatever the order of
 // its corners.
-// A ball that rolls and hits ground which gives way: friction holds its point, so the couple
+// A ball that rolls and hits yielding ground: friction holds its point, so the couple
 // arm p_n takes (arm / R) p_n / (m + I / R^2) of its speed.
 struct RollingBall {
   static constexpr double m = 780, radius = 0.41, e = 0.5;

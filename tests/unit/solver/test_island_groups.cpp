@@ -54,11 +54,11 @@ TEST(FindIslands, AgreesWithSpreadingOfLabels) {
   }
 }
 
-// Blocks and pairs stand island by island; every pair with a joining block appears once.
+// Blocks and pairs are ordered by island; every pair with a joining block appears once.
 TEST(FindIslands, ListsBlocksAndPairsByIsland) {
   IslandGroups groups;
   const Pairs pairs = {{5, 1}, {2, -1}, {1, -1}, {4, 3}, {0, 3}};
-  const std::vector<unsigned char> joins = {1, 1, 1, 0, 1, 1};  // block 3 stands fast
+  const std::vector<unsigned char> joins = {1, 1, 1, 0, 1, 1};  // block 3 is fixed
   talus::find_islands(6, pairs, joins, groups);
   ASSERT_EQ(talus::n_islands(groups), 4);
   EXPECT_EQ(groups.blocks, (std::vector<int>{0, 1, 5, 2, 4}));

@@ -72,7 +72,7 @@ Vec3 local_impulse(ContactRow row, const Vec3& w, const Mat3& W, Vec3 p) {
   return p;
 }
 
-/// Gauss-Seidel over the contacts, each solved by itself with the law of one block: slow, and
+/// Gauss-Seidel over the contacts, each solved alone with the law of one block: slow, and
 /// shares nothing with the island solver but the law.
 Eigen::VectorXd gauss_seidel(const Island& island, int sweeps) {
   const Dense dense(island);
@@ -476,8 +476,8 @@ TEST(SolveIsland, TakesTheFreeMotionOfBodiesThatDoNotTouch) {
               island.free_velocity[static_cast<std::size_t>(body)]);
 }
 
-// A solution that goes on after a few rows changed is that of the changed island, and costs what
-// changed; where nothing did, it is the same to the bit.
+// A solution that continues after a few rows changed is that of the changed island, and its cost
+// grows with the changes; without a change, it is the same to the bit.
 TEST(SolveIsland, GoesOnFromItsLastSolution) {
   talus::Random random(81, "continues");
   const LawOfScene law;

@@ -49,8 +49,8 @@ void add_row(const Vec3& normal, const Vec3& arm_a, const Vec3& arm_b, const Vec
   system.rows.push_back(row);
 }
 
-// Bodies of masses over so many decades, each with a few others, some with several pairs, and with
-// the ground.
+// Bodies of masses over so many decades, each with a few partners, some with several pairs, and
+// with the ground.
 MassSystem random_mass(int n, int most_rows, double decades) {
   talus::Random random(3, "mass");
   MassSystem system;
@@ -127,7 +127,8 @@ TEST(MassSolver, WhatStandsIsNotEnteredByAnUnfinishedSolution) {
   EXPECT_GT(largest, 0.1);
 }
 
-// What presses stands still or gives by its compliance, what is open parts, friction is bounded.
+// A pressed contact does not move or yields by its compliance, an open one parts, friction is
+// bounded.
 TEST(MassSolver, FulfilsTheLawOfContact) {
   MassSystem system = random_mass(200, 1, 1);
   talus::MassSettings settings = usual;
@@ -191,7 +192,7 @@ TEST(MassSolver, SolvesABodyOnAHundredOthers) {
   EXPECT_NEAR(on_ground, 1100 * 0.05, 0.5);
 }
 
-// The other side gives way: no more than its limit.
+// The other side yields: no more than its limit.
 TEST(MassSolver, StaysBelowTheLimitOfARow) {
   MassSystem system;
   add_body(2, system);
@@ -202,7 +203,7 @@ TEST(MassSolver, StaysBelowTheLimitOfARow) {
   EXPECT_EQ(system.rows[0].impulse[0], 4);
 }
 
-// A couple up to the arm times the normal impulse; none of what it cannot hold is left.
+// A couple up to the arm times the normal impulse; up to that it stops the spin.
 TEST(MassSolver, ResistsRolling) {
   for (const double arm : {0.01, 1.0}) {
     MassSystem system;

@@ -73,7 +73,7 @@ TEST(SolveContacts, ImpulsesBalanceTheMomentum) {
   }
 }
 
-// One contact: the mobility along its normal is what its impulse does to its point.
+// One contact: the mobility along its normal is the velocity that its impulse gives its point.
 TEST(Mobility, IsTheVelocityOfThePointPerImpulse) {
   const Vec3 per_inertia(1, 2, 3), arm(0.4, -0.7, 0.2), normal = Vec3(1, 2, 2) / 3;
   const Vec3 spin = per_inertia.cwiseProduct(arm.cross(normal));

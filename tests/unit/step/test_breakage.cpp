@@ -57,7 +57,7 @@ Sums sums_of(const Scene& scene, const State& state) {
   return sums;
 }
 
-// Energy that is there and that was lost; what a run keeps [J].
+// Present and lost energy; constant over a run [J].
 double budget(const Scene& scene, const State& state) {
   const Energies e = energies(scene, state);
   const EnergyLedger& l = state.ledger;
@@ -174,8 +174,8 @@ TEST_P(BreakageAtStep, ThresholdSpeedFallsWithTheRootOfSize) {
   }
 }
 
-// Test E1. What the fracture and the separation take is what the hit lost less of: the budget
-// closes to 1e-9 of what the hit brought.
+// Test E1. The energy of fracture and separation is missing from the loss of the hit: the budget
+// closes to 1e-9 of the energy before the hit.
 TEST_P(BreakageAtStep, BudgetClosesOverTheHit) {
   FlatHit hit(1, 12, 1e5, GetParam());
   const double before = hit.energy(), brought = 0.5 * density * 12 * 12;
@@ -219,8 +219,8 @@ struct Fall {
   Work work;
 };
 
-// The pieces of a heap stay what the blocks were, in mass and volume, and none comes through the
-// ground or another.
+// The pieces of a heap keep the blocks' mass and volume, and none comes through the ground or
+// another.
 TEST(Breakage, OfAHeapKeepsMassAndStaysAboveTheGround) {
   Fall fall;
   fall.run(4);
@@ -258,8 +258,8 @@ TEST_P(BreakageAtStep, OfAHeapTakesNoMoreThanTheHitsOfTheStepTook) {
   EXPECT_GT(n, 5u);
 }
 
-// Test E1. A step in which blocks of a heap break closes its budget as one in which none does: what
-// break_blocks() does to the state leaves the sum where it was.
+// Test E1. A step in which blocks of a heap break closes its budget as one in which none does:
+// break_blocks() does not change the sum.
 TEST_P(BreakageAtStep, OfAHeapClosesTheBudgetOfEachBreak) {
   Fall fall(GetParam());
   int n_broken = 0;
@@ -267,7 +267,7 @@ TEST_P(BreakageAtStep, OfAHeapClosesTheBudgetOfEachBreak) {
     step(fall.scene, fall.state, fall.work);
     const double before = budget(fall.scene, fall.state);
     const std::size_t n = fall.state.breaks.size();
-    // as if every block were hit now by what breaks it for certain
+    // as if every block were hit now hard enough to break
     for (std::size_t b = 0; b < fall.state.hit_loss.size(); ++b)
       if (n_broken < 6 && takes_part(fall.state.phase[b]) && fall.state.time > 0.1 * (n_broken + 1))
         fall.state.hit_loss[b] = 3e5, ++n_broken;
@@ -289,7 +289,7 @@ TEST(Breakage, IsTheSameToTheBitWhenRepeated) {
     EXPECT_EQ(one.state.motion[b].pose.position, other.state.motion[b].pose.position);
 }
 
-// Pieces that never come off change nothing in what the blocks do.
+// Pieces that never come off do not change the motion of the blocks.
 TEST(Breakage, ThatNeverHappensLeavesTheRunAsItWas) {
   Fall strong;
   strong.scene.fragmentation.energy = 1e12;

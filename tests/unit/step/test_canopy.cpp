@@ -131,7 +131,7 @@ TEST_P(Canopies, AreNotFlownOver) {
   EXPECT_GT(run.state.counters.flight_skips, 0);
 }
 
-// What goes through an area loses d L / m, L its way in it: a strip entered at a slant, one that is
+// A block through an area loses d L / m, L its path in it: a strip entered at a slant, one that is
 // narrower than a step, one of many sides; alone and as two that touch.
 TEST_P(Canopies, TakeTheirDragOverTheWayInThem) {
   const Vec3 velocity(9, 2, 0);
@@ -143,7 +143,7 @@ TEST_P(Canopies, TakeTheirDragOverTheWayInThem) {
     disc.rings[0].push_back(Vec2(4.003, 4.003 * 2 / 9) +
                             2.7 * Vec2(std::cos(angle), std::sin(angle)));
   }
-  // of its sides that the way through its centre crosses, at 12.53 degrees: those from 12 to 18
+  // of its sides that the path through its centre crosses, at 12.53 degrees: those from 12 to 18
   const double apothem = 2.7 * std::cos(std::numbers::pi / 60),
                off = 15 * std::numbers::pi / 180 - std::atan2(2, 9);
   const struct {
@@ -198,7 +198,7 @@ TEST(Canopy, DragsAddUp) {
   EXPECT_EQ(drag_at(both, trn, Vec3(200, 0, 5)), 0);
 }
 
-// The way of a mass centre that turns back is wider than its ends.
+// The path of a mass centre that turns back is wider than its ends.
 TEST(Canopy, IsComeOverByWhatTurnsBackInIt) {
   const std::vector<Canopy> canopies = {canopy_on(10, 50)};
   const auto comes = [&](double x, double v, double a, double time) {

@@ -18,7 +18,8 @@ void press(const Vec3& normal, double force, BlockLoad& load) {
   load.push += force * normal;
 }
 
-// What enters on one side and leaves on the other; not what moves or bears the block.
+// The load that enters on one side and leaves on the other; not the force that moves or supports
+// the block.
 TEST(LoadThrough, IsWhatIsPressedFromBothSides) {
   BlockLoad jammed, alone, corner, all_round;
   press(-Vec3::UnitZ(), 500, jammed);
@@ -34,7 +35,7 @@ TEST(LoadThrough, IsWhatIsPressedFromBothSides) {
   EXPECT_NEAR(load_through(all_round), 700, 1e-9);
 }
 
-/// A cube of 2 m that stands on a splinter of 0.5 m x 0.5 m x 0.1 m, which lies on flat ground.
+/// A cube of 2 m on a splinter of 0.5 m x 0.5 m x 0.1 m, which lies on flat ground.
 struct Pinched {
   explicit Pinched(double dt, double strength_in_weights, const Vec3& velocity = Vec3::Zero())
       : scene(scene_of(plane_trn(slope_frame(0, 0), 1, 30), ground_of(30),
@@ -104,7 +105,7 @@ TEST(CrushedSplinter, ThatBearsItsLoadLeavesTheRunAsItWas) {
 }
 
 // The cube comes down through the debris to the ground, and not deeper; the debris stays, counts,
-// and no energy is lost on the way.
+// and no energy is lost on the way down.
 TEST_P(PinchedSplinter, LetsWhatItBoreDownToTheGroundAndStaysAsDebris) {
   Pinched scene(GetParam(), 0.9);
   const double before = scene.energy();
@@ -120,7 +121,7 @@ TEST_P(PinchedSplinter, LetsWhatItBoreDownToTheGroundAndStaysAsDebris) {
   EXPECT_NEAR(scene.energy(), before, 1e-2 * fell);
 }
 
-// 2.5 t at 5 m/s on a splinter that bears ten times their weight: a mean over load_time of
+// 2.5 t at 5 m/s on a splinter that can carry ten times their weight: a mean over load_time of
 // 5 weights x seconds of impulse, five times that. It is hit from one side and held from the other.
 TEST_P(PinchedSplinter, IsCrushedByABlowToo) {
   Pinched scene(GetParam(), 4, Vec3(0, 0, -5));

@@ -12,7 +12,7 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-/// Blocks on a slope that dips to +x, and what steps them.
+/// Blocks on a slope that dips to +x, and their steps.
 struct OnASlope {
   OnASlope(double dip_deg, const std::vector<Body>& bodies)
       : scene(scene_of(plane_trn(slope_frame(dip_deg, 90), 5, 50), ground_of(60), bodies, {})),
@@ -29,7 +29,7 @@ Body cube_at(const Vec3& low, double width = 1) {
   return body_of(box(low, low + Vec3::Constant(width)));
 }
 
-// What a contact says of itself, that a block is deep, counts only when its body overlaps another.
+// A contact's report that a block is deep counts only when its body overlaps another.
 TEST(DeepBlocks, ASuspectThatHardlyOverlapsAnythingIsNotDeep) {
   OnASlope stack(0, {cube_at({0, 0, 0}), cube_at({0, 0, 1}), cube_at({5, 0, 30})});
   for (int i = 0; i < 20; ++i) {
@@ -61,7 +61,7 @@ TEST(DeepBlocks, TheThinnerOfTwoBlocksIsInTheOther) {
   }
 }
 
-// Set 0.2 m into a slope along its normal: so deep it is, not what it reaches below it vertically.
+// Set 0.2 m into a slope along its normal: that is its depth, not the vertical one.
 TEST(DeepBlocks, DepthInTheGroundIsThatAlongItsNormal) {
   for (const double dip : {0.0, 35.0}) {
     const SlopeFrame frame = slope_frame(dip, 90);
@@ -113,7 +113,7 @@ TEST(DeepBlocks, ABlockThatWasDeepIsWatchedForItsSpeed) {
   }
 }
 
-// A wedge that stands in a narrow notch: each of its walls reads a fifth of what the edge is in.
+// A wedge in a narrow notch: each of its walls reads a fifth of the edge's depth.
 TEST(DeepBlocks, AnEdgeInANotchIsInByItsDistanceFromTheGround) {
   const double half = std::tan(10 * std::numbers::pi / 180) * 3;
   const Body wedge = body_of(polyhedron(

@@ -33,8 +33,8 @@ double ball_below(const Trn& trn, const Vec3& centre, double radius) {
   return below;
 }
 
-// And not much of the time until the ball touches is left out: what the planes of triangles reach
-// beyond their sides.
+// And not much of the time until the ball touches is left out: the planes of triangles reach beyond
+// their sides.
 TEST(FreeTime, NothingIsInTheBallBeforeIt) {
   const Ground ground = make_ground(make_trn(bumps, 1, 60), {});
   Random random(5, "free time");
@@ -115,7 +115,7 @@ TEST(FreeTime, NoPartOfABlockIsBelowTheGroundBeforeIt) {
   }
 }
 
-// Without spin it is known when the block lands on a plane: no search is needed on the way.
+// Without spin it is known when the block lands on a plane: no search is needed before.
 TEST(FreeTime, IsExactWithoutSpinOnAPlane) {
   const auto plane = [](double x, double y) { return 0.3 * x - 0.2 * y; };
   const Scene scene = scene_of(make_trn(plane, 1, 60), {},

@@ -56,8 +56,8 @@ double speed_after(double m, double slab, double speed, double e) {
   return a;
 }
 
-// A slab that the ground bears is not rock: the cube that falls on it rebounds as from a slab that
-// is hit by the ground in its turn.
+// A slab on the ground is not rigid rock: the cube that falls on it rebounds as from a slab that is
+// hit by the ground in its turn.
 TEST(Hits, ACubeReboundsFromABorneSlabAsHitByHit) {
   const double e = 0.7, height = 2;
   for (const double ratio : {1.8, 9.0, 36.0}) {
@@ -158,7 +158,7 @@ TEST(Hits, EveryHitOfATumblingPairReturnsItsRestitution) {
   }
 }
 
-// Cubes in a row that hit and do not part: they go on together, at the speed that momentum says.
+// Cubes in a row that hit and do not part: they move on together, at the speed given by momentum.
 TEST(Hits, APlasticPileUpStaysTogether) {
   for (const double gap : {0.4, 0.0}) {
     constexpr int n = 6;

@@ -104,7 +104,7 @@ CaseSettings with_accuracy(double dt, double accuracy) {
   return settings;
 }
 
-// The error of law talus at long steps is what [solver] accuracy asks for: closed forms.
+// The error of law talus at long steps is that of [solver] accuracy: closed forms.
 TEST(Accuracy, ASmallerOneErrsLess) {
   const auto slab = [](double accuracy) {
     return bouncing_slab(with_accuracy(0.05, accuracy), 0.5).error;
@@ -157,7 +157,7 @@ Course course_of(const Scene& scene) {
   return out;
 }
 
-// Short substeps are made by the island that needs them; what another asks for costs it nothing.
+// Short substeps are made by the island that needs them; the needs of another one cost it nothing.
 TEST(Accuracy, AnIslandThatNeedsShortSubstepsGetsThemAlone) {
   const Settings settings = with_accuracy(0.05, 0.005);
   const std::vector<Body> slides = {wall_at(0), cube_at(-20, 0)},

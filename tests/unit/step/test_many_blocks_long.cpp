@@ -1,4 +1,4 @@
-// The long form of stability/test_many_blocks.cpp: minutes of standing still.
+// The long form of stability/test_many_blocks.cpp: minutes at rest.
 #include <gtest/gtest.h>
 
 #include "stability/block_scenes.hpp"
@@ -28,7 +28,7 @@ TEST(ManyBlocksLong, PileOfTenStandsForAMinute) {
   EXPECT_EQ(state.counters.unconverged, 0);
 }
 
-// For 20 s it stays within a tenth of a metre of where it was cut, for the last 10 s it stands.
+// For 20 s it stays within a tenth of a metre of where it was cut, for the last 10 s it is at rest.
 void expect_standing(const Scene& scene) {
   State state = start(scene);
   Work work = make_work(scene);

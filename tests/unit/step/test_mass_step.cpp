@@ -84,13 +84,13 @@ Vec3 momentum(const Scene& scene, const State& state) {
   return sum;
 }
 
-/// What a run shows on its way.
+/// Records of a run.
 struct Course {
   State state;
   int steps_in_mass = 0;    ///< nominal ones
-  double largest_gain = 0;  ///< of energy in a step, of what was lost so far [-]
+  double largest_gain = 0;  ///< of energy in a step, of the energy lost so far [-]
   double lost = 0;          ///< mechanical energy [J]
-  double imbalance = 0;     ///< of the ledger, of what was lost [-]
+  double imbalance = 0;     ///< of the ledger, of the energy lost [-]
   double deepest = 0;       ///< overlap [m]
 };
 
@@ -116,7 +116,8 @@ Course run(const Scene& scene, double time, State state) {
 }
 Course run(const Scene& scene, double time) { return run(scene, time, start(scene)); }
 
-/// Mean way of the blocks along their largest mean displacement, and their spread about it.
+/// Mean displacement of the blocks along their largest mean displacement, and their spread about
+/// it.
 struct Place {
   double way = 0, spread = 0;
 };
@@ -153,11 +154,11 @@ TEST(MassStep, IsAskedForWhereManyBlocksMove) {
   few.high = 2;  // 32
   EXPECT_EQ(run(scene_of_lattice(few, with_masses(true)), 0.1).steps_in_mass, 0);
   Lattice resting = sliding;
-  resting.dip_deg = 10;  // each column of four stands
+  resting.dip_deg = 10;  // each column of four is stable
   EXPECT_EQ(run(scene_of_lattice(resting, with_masses(true)), 0.2).steps_in_mass, 0);
 }
 
-// At the start nothing moves and no contact knows what it carries.
+// At the start nothing moves and no contact knows its load.
 TEST(MassStep, BeginsWhereManyBlocksLeave) {
   const auto in_first_step = [](const Lattice& lattice) {
     const Scene scene = scene_of_lattice(lattice, with_masses(true));
@@ -167,7 +168,7 @@ TEST(MassStep, BeginsWhereManyBlocksLeave) {
   Lattice columns;
   columns.across = 1;
   columns.dip_deg = 0;
-  for (const int high : {6, 10, 20, 30}) {  // that stand
+  for (const int high : {6, 10, 20, 30}) {  // that are stable
     columns.along = 180 / high;
     columns.high = high;
     EXPECT_EQ(in_first_step(columns), 0) << high;
@@ -232,7 +233,7 @@ TEST(MassStep, ReboundsWithTheRestitution) {
   EXPECT_NEAR(course.state.ledger.impact, impact, 0.02 * impact);
 }
 
-// --- what is kept ------------------------------------------------------------------------------
+// --- conserved quantities ----------------------------------------------------------------------
 
 // Two lattices meet in the air.
 TEST(MassStep, KeepsMomentum) {
@@ -445,9 +446,9 @@ TEST(MassStep, HandsOverWhatHasComeToRest) {
 
 // --- fences ------------------------------------------------------------------------------------
 
-// A layer of blocks runs into a fence, soft or stiff: what its panel takes and how far it gives
-// way, against the exact step at 0.2 ms. (At 5 ms that one takes 6 % less of the soft fence, and 56
-// % less of the stiff one, which stops a block within a step.)
+// A layer of blocks runs into a fence, soft or stiff: the energy of its panel and its displacement,
+// against the exact step at 0.2 ms. (At 5 ms that one takes 6 % less of the soft fence, and 56 %
+// less of the stiff one, which stops a block within a step.)
 TEST(MassStep, PushesAFenceAsTheExactStepDoes) {
   struct Met {
     double work = 0, deflection = 0;
@@ -522,10 +523,11 @@ TEST(MassStep, BreaksStemsAsTheExactStepDoes) {
   EXPECT_GE(n_hit[0], 5u);
 }
 
-// --- a mass arrives at what stands ---------------------------------------------------------------
+// --- a mass arrives at blocks at rest ------------------------------------------------------------
 
-// A wall of bricks stands; a mass arrives at one end of it, and all of it is in the mass. The other
-// end moves by no more than by the exact step, to 1 mm. (That one lets it sag by 1.5 to 4 mm.)
+// A wall of bricks at rest; a mass arrives at one end of it, and all of it is in the mass. The
+// other end moves by no more than by the exact step, to 1 mm. (That one lets it sag by 1.5 to 4
+// mm.)
 TEST(MassStep, LeavesInPlaceWhatItDoesNotReach) {
   constexpr int n_long = 30, n_high = 5;
   const SlopeFrame frame = slope_frame(0, 0);
@@ -558,7 +560,7 @@ TEST(MassStep, LeavesInPlaceWhatItDoesNotReach) {
 
 // --- one large among many small ------------------------------------------------------------------
 
-// A block 10,000 times as heavy as each of the 400 that bear it slides with them, as one.
+// A block 10,000 times as heavy as each of the 400 below it slides with them, as one.
 TEST(MassStep, ALayerOfSmallBlocksBearsALargeOne) {
   const SlopeFrame frame = slope_frame(30, 25);
   std::vector<Body> bodies;
@@ -571,7 +573,7 @@ TEST(MassStep, ALayerOfSmallBlocksBearsALargeOne) {
   bodies.push_back(
       body_of(box_in(frame, Vec3::Zero(), Vec3(0, 0, small), Vec3(large, large, small + large))));
   Scene scene = scene_of(plane_trn(frame, 2, 40), ground_of(20), bodies, with_masses(true));
-  scene.joint = ground_of(35);  // what slides on the ground sticks together
+  scene.joint = ground_of(35);  // blocks that slide on the ground stick together
   EXPECT_NEAR(scene.blocks.mass[400] / scene.blocks.mass[0], 1e4, 10);
   const Course course = run(scene, 1);
   const double a = g * (std::sin(30 * degree) - std::tan(20 * degree) * std::cos(30 * degree));
@@ -657,7 +659,8 @@ TEST(MassStep, RocksArePouredIntoAPit) {
 
 // --- several parts a body ------------------------------------------------------------------------
 
-// Angles of two boxes each, of which some lie in others' arms, go as far as by the exact step.
+// Angles of two boxes each, of which some lie in each other's arms, move as far as by the exact
+// step.
 TEST(MassStep, MovesBodiesOfSeveralParts) {
   double way[2];
   for (const bool masses : {false, true}) {
@@ -684,7 +687,7 @@ TEST(MassStep, MovesBodiesOfSeveralParts) {
   EXPECT_NEAR(way[1], way[0], 3e-3 * way[0]);
 }
 
-// --- what is given away --------------------------------------------------------------------------
+// --- simplifications -----------------------------------------------------------------------------
 
 // Columns of four cubes that touch, dropped: hit by hit they lose nearly all of their energy; in a
 // mass e acts once, and they rebound as one.

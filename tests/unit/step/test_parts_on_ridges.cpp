@@ -107,7 +107,7 @@ TEST(PartsOnRidges, ARoofOfTwoPartsDoesNotSinkIn) {
   }
 }
 
-// A face that another part covers somewhere bears where it lies bare.
+// A face that another part covers somewhere is in contact where it is bare.
 TEST(PartsOnRidges, APlateWithAKeelDoesNotSinkIn) {
   for (int half_angle_deg = 10; half_angle_deg <= 80; half_angle_deg += 10)
     for (const double apart : {1.5, 2.5}) {

@@ -1,4 +1,4 @@
-// Piles stand where rigid ones do: what a contact gives does not grow with what lies above it, with
+// Piles stand where rigid ones do: the sag of a contact does not grow with the load above it, with
 // the step, or with small blocks.
 #include <gtest/gtest.h>
 

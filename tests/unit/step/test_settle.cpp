@@ -40,7 +40,7 @@ TEST(Step, BlockThatSagsIsNotHitByTheGroundThatBearsIt) {
 
 // At rest or sliding off, a block begins with the strains that its contacts and its weight give it:
 // nothing of it swings, whatever its stiffness and the step. (Soft, and within a tenth of a degree
-// of what would hold it, it does not find its equilibrium.)
+// of the friction that would hold it, it does not find its equilibrium.)
 TEST(Step, BlockThatStrainsBeginsInEquilibrium) {
   const SlopeFrame frame = slope_frame(30, 37);
   const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
@@ -71,8 +71,8 @@ TEST(Step, BlockThatStrainsBeginsInEquilibrium) {
     }
 }
 
-// Blocks that may touch others are computed rigid where they do, and have no strains until they are
-// seen to be alone.
+// Blocks that may touch a neighbour are computed rigid where they do, and have no strains until
+// they are seen to be alone.
 TEST(Step, BlocksThatMayMeetBeginWithoutStrains) {
   const SlopeFrame frame = slope_frame(0, 0);
   std::vector<Body> cubes;

@@ -52,7 +52,7 @@ TEST(WatchRest, CountsStepsWithinWhatContactsResolve) {
     watch_rest(scene, 0, state);
   }
   EXPECT_EQ(state.rest_steps[0], 10);
-  for (int i = 0; i < 10; ++i) {  // what creeps on in one direction does not stay
+  for (int i = 0; i < 10; ++i) {  // a block that creeps on in one direction does not stay
     pose.position.x() = from.position.x() + 1e-4 * i;
     watch_rest(scene, 0, state);
     EXPECT_LT(state.rest_steps[0], 14);
@@ -63,7 +63,7 @@ TEST(WatchRest, CountsStepsWithinWhatContactsResolve) {
   EXPECT_EQ(state.rest_steps[0], 0);
 }
 
-// A block that something shakes by micrometres for good is at rest; what it still moves by is lost,
+// A block that something shakes by micrometres for good is at rest; its remaining energy is lost,
 // and said to be.
 TEST(Step, BlockThatIsShakenByMicrometresFallsAsleep) {
   const Scene scene = cube_at_rest({});
@@ -105,7 +105,7 @@ TEST(StepIsland, MassThatCameToRestFallsAsleep) {
   EXPECT_LT(fastest, 1e-3);
 }
 
-// --- blocks asleep beside others ---------------------------------------------------------------
+// --- blocks asleep beside awake ones -----------------------------------------------------------
 
 constexpr double g = 10;
 
@@ -113,7 +113,7 @@ long n_asleep(const State& state) {
   return std::count(state.phase.begin(), state.phase.end(), Phase::asleep);
 }
 
-// A pyramid of square layers of bricks, each on four others, that settles when it begins.
+// A pyramid of square layers of bricks, each on four bricks, that settles when it begins.
 std::vector<Body> pyramid(int bricks_along, int layers) {
   std::vector<Body> bricks;
   for (int k = 0; k < layers; ++k)
@@ -183,7 +183,7 @@ TEST(Sleepers, AHighPileFallsAsleep) {
   EXPECT_EQ(n_asleep(state), n_blocks(scene));
 }
 
-// The last of the bodies is dragged by a force along the foot of the others, and presses them.
+// The last of the bodies is dragged by a force along the foot of the rest, and presses them.
 void drag_last(Scene& scene) {
   scene.ground.classes[0].drag_per_time = 5;
   PointLoad load;
@@ -198,8 +198,8 @@ std::vector<Body> pyramid_and_creeper(int along) {
   return bodies;
 }
 
-// A force drags a block along the foot of bricks that rest. Work is that of the block and of what
-// it touches, whatever else sleeps, and it creeps as far as if all were awake.
+// A force drags a block along the foot of bricks that rest. Work is that of the block and of the
+// bricks that it touches, whatever else sleeps, and it creeps as far as if all were awake.
 TEST(Sleepers, OneThatCreepsKeepsItsNeighboursAwakeAlone) {
   for (const int along : {8, 14}) {
     Scene scene = on_level_ground(pyramid_and_creeper(along));
@@ -229,7 +229,7 @@ double booked(const EnergyLedger& l) {
   return l.friction + l.impact + l.contact + l.fence + l.drag + l.removed - l.base;
 }
 
-// Energy that the run from `state` lost and did not book, of what friction took [-].
+// Energy that the run from `state` lost and did not book, of the work of friction [-].
 double imbalance(const Scene& scene, const State& state, double time) {
   State next = state;
   run_until(scene, state.time + time, next);
@@ -248,7 +248,7 @@ TEST(Sleepers, TheLedgerClosesBesideThem) {
   EXPECT_LT(imbalance(scene, state, 1), 1e-6);
 }
 
-// Ground whose friction falls with the way slid, below a block that creeps beside sleepers.
+// Ground whose friction falls with the slid distance, below a block that creeps beside sleepers.
 TEST(Sleepers, GroundThatGivesWayBesideThem) {
   Scene scene = on_level_ground(pyramid_and_creeper(8));
   drag_last(scene);
@@ -313,7 +313,7 @@ TEST(Sleepers, AFenceThatGivesWayWakesWhatTouchesIt) {
   EXPECT_NEAR(runs.slept.ledger.fence, runs.awake.ledger.fence, 1e-3 * runs.awake.ledger.fence);
 }
 
-// What stands on a foot that is pulled away wakes in that step, and falls as if it had not slept.
+// Blocks on a foot that is pulled away wake in that step, and fall as if they had not slept.
 TEST(Sleepers, AColumnWhoseFootIsPulledAwayWakes) {
   const Scene scene = on_level_ground(column(10));
   State state = start(scene);
@@ -371,7 +371,7 @@ TEST(Sleepers, AreNoneWhereTheGroundShakes) {
   EXPECT_EQ(n_asleep(state), 0);
 }
 
-// The state is all that a run goes on from, and threads change no bit.
+// The state is sufficient to continue a run, and threads change no bit.
 TEST(Sleepers, GoOnFromTheStateWithTheSameBits) {
   std::vector<Body> bodies = pyramid(8, 2);
   bodies.push_back(body_of(box(Vec3(3.2, 3.3, 16), Vec3(4.2, 4.3, 17))));

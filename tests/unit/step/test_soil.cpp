@@ -1,4 +1,4 @@
-// Ground that gives way: closed forms at the default step, half and a quarter of it.
+// Yielding ground: closed forms at the default step, half and a quarter of it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -112,7 +112,7 @@ TEST_P(Soil, CubeFallsOffItsEdgeBeyondItsArm) {
   EXPECT_LT(standing_on_edge(settings, 0.1).error, 0.01);
 }
 
-// What stands so falls asleep.
+// A block at rest so falls asleep.
 TEST(SoilRest, CubeOnItsEdgeComesToRest) {
   const Scene scene = cube_on_edge({}, 0.02, 0.1);
   State state = start(scene);
@@ -352,10 +352,10 @@ double balance_of(const Scene& scene, double duration, double& rolled, double& d
   return (total() - before) / (potential - energies(scene, state).potential);
 }
 
-// Kinetic, potential and what all laws took add up to what there was. With restitution the block
-// hardly presses the ground, and hits are what is tested: they close to rounding. Without it scars
-// and drag act as well, on a block that turns while it presses: there a step is exact in energy to
-// the second order alone, on firm ground too.
+// Kinetic and potential energy and the losses by all laws add up to the initial energy. With
+// restitution the block hardly presses the ground, and hits are tested: they close to rounding.
+// Without it scars and drag act as well, on a block that turns while it presses: there a step is
+// exact in energy to the second order alone, on firm ground too.
 TEST_P(Soil, BalanceOfATumblingBlockCloses) {
   for (const double restitution : {0.9, 0.0}) {
     Scene scene = rough_scene(settings);

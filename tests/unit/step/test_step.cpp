@@ -24,7 +24,7 @@ using namespace talus::cases;
 using test::counts_allocations, test::n_allocations;
 
 // Shear strains and turning share an angular momentum where a block's moments differ. Counted with
-// the turning alone, blocks that lay on three points went on turning by up to 0.2 mm/s.
+// the turning alone, blocks that lay on three points continued to turn by up to 0.2 mm/s.
 TEST(Step, BlocksWithStrainsComeToRest) {
   const auto waves = [](double x, double y) {
     return 0.4 * std::sin(0.9 * x + 0.3) * std::cos(0.7 * y);
@@ -159,7 +159,8 @@ TEST(Step, IsTheSameToTheBitWhenRepeated) {
   EXPECT_EQ(last[0].velocity, last[1].velocity);
 }
 
-// Kinetic, potential and what friction, impacts and contacts took add up to what there was.
+// Kinetic and potential energy and the losses by friction, impacts and contacts add up to the
+// initial energy.
 TEST(Step, EnergyBalanceCloses) {
   const Scene scene = rough_scene({});
   State state = start(scene);
@@ -278,7 +279,7 @@ TEST(Step, TheFullPlanAgrees) {
   EXPECT_LT((planned.pose.position - full.pose.position).norm(), 1e-5 * planned.velocity.norm());
 }
 
-// A block is stopped before it leans out over the edge, where nothing would bear its corners:
+// A block is stopped before it leans out over the edge, where nothing would support its corners:
 // alone, beside another block, and with both laws.
 TEST(Step, BlocksThatLeaveAreStoppedAndCounted) {
   const SlopeFrame frame = slope_frame(30, 0);
@@ -410,8 +411,8 @@ TEST(Step, BlocksThatLeanOnNodesDoNotSinkIntoThem) {
 // Bonded face on a slope: fails where rho g h sin(th) = tan(phi) rho g h cos(th) + c.
 TEST(Step, BondHoldsToItsStrengthAndBreaksForGood) { EXPECT_LT(bond_angle({}).error, 0.05); }
 
-// Gravity makes 0.5 m/s in a step: what comes faster rebounds and lifts off, what comes slower is
-// taken up by the springs and never leaves the ground.
+// Gravity makes 0.5 m/s in a step: a faster block rebounds and lifts off, a slower one is taken up
+// by the springs and never leaves the ground.
 TEST(Step, HitsFasterThanAStepOfGravityRebound) {
   Settings settings;
   settings.dt = 0.05;

@@ -112,7 +112,7 @@ double speed_behind_a_bend(double dt) {
   return sum / n_starts;
 }
 
-// Until the ground hits it within a step a block is borne by what bore it in the step before. Left
+// Until the ground hits it within a step a block has the support of the step before. Left
 // to fall until then, these came out of the bend slower by 1.7, 0.6 and 0.16 % at 50, 20 and 10 ms.
 TEST(StepIsland, BlocksThatSlideRoundABendAreBorneUntilTheyAreHit) {
   const double exact = speed_behind_a_bend(1e-3);
@@ -208,9 +208,8 @@ TEST(StepIsland, EnergyNeverRises) {
   EXPECT_LT(state.counters.unconverged, 12);
 }
 
-// An island that falls apart has stiffer contacts, a growing one softer: what a contact is pressed
-// in must not throw the block when its stiffness grows, nor go on growing when it changes to and
-// fro.
+// An island that falls apart has stiffer contacts, a growing one softer: the overlap of a contact
+// must not throw the block when its stiffness grows, nor keep growing when it changes to and fro.
 TEST(StepIsland, ContactThatBecomesStifferKeepsItsForces) {
   const double h = 0.01, soft = 1e5, pressed_in = 1e-3, sheared = 4e-4;
   const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 10), ground_of(30),
@@ -246,8 +245,8 @@ TEST(StepIsland, ContactThatBecomesStifferKeepsItsForces) {
   }
 }
 
-// What presses a block out is mostly taken up by damping: where a contact becomes softer, it bears
-// what it bore and not what its spring alone would. Else blocks were thrown.
+// The force that presses a block out is mostly taken up by damping: where a contact becomes softer,
+// it carries its last load and not the force of its spring alone. Else blocks were thrown.
 TEST(StepIsland, ContactThatBecomesSofterBearsNoMore) {
   const double h = 0.01, soft = 1e5, pressed_in = 1e-3, deep = 5e-2, bore = 0.2;
   const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 10), ground_of(30),
@@ -268,7 +267,7 @@ TEST(StepIsland, ContactThatBecomesSofterBearsNoMore) {
   EXPECT_NEAR(-row.bias * row.normal_damping / h, memory.normal_force, 1e-9 * soft);
 }
 
-// Between the same features a gap jumps only by what turning bends: what goes beyond a part of the
+// Between the same features a gap jumps only by the bend of a turn: a jump beyond a part of the
 // size is pressed. Blocks that slid on each other's edges while they turned sank in by millimetres
 // a step, since each new millimetre pressed nothing. Other features are another matter.
 TEST(StepIsland, WhatTurningBendsIsPressedBeyondAPartOfTheSize) {
@@ -307,7 +306,7 @@ TEST(StepIsland, BlockThatIsThrownIntoTheGroundIsHitByItWithinTheStep) {
   EXPECT_EQ(state.counters.unconverged, 0);
 }
 
-// Where corners change places while the stiffness grows, the new one takes on what the pair bears;
+// Where corners change places while the stiffness grows, the new one takes on the load of the pair;
 // with the pair's depth instead it threw the blocks.
 TEST(StepIsland, NewContactTakesOnTheForceOfItsPair) {
   const double h = 0.01, soft = 1e5, pressed_in = 1e-3, deep = 5e-3;
@@ -333,7 +332,7 @@ TEST(StepIsland, NewContactTakesOnTheForceOfItsPair) {
     set_law(scene, c, h, {c.per_mass, c.per_mass}, 0, row);
     EXPECT_NEAR(-row.bias * row.normal_damping / h, soft * pressed_in, 1e-9 * soft);
   }
-  ContactRow alone;  // presses nothing where the pair bears nothing
+  ContactRow alone;  // presses nothing where the pair carries nothing
   alone.normal = Vec3::UnitZ();
   alone.gap_start = -deep;
   take_on_load(memory, 9, alone);
@@ -359,8 +358,8 @@ TEST(StepIsland, ContactThatTheOthersCloseIsFoundWithinTheStep) {
   EXPECT_GT(gap_end, -0.1 * gravity_path);
 }
 
-// Energy that rods of length 1 keep of what they had when they fell on each other and on a wall at
-// 0, hit by hit: `place` of their lower ends and equal speeds of 1 towards the wall.
+// Share of their energy that rods of length 1 keep when they fall on each other and on a wall at 0,
+// hit by hit: `place` of their lower ends and equal speeds of 1 towards the wall.
 double kept_hit_by_hit(std::vector<double> place, double restitution) {
   std::vector<double> speed(place.size(), -1);
   for (int hit = 0; hit < 100000; ++hit) {
@@ -414,7 +413,7 @@ struct FallingColumn {
 };
 
 // Cubes that fall on each other on level ground, touching or with gaps that a step leaps over, keep
-// what they would keep hit by hit, whatever the step: a column of ten nearly nothing.
+// the same energy as hit by hit, whatever the step: a column of ten nearly nothing.
 TEST(StepIsland, ColumnLosesWhatItsHitsWouldLoseInTurn) {
   constexpr double restitution = 0.7;
   double sum = 0;
@@ -462,7 +461,7 @@ Body cube_on_a_corner(double z) {
       moved(box(Vec3::Constant(-0.5), Vec3::Constant(0.5)), turn, Vec3::Zero(), Vec3(0, 0, z)));
 }
 
-// Blocks on level ground, and what steps them.
+// Blocks on level ground, and their steps.
 struct OnLevelGround {
   explicit OnLevelGround(const std::vector<Body>& bodies)
       : scene(scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5), bodies, {})),
@@ -479,7 +478,7 @@ struct OnLevelGround {
   Work work;
 };
 
-// A cube of 1 m that stands with one corner `deep` in a table and moves down.
+// A cube of 1 m with one corner `deep` in a table, which moves down.
 struct CornerInTable : OnLevelGround {
   explicit CornerInTable(double deep, double speed)
       : OnLevelGround({cube_on_a_corner(25), body_of(box(Vec3(-10, -10, 0), Vec3(10, 10, 20)))}) {
@@ -540,7 +539,7 @@ TEST(StepIsland, OtherFeaturesFoundDeepAndFastAreHitWhateverThePairRemembers) {
   const auto speed_after = [&](double remembered) {
     CornerInTable corner(deep, speed);
     ContactMemory memory;
-    memory.key = {ContactMode::edge_edge, 1, 0, 0};  // not what touches now
+    memory.key = {ContactMode::edge_edge, 1, 0, 0};  // not the present contact
     memory.normal = Vec3::UnitZ();
     memory.gap_end = -remembered;
     memory.normal_force = corner.scene.blocks.mass[0];
@@ -552,8 +551,8 @@ TEST(StepIsland, OtherFeaturesFoundDeepAndFastAreHitWhateverThePairRemembers) {
   EXPECT_LT(speed_after(deep), 0.4 * speed);  // as deep as then: it presses on
 }
 
-// A hit between blocks that are deep in each other is remembered: what comes on top of that depth
-// by the next step is pressed out, as long as it does not come fast.
+// A hit between blocks that are deep in each other is remembered: overlap beyond that depth in the
+// next step is pressed out, as long as it does not come fast.
 TEST(StepIsland, WhatDeepensADeepHitIsPressedOut) {
   const double deep = 0.05, deeper = 0.052;
   CornerInTable shallow(1e-3, 1), corner(deep, 1);
@@ -576,8 +575,8 @@ TEST(StepIsland, WhatDeepensADeepHitIsPressedOut) {
   EXPECT_NEAR(thrown.speed(), 0.5 * 20, 0.2);  // hit
 }
 
-// It is twice what bears the last force at `sag`, stays while that is enough and not thirty times
-// too much, and goes beyond what the heaviest neighbour asks for by doubling. What slips,
+// It is twice the stiffness for the last force at `sag`, stays while that is enough and not thirty
+// times too much, and exceeds the need of the heaviest neighbour by doubling. A contact that slips,
 // opens, or is in an island whose forces were hard to find becomes softer. Bonds keep theirs.
 TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
   const Scene scene = tower(2, 0, 30, {});
@@ -615,7 +614,7 @@ TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
     *speed = 0.11;
     EXPECT_DOUBLE_EQ(stiffness(10 * force, k), k / 4);
     EXPECT_DOUBLE_EQ(stiffness(0, 2 * c.least_stiffness), c.least_stiffness);
-    EXPECT_DOUBLE_EQ(stiffness(100 * force, k), k);  // no softer than it bears in motion
+    EXPECT_DOUBLE_EQ(stiffness(100 * force, k), k);  // no softer than its load needs in motion
     EXPECT_NEAR(stiffness(2e3 * force, k), 4e3 * force / 5e-4, 1e-6 * k);
     *speed = 0;
   }
@@ -624,7 +623,7 @@ TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
   rests = 1;
   EXPECT_DOUBLE_EQ(stiffness(100 * force, k), k);
   rests = 0;
-  ContactRow hit;  // remembered from a hit: what it bears is not known
+  ContactRow hit;  // remembered from a hit: its load is unknown
   forget_last_step(hit);
   hit.memory = 0;
   set_law(scene, c, scene.settings.dt, {c.per_mass, c.per_mass}, 0, hit);
@@ -680,7 +679,7 @@ struct CornerInGround : OnLevelGround {
   }
 };
 
-// So is a hit with the ground, of a block that others drive into it.
+// So is a hit with the ground, of a block that its neighbours drive into it.
 TEST(StepIsland, WhatDeepensADeepHitWithTheGroundIsPressedOut) {
   const double deep = 0.05;
   CornerInGround shallow(1e-3, 1), corner(deep, 1);
@@ -729,7 +728,7 @@ TEST(StepIsland, ADeepCornerThatMovesOnIsPressedOutWithAccuracyAsWithout) {
 TEST(StepIsland, LargeBlockRestsOnSmallOnes) { EXPECT_LT(large_on_small({}).error, 1e-3); }
 
 // A roof of two slabs that hangs on the edge of a wedge, and a plate of two halves that balances on
-// one: what lies on both parts is borne, not let in where they meet.
+// one: a block on both parts is supported, not let in where they meet.
 Body on_an_edge(double rise) {
   const auto half = [rise](double side) {
     Mat3 slope = Mat3::Identity();
@@ -760,7 +759,7 @@ TEST(StepIsland, ABodyOfTwoPartsIsBorneByAnEdgeUnderItsSeam) {
 }
 
 // Boxes that meet while they turn, several of their corners at about the same time: without
-// friction and with all their restitution they keep their energy, each pair by itself.
+// friction and with all their restitution they keep their energy, each pair for itself.
 TEST(StepIsland, TurningBoxesThatReboundInFullKeepTheirEnergy) {
   Random random(40, "elastic");
   const auto turned = [&random](const Vec3& place, const Vec3& velocity) {

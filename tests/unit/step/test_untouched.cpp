@@ -1,4 +1,4 @@
-// Neighbours that are not touched change nothing: a block beside others moves as it does alone, to
+// Neighbours that are not touched change nothing: a block beside them moves as it does alone, to
 // the bit.
 #include <gtest/gtest.h>
 
@@ -139,7 +139,7 @@ TEST(Untouched, StemsBesideTheirPathChangeNothing) {
   EXPECT_GT(n_close, 150);
 }
 
-// A prism rolls past a stack that stands 1 cm beside it.
+// A prism rolls past a stack 1 cm beside it.
 TEST(Untouched, APrismRollsPastAStackAsAlone) {
   const SlopeFrame frame = slope_frame(10, 0);
   const Body prism = body_of(prism_on(frame, Vec3::Zero(), 24, 0.5, 1));

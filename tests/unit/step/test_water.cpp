@@ -109,7 +109,7 @@ TEST(Water, ABlockSlidesAtTheFrictionOfHoekAndBray) {
     }
 }
 
-// ... and with what is left over, it accelerates.
+// ... and with the rest of the force, it accelerates.
 TEST(Water, ABlockAcceleratesByWhatIsLeft) {
   const PlaneFailure block;
   for (const Filling& filling : fillings) {
@@ -201,7 +201,7 @@ double highest_of(const Scene& scene, double time, double& last) {
   return highest;
 }
 
-// F (1 - x / d) lifts a weight W by 2 d (1 - W / F) where that is at most d; what opened has
+// F (1 - x / d) lifts a weight W by 2 d (1 - W / F) where that is at most d; an opened face has
 // drained, so that the block is back on the ground and stays there.
 TEST(Water, PressureFallsAsAFaceOpens) {
   double last = 1;
@@ -221,8 +221,8 @@ TEST(Water, PressureFallsAsAFaceOpens) {
   EXPECT_NEAR(highest_of(lifted(1.5, 1e6), 3, last) / rises, 1, 0.02);
 }
 
-// What water puts in is what the block gets: 3/2 of its weight along its rise, less what is lost of
-// it on the way; without other losses the account closes while the block rises.
+// The energy put in by water is that of the block: 3/2 of its weight along its rise, less losses;
+// without other losses the account closes while the block rises.
 TEST(Water, IsAnEntryOfTheEnergyAccount) {
   const double drained_at = 0.5;
   const Scene scene = lifted(1.5, drained_at);

@@ -63,7 +63,7 @@ TEST_F(Registry, AdoptingCompletesTheRowOfTheSameRunAndAddsOthers) {
   EXPECT_EQ(runs_that_wrote(path("a.sqlite"), std::string(64, 'a')).size(), 2u);
 }
 
-// Somebody removed the registry while the run went on: its number is another run's by now.
+// Somebody removed the registry during the run: its number is another run's by now.
 TEST_F(Registry, ARunWhoseRowIsGoneGetsANewOne) {
   RunRecord first = run_of(7);
   first.id = start_run(path("a.sqlite"), first);

@@ -351,7 +351,7 @@ TEST(RunFile, ThatIsDamagedIsRefusedOrRead) {
       content[random.below(content.size())] = static_cast<char>(random.below(256));
     n_refused += try_bytes(content) ? 0 : 1;
   }
-  EXPECT_GT(n_refused, 290);  // all but those where chance put back what stood there
+  EXPECT_GT(n_refused, 290);  // all but those where chance put back the same value
   for (const double share : {0.0, 0.001, 0.3, 0.9, 0.999})
     EXPECT_FALSE(try_bytes(
         bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size())))));

@@ -47,7 +47,7 @@ double resident_mb() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-// What is there and what has gone since the start: stays the same [J].
+// Present energy and energy gone since the start: stays the same [J].
 double energy(const HealthRow& row) {
   return row.translation + row.rotation + row.potential + row.elastic + row.friction + row.impact +
          row.contact + row.removed - row.base;
@@ -111,8 +111,8 @@ TEST(Soak, OneRunOfManyFramesStaysWithinItsBound) {
 }
 
 // Three spinning cubes that lose nothing bounce where they are. A hit is off by the compliance of
-// the impact solver, 5e-7 of the energy (bounce_elastic of talus-verify); what it takes or gives
-// stands in the balance.
+// the impact solver, 5e-7 of the energy (bounce_elastic of talus-verify); the energy that it takes
+// or gives is in the balance.
 TEST(Soak, TenHoursOfBouncingDoNotDrift) {
   const SlopeFrame frame = slope_frame(0, 0);
   std::vector<Body> bodies;

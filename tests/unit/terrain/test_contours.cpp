@@ -168,7 +168,7 @@ TEST(ContourInterval, IsTheUsualStepBetweenHeights) {
   ContourMap map;
   for (const double height : {100.0, 110.0, 120.0, 125.0, 130.0, 140.0, 140.0005, 150.0})
     add_contour(map, height, {{0, height}, {1, height}});
-  EXPECT_EQ(talus::contour_levels(map).size(), 7U);  // half a millimetre is no step
+  EXPECT_EQ(talus::contour_levels(map).size(), 7U);  // half a millimetre is not a step
   EXPECT_EQ(talus::contour_interval(map), 10);
 }
 

@@ -129,7 +129,7 @@ TEST(Mending, NeverPassesTheNextContour) {
     const MendingPoints mended = mend(scene);
     ASSERT_FALSE(mended.points.empty());
     for (const Vec3& p : mended.points) {
-      double low = 1e9, high = -1e9;  // of the triangle that the point stands in
+      double low = 1e9, high = -1e9;  // of the triangle that holds the point
       for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
         bool inside = true;
         for (std::size_t k = 0; k < 3; ++k) {

@@ -35,7 +35,7 @@ TEST(GridFrame, NodesAreMultiplesOfTheCellSizeInsideOrAroundTheWindow) {
   }
 }
 
-// 0.1 is no binary number: 0.3 / 0.1 must still be three cells.
+// 0.1 is not a binary number: 0.3 / 0.1 must still be three cells.
 TEST(GridFrame, RoundingDoesNotCostANode) {
   const GridFrame frame = talus::frame_inside({0.3, 0.1, 0.9, 0.7}, 0.1);
   EXPECT_EQ(frame.n_cols, 7);
@@ -70,7 +70,7 @@ TEST(FrameOnDem, TakesTheDemsOwnNodesForItsOwnCellSize) {
   EXPECT_EQ(talus::frame_on_dem(dem, 5, everywhere).cell_size, 5);
 }
 
-// The square of every node lies on the cells of the DEM, and there is no room for another row.
+// The square of every node lies on the cells of the DEM, and another row would not fit.
 TEST(FrameOnDem, UsesTheDemUpToItsBorder) {
   const GridFrame dem{40, 60, 2.5, {1001.25, 8998.75}};  // cells over 1000..1150, 8900..9000
   const MapWindow everywhere{-1e9, -1e9, 1e9, 1e9};
@@ -97,7 +97,7 @@ TEST(GridFrame, TooManyNodesAreRefused) {
   EXPECT_TRUE(talus::frame_inside({0.1, 0.1, 0.9, 0.9}, 1).empty());
 }
 
-// Coordinates of the map survive the way to the local origin and back, bit for bit.
+// Coordinates of the map survive the change to the local origin and back, bit for bit.
 TEST(GridFrame, LocalOriginLosesNothing) {
   const GridFrame frame{146, 172, 4.997678230579, {248362.7612662384, 351760.3630344}};
   const talus::Trn trn = talus::make_trn(frame, "", {});

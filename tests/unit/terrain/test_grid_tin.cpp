@@ -155,7 +155,7 @@ TEST(GridTin, AGridThatMissesTheTinIsUnknown) {
     for (const double z : talus::grid_tin(tin, frame)) EXPECT_TRUE(std::isnan(z));
 }
 
-// Triangles that share edges have one height at each node; one that lies over others has two.
+// Triangles that share edges have one height at each node; overlapping ones have two.
 TEST(GridTin, ASecondLayerIsFound) {
   talus::Random random(7, "layers");
   Tin tin = jittered_tin(random, 9, 0.24);

@@ -61,7 +61,7 @@ TEST(Outliers, AWrongLabelIsNamedWithWhatStandsBesideIt) {
   }
 }
 
-// The last contour stands off the wrong one beside it as far as that from it.
+// The last contour is as far off the wrong one beside it as that from it.
 TEST(Outliers, AtTheRimTheWrongOneOfTwoIsNamed) {
   for (const int wrong : {0, 1, 9, 10}) {
     Map map{rising(11), {}};
@@ -104,7 +104,7 @@ TEST(Outliers, ABreaklineIsNamedAtAPointThatIsOff) {
   EXPECT_EQ(found[0].place.z(), 3200);
 }
 
-// 150 m above what stands 20 m beside it is in doubt; a kilometre below it is no ground.
+// 150 m above neighbours 20 m away is in doubt; a kilometre below them is not ground.
 TEST(Outliers, WhatNoGroundCanBeIsTold) {
   for (const auto& [wrong, is_impossible] :
        {std::pair{1150.0, false}, {1260.0, false}, {1261.0, true}, {0.0, true}, {839.0, true}}) {

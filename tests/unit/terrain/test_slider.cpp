@@ -37,7 +37,7 @@ TEST(Slider, StopsWhereItsEnergyIsSpent) {
   const double a = 9.80665 * (std::sin(40 * degree) - mu * std::cos(40 * degree));
   const double speed = std::sqrt(2 * a * way);
   const double run = speed * speed / (2 * mu * 9.80665);
-  EXPECT_NEAR(fall - mu * 100, mu * run, 1e-9);       // the two ways to say it
+  EXPECT_NEAR(fall - mu * 100, mu * run, 1e-9);       // the two forms of it
   EXPECT_NEAR(slide.end.y(), 500 - run, 0.06 * run);  // a step beyond the bend
   EXPECT_NEAR(slide.time, std::sqrt(2 * way / a) + speed / (mu * 9.80665), 0.3);
 }

@@ -52,7 +52,7 @@ TEST(Boundary, KeepsTheRingWithoutItsHole) {
   map.crs_wkt = "LOCAL_CS[]";
   const Tin tin = talus::to_tin(mesh, map);
   EXPECT_NEAR(area_of(tin), 60 - 8, 1e-12);
-  EXPECT_EQ(tin.points.size(), 11U * 7 - 3);  // three points stand inside the hole
+  EXPECT_EQ(tin.points.size(), 11U * 7 - 3);  // three points are inside the hole
   EXPECT_EQ(tin.origin, map.origin);
   EXPECT_EQ(tin.crs_wkt, map.crs_wkt);
   for (const Vec3& p : tin.points) EXPECT_EQ(p.z(), p.x() + p.y());
@@ -64,7 +64,7 @@ TEST(Boundary, OverlappingPolygonsAreUnited) {
                        {0, {{3, 3}, {3, 5}, {5, 5}, {5, 3}}},
                        {1, {{4, 4}, {12, 4}, {12, 10}, {4, 10}}}},
                       mesh);
-  // two rectangles of 8 x 6 that share 6 x 4, and what of the hole the second one leaves
+  // two rectangles of 8 x 6 that share 6 x 4, and the part of the hole outside the second one
   EXPECT_NEAR(area_of(talus::to_tin(mesh, {})), 48 + 48 - 24 - 3, 1e-12);
 }
 

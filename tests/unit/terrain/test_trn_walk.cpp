@@ -132,7 +132,7 @@ TEST(WalkCells, ASegmentWithoutExtentVisitsItsCellOnce) {
   EXPECT_TRUE(walk(trn, {-1, -1.5}, {-1, -1.5}).empty());
 }
 
-// Cutting a segment where it stands on grid lines neither adds nor loses cells.
+// Cutting a segment where it meets grid lines neither adds nor loses cells.
 TEST(WalkCells, PartsOfACutSegmentMakeTheWholeOne) {
   talus::Random random(3, "cut");
   const Trn trn = talus_test::planar_trn(17, 17, 1, 0, 0);

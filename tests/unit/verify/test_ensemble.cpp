@@ -56,7 +56,7 @@ EnsembleResult result_of(const std::string& method, double dt, std::array<double
   return out;
 }
 
-// Means that err in proportion to the step are extrapolated to what they tend to.
+// Means that err in proportion to the step are extrapolated to their limit.
 TEST(Ensemble, ReferenceIsWhatTheShortestStepsTendTo) {
   const std::vector<EnsembleResult> results = {
       result_of("other", 1e-3, {99, 99, 99}, 0), result_of("talus", 1e-1, {77, 77, 77}, 0),

@@ -1,5 +1,5 @@
-// What the scene plan leaves out, against the same scene with it kept: to the bit, or within what
-// docs/evidence/verification.md says.
+// Parts that the scene plan leaves out, against the same scene with them kept: to the bit, or
+// within the bounds of docs/evidence/verification.md.
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -44,7 +44,7 @@ TEST_P(LeavingOut, ChangesNoMoreThanItMay) {
   EXPECT_GT(row.path, 0);
 }
 
-// The comparison itself sees what is left out though it matters.
+// The comparison itself sees a part that is left out though it matters.
 TEST(LeavingOutSees, AnythingThatChangesTheAnswer) {
   Omission wrong = omissions(slide(), false).front();
   const auto run = wrong.run;

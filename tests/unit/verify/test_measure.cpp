@@ -49,7 +49,7 @@ TEST(CompareLaws, FrontIsOfAnswersAlone) {
                    .is_on_front);
 }
 
-// Runs whose contacts get too deep break their health: they are no answers.
+// Runs whose contacts get too deep break their health: they are not answers.
 TEST(Cheapest, DoesNotCountDeepRuns) {
   std::vector<VerifyRow> rows = {row("talus", 1, 1e-3), row("talus", 5, 1e-3)};
   EXPECT_DOUBLE_EQ(cheapest(rows, 1e-3), 1);
@@ -100,7 +100,7 @@ TEST(Claims, GiveTheRatiosOfEachCase) {
             std::string::npos);
 }
 
-// Taken together, the least of each ratio counts, and what was not measured is not spoken of.
+// Taken together, the least of each ratio counts, and unmeasured engines are not mentioned.
 TEST(Claims, TakenTogetherAreTheLeastOfEach) {
   MeasuredCase one = measured_with({}), other = measured_with({{"a", 4, 1e-4}});
   one.rows.push_back(row("paper", 40, 1e-4));
@@ -120,7 +120,7 @@ TEST(Claims, TakenTogetherAreTheLeastOfEach) {
   EXPECT_EQ(claims_by_group({one}).find("other engines"), std::string::npos);
 }
 
-// Two errors below what the reference is known to are the same.
+// Two errors below the uncertainty of the reference are the same.
 TEST(Claims, CountErrorsBelowTheReferencesOwnAsEqual) {
   MeasuredCase slide{about("slide39_centre"), {row("talus", 1, 0.3), row("talus", 9, 0.1)}, {}};
   slide.rows.push_back(row("paper", 100, 0.2));
@@ -163,7 +163,7 @@ TEST(VerifyCases, AreNamedOnceAndEachHasItsDefaultStep) {
   }
 }
 
-// The whole way of one case: measured, on the front, below its bound, drawn, in the table.
+// All of one case: measured, on the front, below its bound, drawn, in the table.
 TEST(Measure, GivesErrorBesideTime) {
   const VerifyCase& c = verify_cases().front();
   MeasuredCase outcome;

@@ -112,7 +112,7 @@ TEST_F(CommittedPage, HasEveryCornerAndOmissionAsItIsNow) {
   EXPECT_FALSE(contains(page, "**broken**"));
 }
 
-// All prose of the template but what a full study leaves out.
+// All prose of the template but the parts that a full study leaves out.
 TEST_F(CommittedPage, HasTheProseOfTheTemplate) {
   std::istringstream lines(page_template);
   int n_compared = 0;
