@@ -1,3 +1,4 @@
+// Random numbers, SHA-256, numbers as text, words of XML: the small tools of base/.
 #include <gtest/gtest.h>
 
 #include <cmath>

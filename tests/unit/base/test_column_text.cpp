@@ -1,3 +1,4 @@
+// Text files of columns: delimiter, names, remarks, quotes, refusals.
 #include <gtest/gtest.h>
 
 #include "base/column_text.hpp"

@@ -1,3 +1,4 @@
+// Reading files and CSV tables: quotes, remarks, byte order mark, refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Sentences, groups, acceptance and refusal of doubts about an input.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Files of source names, their sidecar files, and one spelling of a path.
 #include <gtest/gtest.h>
 
 #include <algorithm>

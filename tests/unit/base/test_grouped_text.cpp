@@ -1,3 +1,4 @@
+// Numbers for readers: thousands apart, no powers of ten, rounding up.
 #include <gtest/gtest.h>
 
 #include "base/grouped_text.hpp"

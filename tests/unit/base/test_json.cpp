@@ -1,3 +1,4 @@
+// JSON values: building, reading, order of members, errors.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,3 +1,4 @@
+// Refusals of work larger than the memory, and the memory of a machine and its control groups.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

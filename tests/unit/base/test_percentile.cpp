@@ -1,3 +1,4 @@
+// Percentiles and medians, with and without weights.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Escapes of control, direction and invalid characters.
 #include <gtest/gtest.h>
 
 #include <string>

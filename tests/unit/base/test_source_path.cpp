@@ -1,3 +1,4 @@
+// Names of sources: files, archives, layers, filters, quoting.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// Angles in degrees and percentages as words.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Threads that share a loop: each chunk once, in ascending order, bits of one thread.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -1,3 +1,4 @@
+// Writing files: links, older files, devices, full disks.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

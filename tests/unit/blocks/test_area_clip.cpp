@@ -1,3 +1,4 @@
+// Clipping of terrain by areas, checked by closed-form volumes.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

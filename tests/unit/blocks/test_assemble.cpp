@@ -1,3 +1,4 @@
+// Blocks from the cells of a cut mass: volume, overlap, convexity, slivers.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

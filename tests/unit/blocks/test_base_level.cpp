@@ -1,3 +1,4 @@
+// Sloping local base level: curvature from sag, profiles, cell sizes.
 #include <gtest/gtest.h>
 
 #include <cmath>

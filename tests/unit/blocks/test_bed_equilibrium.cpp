@@ -1,3 +1,4 @@
+// Factor of safety over a bed: planes, wedges, rising feet.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Block sets: adding bodies, reading them back, naming broken promises.
 #include <gtest/gtest.h>
 
 #include "blocks/block_set.hpp"

@@ -1,3 +1,4 @@
+// Convex blocks above a bed: room, volume, connected parts.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Cutting a mass by joints: exact filling, discs, walls, order of joints.
 #include <gtest/gtest.h>
 
 #include <numeric>

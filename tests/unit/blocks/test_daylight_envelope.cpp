@@ -1,3 +1,4 @@
+// The lifted failure surface: known shares of hollows, clearance along the motion.
 #include <gtest/gtest.h>
 
 #include <cmath>

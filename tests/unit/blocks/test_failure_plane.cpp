@@ -1,3 +1,4 @@
+// Failure planes: closed-form wedges, feet, assumed joint sets, rising beds.
 #include <gtest/gtest.h>
 
 #include <algorithm>

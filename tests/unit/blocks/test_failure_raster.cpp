@@ -1,3 +1,4 @@
+// Values of failure rasters: depths, thicknesses, elevations.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Failure wedges: closed forms and refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>

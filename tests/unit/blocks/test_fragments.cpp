@@ -1,3 +1,4 @@
+// Fragments: exact filling, sizes, determinism.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Joint sets: drawn planes and discs, expected cells, sets from measured poles.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

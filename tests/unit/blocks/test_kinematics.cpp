@@ -1,3 +1,4 @@
+// Kinematic analysis: sliding, wedges and toppling against closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>

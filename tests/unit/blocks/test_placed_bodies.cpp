@@ -1,3 +1,4 @@
+// Bodies set on the ground: scale, place, overlaps, shapes.
 #include <gtest/gtest.h>
 
 #include <cmath>

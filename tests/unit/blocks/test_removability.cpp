@@ -1,3 +1,4 @@
+// Removable blocks: joint pyramids, modes, order of removal.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// Sizes of drawn rocks against their laws.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Fits of block sizes: laws, design volumes, bounds.
 #include <gtest/gtest.h>
 
 #include <cmath>

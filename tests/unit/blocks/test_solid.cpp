@@ -1,3 +1,4 @@
+// Areas for placement, shapes, and solid bodies from surfaces.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,3 +1,4 @@
+// Areas, prepared areas and the source: volumes, depths, refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>

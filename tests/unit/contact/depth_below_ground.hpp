@@ -1,3 +1,5 @@
+// tests/unit/contact/depth_below_ground.hpp
+// Depth of a block below the ground at its vertices and at convex nodes.
 #pragma once
 
 #include <algorithm>

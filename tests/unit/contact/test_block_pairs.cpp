@@ -1,3 +1,4 @@
+// Contacts between blocks: list of pairs, cached axes, grazing, ghost edges.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,3 +1,4 @@
+// Fixed bodies by place: none missed, few handed out in vain.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Overlap of bodies against brute force.
 #include <gtest/gtest.h>
 
 #include "contact/body_overlap.hpp"

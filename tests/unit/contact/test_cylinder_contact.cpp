@@ -1,3 +1,4 @@
+// Contact of convex parts with a vertical cylinder, against brute force.
 #include <gtest/gtest.h>
 
 #include <algorithm>

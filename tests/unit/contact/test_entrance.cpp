@@ -1,3 +1,4 @@
+// Entrance tests of features against the Minkowski difference.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Depth of bodies in the ground, against closed forms and sampling.
 #include <gtest/gtest.h>
 
 #include <cmath>

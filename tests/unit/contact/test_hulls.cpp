@@ -1,3 +1,4 @@
+// Convex parts of blocks: faces, active edges, cover, placement.
 #include <gtest/gtest.h>
 
 #include <numbers>

@@ -1,3 +1,4 @@
+// Contact points of two convex parts: faces, edges, nearly parallel ones.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

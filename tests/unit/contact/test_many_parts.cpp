@@ -1,3 +1,4 @@
+// Bodies of many parts: contacts push along the least path out.
 #include <gtest/gtest.h>
 
 #include "many_parts.hpp"

@@ -1,3 +1,4 @@
+// The long form of test_many_parts.cpp.
 #include <gtest/gtest.h>
 
 #include "many_parts.hpp"

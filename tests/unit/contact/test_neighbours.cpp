@@ -1,3 +1,4 @@
+// Overlapping boxes against a search of all pairs.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

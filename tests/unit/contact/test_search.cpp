@@ -1,3 +1,4 @@
+// Contacts of a block with the ground: peaks, crests, walls, lists of features.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Separating axes: penetration depth, covered faces, seams, edges.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

@@ -1,3 +1,4 @@
+// Surfaces of blocks for the contact search: edges and thickness.
 #include <gtest/gtest.h>
 
 #include "contact/shapes.hpp"

@@ -1,3 +1,4 @@
+// Joint faces and overlaps before anything moves.
 #include <gtest/gtest.h>
 
 #include "contact/start_contacts.hpp"

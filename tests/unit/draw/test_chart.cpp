@@ -1,3 +1,4 @@
+// Round ticks and line charts.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Independent clusters of blocks: runs, rock masses, release cells.
 #include <gtest/gtest.h>
 
 #include "ensemble/clusters.hpp"

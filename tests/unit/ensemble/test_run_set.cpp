@@ -1,3 +1,4 @@
+// Runs evaluated together: weights, agreement, faults.
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"

@@ -1,3 +1,4 @@
+// Convex outlines of points.
 #include <gtest/gtest.h>
 
 #include "geometry/convex_outline.hpp"

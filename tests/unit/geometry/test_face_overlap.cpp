@@ -1,3 +1,4 @@
+// Common parts of two faces.
 #include <gtest/gtest.h>
 
 #include <vector>

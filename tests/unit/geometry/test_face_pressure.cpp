@@ -1,3 +1,4 @@
+// Resultants of pressure on faces, against closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Side of a line, exactly.
 #include <gtest/gtest.h>
 
 #include <cmath>

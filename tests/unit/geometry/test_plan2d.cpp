@@ -1,3 +1,4 @@
+// Distances, sides and rings in plan.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Polyhedra: moments, checks, triangles, cuts.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// Points at one place, against a search of all pairs.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Meetings of segments, against their definition.
 #include <gtest/gtest.h>
 
 #include <algorithm>

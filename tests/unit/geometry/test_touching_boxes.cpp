@@ -1,3 +1,4 @@
+// Touching boxes, against a search of all pairs.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// The sealed file of imported data: reading back, changes, refusals.
 #include <gdal_priv.h>
 
 #include "import/canonical_gdal.hpp"

@@ -1,3 +1,4 @@
+// Heights of a layer against those of its neighbours.
 #include "sources.hpp"
 
 namespace {

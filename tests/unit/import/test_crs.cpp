@@ -1,3 +1,4 @@
+// Coordinate systems: metres, degrees, feet, systems of heights.
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"

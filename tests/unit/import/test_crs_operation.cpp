@@ -1,3 +1,4 @@
+// Coordinate operations: the best one, grids, datums, heights.
 #include <gtest/gtest.h>
 
 #include <cmath>

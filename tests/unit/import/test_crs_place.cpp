@@ -1,3 +1,4 @@
+// Coordinates that cannot be in their system, and the hints about them.
 #include <gtest/gtest.h>
 
 #include <string>

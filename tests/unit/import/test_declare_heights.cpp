@@ -1,3 +1,4 @@
+// Where the heights of a layer are: Z, fields, contradictions.
 #include "sources.hpp"
 
 namespace {

@@ -1,3 +1,4 @@
+// The common system of a request.
 #include "sources.hpp"
 
 namespace {

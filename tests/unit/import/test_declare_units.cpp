@@ -1,3 +1,4 @@
+// Units of plan and heights of layers.
 #include "sources.hpp"
 
 namespace {

@@ -1,3 +1,4 @@
+// Elevation rasters: reading, writing, refusals, reprojection.
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// Opening the layers of a request: parts, rings, attributes.
 #include <cmath>
 
 #include "sources.hpp"

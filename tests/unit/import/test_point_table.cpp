@@ -1,3 +1,4 @@
+// Tables of points: delimiters, columns, decimal marks.
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"

@@ -1,3 +1,4 @@
+// Refusals that list the readings of an input.
 #include <gtest/gtest.h>
 
 #include "import/readings.hpp"

@@ -1,3 +1,4 @@
+// Rasters of a site: classes under cells, systems, refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Taking layers to a common system, in plan and in height.
 #include "sources.hpp"
 
 namespace {

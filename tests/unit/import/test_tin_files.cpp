@@ -1,3 +1,4 @@
+// TINs of other programs: drawings, OBJ, LandXML.
 #include <gtest/gtest.h>
 
 #include <filesystem>

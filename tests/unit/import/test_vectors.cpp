@@ -1,3 +1,4 @@
+// Vectors: areas, rings, systems, unions, footprints.
 #include <gtest/gtest.h>
 
 #include <cmath>

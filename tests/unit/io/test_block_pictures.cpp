@@ -1,3 +1,4 @@
+// Pictures of blocks: quantiles by volume, escaped names.
 #include <gtest/gtest.h>
 
 #include "io/block_pictures.hpp"

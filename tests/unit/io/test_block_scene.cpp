@@ -1,3 +1,4 @@
+// Scenes of blocks as files of other programs.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Block sets as HDF5: reading back, equal bytes, damage.
 #include <gtest/gtest.h>
 #include <hdf5.h>
 

@@ -1,3 +1,4 @@
+// Level lines of sampled fields.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Mesh files: formats, bodies, parts, refusals.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Smaller pictures of a raster keep its extremes.
 #include <gtest/gtest.h>
 
 #include "io/overview.hpp"

@@ -1,3 +1,4 @@
+// Rims of footprints.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// TINs as PLY: comments, systems, damage.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

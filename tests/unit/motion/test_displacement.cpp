@@ -1,3 +1,4 @@
+// Displacement, mass and elastic matrices against their integrals.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// Free rotation: closed form, series, bounds of spin.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Calibration: implausibility of results, and the section that it writes.
 #include <gtest/gtest.h>
 
 #include <cmath>

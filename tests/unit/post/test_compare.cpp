@@ -1,3 +1,4 @@
+// Differences of shares between two sets of runs.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Deposits: volumes in cells, balance, outlines.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Verdicts on blocks at fences, arrivals, storage, design checks.
 #include <gtest/gtest.h>
 
 #include <algorithm>

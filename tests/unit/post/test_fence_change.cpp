@@ -1,3 +1,4 @@
+// Change by a fence: maps with and without, their colours.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,3 +1,4 @@
+// Search of the cheapest fence: crossings, stretches, costs.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Fractal dimension of fragment sizes.
 #include <gtest/gtest.h>
 
 #include <cmath>

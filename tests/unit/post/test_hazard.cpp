@@ -1,3 +1,4 @@
+// Hazard classes from frequency, reach and intensity; recipes.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// The table of map layers: names, classes, pages.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Pages of maps: view, scale, places, equal bytes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Colours, shading and classes of maps.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Maps of runs against plain statistics of the list of blocks.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Relations of mobility: sources, closed forms, percentiles.
 #include <gtest/gtest.h>
 
 #include <algorithm>

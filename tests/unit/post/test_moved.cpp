@@ -1,3 +1,4 @@
+// The share of the mass that moved.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Observed events against computed ones.
 #include <gtest/gtest.h>
 
 #include <cmath>

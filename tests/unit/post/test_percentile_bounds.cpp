@@ -1,3 +1,4 @@
+// Bounds of percentiles over runs.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Places of a site: cells, blocks that reach them, intervals.
 #include <gtest/gtest.h>
 
 #include <cmath>

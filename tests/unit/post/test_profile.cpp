@@ -1,3 +1,4 @@
+// Profiles along lines: energy, crossings, shares.
 #include <gtest/gtest.h>
 
 #include <cmath>

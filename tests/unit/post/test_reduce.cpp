@@ -1,3 +1,4 @@
+// Runs without frames, and parts of many runs.
 #include <gtest/gtest.h>
 
 #include <cmath>

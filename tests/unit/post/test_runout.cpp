@@ -1,3 +1,4 @@
+// Run-out: reach of masses and events, energies, shown paths.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Intervals of shares, and the runs to add.
 #include <gtest/gtest.h>
 
 #include <cmath>

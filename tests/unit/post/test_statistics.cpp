@@ -1,3 +1,4 @@
+// Statistics: ranks, Wilson and Student intervals, resampling.
 #include <gtest/gtest.h>
 
 #include <algorithm>

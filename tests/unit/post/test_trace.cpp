@@ -1,3 +1,4 @@
+// Shares of sources in the blocks that reach a cell.
 #include <gtest/gtest.h>
 
 #include "post/trace/trace.hpp"

@@ -1,3 +1,4 @@
+// Summaries of tree hits over runs.
 #include <gtest/gtest.h>
 
 #include "post/runout/tree_summary.hpp"

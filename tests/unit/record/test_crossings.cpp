@@ -1,3 +1,4 @@
+// Crossings of lines against closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>

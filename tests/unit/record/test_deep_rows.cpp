@@ -1,3 +1,4 @@
+// Rows of deep blocks and their weight for the health of a run.
 #include <gtest/gtest.h>
 
 #include "record/deep_rows.hpp"

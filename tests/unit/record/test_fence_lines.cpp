@@ -1,3 +1,4 @@
+// Lines of fences: posts, names, refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>

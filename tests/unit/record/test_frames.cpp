@@ -1,3 +1,4 @@
+// Frames at equal intervals.
 #include <gtest/gtest.h>
 
 #include "hand_made.hpp"

@@ -1,3 +1,4 @@
+// Touches of endangered objects against closed forms.
 #include <gtest/gtest.h>
 
 #include <numbers>

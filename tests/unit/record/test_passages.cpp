@@ -1,3 +1,4 @@
+// Passages of cells against dense sampling.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Runs with breakage: pieces in place of blocks.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The view of a site before the runs.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// JSON strings and Base64 for the page.
 #include <gtest/gtest.h>
 
 #include "report/encode.hpp"

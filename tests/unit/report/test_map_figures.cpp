@@ -1,3 +1,4 @@
+// Figures of maps on the page.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Legends of maps on the page.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,3 +1,4 @@
+// Cells and ground of maps as SVG.
 #include <gtest/gtest.h>
 
 #include "base/text.hpp"

@@ -1,3 +1,4 @@
+// The template of the page: values, blocks, languages.
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"

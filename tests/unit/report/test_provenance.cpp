@@ -1,3 +1,4 @@
+// Steps of provenance: independent of places and parts.
 #include <gtest/gtest.h>
 
 #include <filesystem>

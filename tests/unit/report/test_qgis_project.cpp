@@ -1,3 +1,4 @@
+// The QGIS project: no foreign words are evaluated.
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"

@@ -1,3 +1,4 @@
+// Charts of energies and curves of runs.
 #include <gtest/gtest.h>
 
 #include "report/run_charts.hpp"

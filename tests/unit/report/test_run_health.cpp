@@ -1,3 +1,4 @@
+// The health of runs on the page.
 #include <gtest/gtest.h>
 
 #include "report/run_health.hpp"

@@ -1,3 +1,4 @@
+// Texts of the page: values, translations, refusals.
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"

@@ -1,3 +1,4 @@
+// The scene of the 3D viewer, and the plan view of a run.
 #include <gtest/gtest.h>
 
 #include <cmath>

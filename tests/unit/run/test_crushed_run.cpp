@@ -1,3 +1,4 @@
+// Runs with crushed blocks: file, deposit, resuming.
 #include <gtest/gtest.h>
 
 #include "post/deposit.hpp"

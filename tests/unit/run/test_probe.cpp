@@ -1,3 +1,4 @@
+// The probe: whether blocks slide, stay or sag in the first seconds.
 #include <gtest/gtest.h>
 
 #include <cmath>

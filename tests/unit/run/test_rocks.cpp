@@ -1,3 +1,4 @@
+// Rocks that fall one by one: same bits in any group, thread or order.
 #include <gtest/gtest.h>
 
 #include <atomic>

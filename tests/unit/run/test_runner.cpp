@@ -1,3 +1,4 @@
+// Runs: checkpoints, resuming, rows that do not depend on frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>

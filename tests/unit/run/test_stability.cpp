@@ -1,3 +1,4 @@
+// Factor of safety by strength reduction against closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Designs: Sobol points, scrambling, hypercubes.
 #include <gtest/gtest.h>
 
 #include <cmath>

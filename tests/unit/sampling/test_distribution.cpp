@@ -1,3 +1,4 @@
+// Distributions: moments, quantiles, truncation.
 #include <gtest/gtest.h>
 
 #include <cmath>

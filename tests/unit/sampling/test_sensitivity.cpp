@@ -1,3 +1,4 @@
+// Sensitivity indices against closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>

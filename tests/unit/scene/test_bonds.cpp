@@ -1,3 +1,4 @@
+// Bonds and joint classes: limits in closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Fences: energy, deflection, hits, rocks one by one.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

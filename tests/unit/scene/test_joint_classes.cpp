@@ -1,3 +1,4 @@
+// Classes of joint faces: friction and restitution of pairs.
 #include <gtest/gtest.h>
 
 #include "scene/bonds.hpp"

@@ -1,3 +1,4 @@
+// Water pressure in joints: closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>

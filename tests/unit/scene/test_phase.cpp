@@ -1,3 +1,4 @@
+// Phases of a block: questions, transitions, unborn blocks.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Fences of a site file: feet, capacity, refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Drawn stands of trees: densities, diameters, hits.
 #include <gtest/gtest.h>
 
 #include <algorithm>

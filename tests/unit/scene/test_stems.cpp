@@ -1,3 +1,4 @@
+// Stems: capacity, stops, hits, energy balance.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

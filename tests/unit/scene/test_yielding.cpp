@@ -1,3 +1,4 @@
+// Yielding bodies: pushes, worlds, search by place.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// Strength of small blocks under point loads.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Candidate lines of fences on planes.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Forests of a site: lists, rasters, drawn stands.
 #include "setup/forest_inputs_gdal.hpp"
 #include "setup/forest_section.hpp"
 #include "setups.hpp"

@@ -1,3 +1,4 @@
+// Classes of ground from polygons and rasters.
 #include "setup/ground_class_inputs_gdal.hpp"
 #include "setups.hpp"
 

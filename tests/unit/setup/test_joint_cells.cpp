@@ -1,3 +1,4 @@
+// Volumes of joint cells from spacings.
 #include <gtest/gtest.h>
 
 #include <numbers>

@@ -1,3 +1,4 @@
+// Settings of a run: times, lengths, contradictions.
 #include "setup/run_settings.hpp"
 #include "setups.hpp"
 

@@ -1,3 +1,4 @@
+// Lines of a fence search: place, names, step.
 #include "setup/search_lines.hpp"
 #include "setups.hpp"
 

@@ -1,3 +1,4 @@
+// The set-up of a scene from a site, without a tool.
 #include "setup/dda_inputs.hpp"
 #include "setup/scene_inputs_gdal.hpp"
 #include "setup/set_up_gdal.hpp"

@@ -1,3 +1,4 @@
+// Layers in place of sections of a site file.
 #include "io/geopackage_gdal.hpp"
 #include "setup/section_state_gdal.hpp"
 #include "setup/site_files.hpp"

@@ -1,3 +1,4 @@
+// Places of a site: fences, lines, members, facts of layers.
 #include <variant>
 
 #include "setup/site_places_gdal.hpp"

@@ -1,3 +1,4 @@
+// Settings and grounds of a scene from a site.
 #include <gtest/gtest.h>
 
 #include <cmath>

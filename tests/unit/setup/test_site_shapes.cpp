@@ -1,3 +1,4 @@
+// Shapes of a site: points, files, imported data.
 #include "import/canonical_gdal.hpp"
 #include "setup/site_shapes_gdal.hpp"
 #include "setups.hpp"

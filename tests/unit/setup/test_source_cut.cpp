@@ -1,3 +1,4 @@
+// Cutting a source into blocks.
 #include "setup/sliding_sets.hpp"
 #include "setup/source_cut_gdal.hpp"
 #include "setup/source_work.hpp"

@@ -1,3 +1,4 @@
+// Overlap of blocks with the ground at the start.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

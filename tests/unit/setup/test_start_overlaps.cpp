@@ -1,3 +1,4 @@
+// Overlaps of blocks at the start, and moving them apart.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Water of a site: planes, points, rasters.
 #include "setup/set_up_gdal.hpp"
 #include "setup/water_inputs_gdal.hpp"
 #include "setups.hpp"

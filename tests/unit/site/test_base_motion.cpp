@@ -1,3 +1,4 @@
+// Base motion: records and harmonic motion.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

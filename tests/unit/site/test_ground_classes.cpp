@@ -1,3 +1,4 @@
+// Classes of ground in cells: areas, holes, order.
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"

@@ -1,3 +1,4 @@
+// Lists of measured orientations.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,3 +1,4 @@
+// Joint sets of a site: limits, keys, contradictions.
 #include <gtest/gtest.h>
 
 #include <cmath>

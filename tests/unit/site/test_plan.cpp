@@ -1,3 +1,4 @@
+// The scene plan: items left out and kept.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Doubts about a site: limits, hints, expected time.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The site file: values, defaults, misspelt keys, page of keys.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Uncertain quantities: samples, moments, keys that move together.
 #include <gtest/gtest.h>
 
 #include <cmath>

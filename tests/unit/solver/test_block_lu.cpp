@@ -1,3 +1,4 @@
+// Block LU against dense elimination.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

@@ -1,3 +1,4 @@
+// The contact law: damping, tension, friction, tangents.
 #include <gtest/gtest.h>
 
 #include <algorithm>

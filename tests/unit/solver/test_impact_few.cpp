@@ -1,3 +1,4 @@
+// The impact law for few contacts.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The impact law: restitution, momentum, energy, dents.
 #include <gtest/gtest.h>
 
 #include <algorithm>

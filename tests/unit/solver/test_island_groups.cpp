@@ -1,3 +1,4 @@
+// Groups of touching blocks, against spreading of labels.
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"

@@ -1,3 +1,4 @@
+// The island solver against Gauss-Seidel.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

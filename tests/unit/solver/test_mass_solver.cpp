@@ -1,3 +1,4 @@
+// The mass solver: law of contact, equal bits, limits.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

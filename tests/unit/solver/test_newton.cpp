@@ -1,3 +1,4 @@
+// The solver of one block: falls, friction, mobility.
 #include <gtest/gtest.h>
 
 #include <array>

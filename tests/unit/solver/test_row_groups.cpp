@@ -1,3 +1,4 @@
+// Contacts two and four at a time: impulses, tangents, equal bits.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>

@@ -1,3 +1,4 @@
+// Breakage: thresholds, energy, inherited motion.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Crushing of small blocks: loads, debris, energy.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Deep blocks and first faults of a run.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Free flight: safe times without contact.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Impact of one block on the ground: restitution, resting speed, energy.
 #include <gtest/gtest.h>
 
 #include <algorithm>

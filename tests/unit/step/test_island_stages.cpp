@@ -1,3 +1,4 @@
+// Stages of an island's step: reports, bonds, page, clock.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// Base motion as a load.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Errors of long substeps against the required accuracy.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Bodies of several parts on ridges: none sinks in.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Static start of blocks, with and without strains.
 #include <gtest/gtest.h>
 
 #include <algorithm>

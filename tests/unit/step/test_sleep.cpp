@@ -1,3 +1,4 @@
+// Blocks that fall asleep and wake, alone and in islands.
 #include <gtest/gtest.h>
 
 #include <algorithm>

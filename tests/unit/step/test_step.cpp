@@ -1,3 +1,4 @@
+// One step of all blocks: energy, rest, hits, domain, allocation.
 #include <gtest/gtest.h>
 
 #include <cmath>

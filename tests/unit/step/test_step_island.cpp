@@ -1,3 +1,4 @@
+// The step of an island: towers, stiffness, deep hits, elastic hits.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Water in joints: sliding and lifting against closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Run files and checkpoints: reading back, parts, damage.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,3 +1,4 @@
+// Long and many runs: memory, size, drift of energy.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,3 +1,4 @@
+// Heights of contours from labels.
 #include <gtest/gtest.h>
 
 #include <cmath>

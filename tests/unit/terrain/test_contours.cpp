@@ -1,3 +1,4 @@
+// Cleaning of contour maps.
 #include <gtest/gtest.h>
 
 #include <cmath>

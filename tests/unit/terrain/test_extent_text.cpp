@@ -1,3 +1,4 @@
+// The extent of a terrain as text.
 #include <gtest/gtest.h>
 
 #include "terrain/extent_text.hpp"

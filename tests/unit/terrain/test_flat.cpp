@@ -1,3 +1,4 @@
+// Flat triangles and the heights that mend them.
 #include <gtest/gtest.h>
 
 #include <algorithm>

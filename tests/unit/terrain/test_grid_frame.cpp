@@ -1,3 +1,4 @@
+// Frames of grids: windows, alignment, local origin.
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"

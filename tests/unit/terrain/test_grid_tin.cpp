@@ -1,3 +1,4 @@
+// TINs on grids, against locating every node.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Doubtful nodes of a terrain.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Lattices over triangle meshes, and spread values.
 #include <gtest/gtest.h>
 
 #include <algorithm>

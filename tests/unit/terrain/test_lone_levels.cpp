@@ -1,3 +1,4 @@
+// Areas of an undeclared value.
 #include <gtest/gtest.h>
 
 #include <cmath>

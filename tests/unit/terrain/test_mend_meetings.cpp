@@ -1,3 +1,4 @@
+// Contours moved apart within the accuracy of a map.
 #include <gtest/gtest.h>
 
 #include <algorithm>

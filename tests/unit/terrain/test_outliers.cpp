@@ -1,3 +1,4 @@
+// Contours and points with wrong heights.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// The thin plate: planes, energy, bounds.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

@@ -1,3 +1,4 @@
+// Scattered points as triangles: spikes, pits, doubles.
 #include <gtest/gtest.h>
 
 #include <tuple>

@@ -1,3 +1,4 @@
+// Resampling of rasters: means, interpolation, copies.
 #include <gtest/gtest.h>
 
 #include <cmath>

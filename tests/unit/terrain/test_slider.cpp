@@ -1,3 +1,4 @@
+// The sliding point, and the smoothed ground.
 #include <gtest/gtest.h>
 
 #include <cmath>

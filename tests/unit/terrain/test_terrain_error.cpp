@@ -1,3 +1,4 @@
+// Drawn errors of a terrain: size and correlation.
 #include <gtest/gtest.h>
 
 #include <cmath>

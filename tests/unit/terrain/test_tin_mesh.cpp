@@ -1,3 +1,4 @@
+// TINs cut to boundaries.
 #include <gtest/gtest.h>
 
 #include <cmath>

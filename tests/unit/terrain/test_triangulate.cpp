@@ -1,3 +1,4 @@
+// Constrained triangulations.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The TRN: counts, numbering, elevations, normals.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// Convex features of the ground, against their definition.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// Ranges of elevations and candidate cells.
 #include <gtest/gtest.h>
 
 #include <limits>

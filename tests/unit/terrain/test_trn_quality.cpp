@@ -1,3 +1,4 @@
+// Errors and slopes of a TRN.
 #include <gtest/gtest.h>
 
 #include <numeric>

@@ -1,3 +1,4 @@
+// Cells crossed by a segment, against dense sampling.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -1,3 +1,4 @@
+// The slope of polyhedral blocks against the TRN.
 #include <gtest/gtest.h>
 
 #include <cmath>

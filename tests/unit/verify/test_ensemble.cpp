@@ -1,3 +1,4 @@
+// Means of a slide over starts.
 #include <gtest/gtest.h>
 
 #include <cmath>

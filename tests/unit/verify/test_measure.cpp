@@ -1,3 +1,4 @@
+// Measured cases: Pareto fronts, comparison of laws, claims.
 #include <gtest/gtest.h>
 
 #include <cmath>
