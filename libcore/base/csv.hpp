@@ -14,7 +14,7 @@ struct CsvTable {
   std::vector<std::vector<std::string>> rows;  ///< as long as `names`
   std::vector<int> line;                       ///< of each row, from 1
 
-  /// Throws InputError when there is no such column.
+  /// Throws InputError when the column is missing.
   [[nodiscard]] const std::string& at(std::size_t row, const std::string& name) const;
   /// The number in a column, NaN when it is empty. Throws InputError with the line for other text.
   [[nodiscard]] double number(std::size_t row, const std::string& name) const;

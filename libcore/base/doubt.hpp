@@ -12,9 +12,9 @@
 
 namespace talus {
 
-/// Where something was found: a file, and what in it (line, layer, feature, coordinates).
+/// Place of a finding: a file, and the item in it (line, layer, feature, coordinates).
 struct Where {
-  std::string file{};  ///< path as the user gave it; empty when there is no file
+  std::string file{};  ///< path as the user gave it; empty without a file
   int line = 0;        ///< 1-based line of a text file; 0 when it has none
   std::string item{};  ///< e.g. "layer contours, feature 17"; empty when the file says enough
   /// "sites/a/site.toml:14", "map.gpkg: layer contours, feature 17"; empty when nothing is known

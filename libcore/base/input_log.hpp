@@ -20,7 +20,7 @@ enum class Severity {
   record,  ///< kept with the results and not said
 };
 
-/// What was taken from a layer of a vector source.
+/// Content read from a layer of a vector source.
 struct LayerRead {
   using Value = std::variant<std::string, double, std::int64_t, std::vector<std::string>>;
   std::string role;  ///< option or section that names the source
@@ -45,7 +45,7 @@ class InputLog {
   /// bytes do.
   virtual void content_read(const std::string& /*role*/, const std::string& /*digest*/) {}
   virtual void layer_read(const LayerRead& /*layer*/) {}
-  /// What a user should look at, kept with the results and said, a sentence a kind.
+  /// Findings for the user, kept with the results and reported, a sentence a kind.
   virtual void doubts(const std::vector<Doubt>& /*found*/) {}
   virtual void note(Severity /*severity*/, const std::string& /*words*/) {}
   /// For long work; the returned function may throw to end the work.

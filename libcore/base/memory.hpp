@@ -24,9 +24,9 @@ void require_memory(double bytes, const Where& where, const std::string& what,
 /// As require_memory, for the words and lines of a table with this content.
 void require_memory_for_words(const std::string& content, const std::string& file);
 
-/// What a process can still take on this machine [bytes]: free memory and swap, but no more than
-/// its control groups leave (containers, batch jobs). Infinite where the system does not say. The
-/// system's files are read below `root`, for tests.
+/// Memory that a process can still take on this machine [bytes]: free memory and swap, but no more
+/// than its control groups leave (containers, batch jobs). Infinite where the system does not say.
+/// The system's files are read below `root`, for tests.
 [[nodiscard]] double free_memory(const std::string& root = "");
 
 }  // namespace talus

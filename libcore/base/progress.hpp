@@ -7,7 +7,7 @@
 namespace talus {
 
 /// Called with the share of the work done, 0 to 1, never decreasing. May throw Interrupted, which
-/// the work lets pass. An empty function means that nobody listens.
+/// the work lets pass. An empty function means that nobody is to be informed.
 using ProgressFunction = std::function<void(double)>;
 
 }  // namespace talus

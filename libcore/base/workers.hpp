@@ -95,8 +95,8 @@ void in_parts(Workers* workers, std::size_t n, const Work& work) {
 /// Tells the processor that this thread waits for another one.
 void wait_a_moment(int n_waited);
 
-/// Threads that a computation may take when nobody says how many: those of a Slurm task; one inside
-/// a make that runs several jobs; else all that the machine gives this process.
+/// Default number of threads of a computation: those of a Slurm task; one inside a make that runs
+/// several jobs; else all that the machine gives this process.
 [[nodiscard]] int threads_by_default();
 
 }  // namespace talus
