@@ -65,7 +65,7 @@ void draw_on_white(cairo_surface_t* surface, double unit, const Drawing& drawing
   });
 }
 
-// What the eye does not see in the ground's brightness makes a file three times as large.
+// Differences of brightness that the eye does not see make a file three times as large.
 void leave_out_last_bits(cairo_surface_t* picture) {
   cairo_surface_flush(picture);
   unsigned char* const bytes = cairo_image_surface_get_data(picture);
@@ -115,7 +115,7 @@ std::string name_of(const std::string& content) {
   return out;
 }
 
-// What is between the tags of Cairo's document: no defaults, short paths. Cairo counts its names
+// Content between the tags of Cairo's document: no defaults, short paths. Cairo counts its names
 // through all documents; here they are of the drawing alone.
 std::string strokes_of(const std::string& document) {
   const std::size_t first = document.find('>', document.find("<svg")) + 1,

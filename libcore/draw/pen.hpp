@@ -35,7 +35,7 @@ struct Stroke {
   double casing = 0;                ///< a white rim of this width on each side, over a map
 };
 
-/// What of the words is at their point.
+/// Part of the words at their point.
 enum class Anchor { begin, middle, end };
 
 class Pen {

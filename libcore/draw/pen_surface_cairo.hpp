@@ -1,5 +1,5 @@
 // libcore/draw/pen_surface_cairo.hpp
-// What a pen draws on: a surface of Cairo, and, for an SVG, its words and notes apart.
+// Target of a pen: a surface of Cairo, and, for an SVG, its words and notes apart.
 #pragma once
 
 #include <string>
