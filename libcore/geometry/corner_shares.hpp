@@ -1,5 +1,5 @@
 // libcore/geometry/corner_shares.hpp: public
-// What of a convex polygon belongs to each of its corners.
+// The part of a convex polygon that belongs to each of its corners.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace talus {
 /// Area of the convex polygon of `n` corners at(i), counter-clockwise; `take(i, share)` is called
 /// with the parts that belong to corner i: half of each of the two triangles that it makes with the
 /// polygon's centre of area, which keeps the area and its first moment exactly. 0 without a call
-/// where there is no area.
+/// where its area is zero.
 template <class At, class Take>
 double share_area(std::size_t n, const At& at, const Take& take) {
   if (n < 3) return 0;

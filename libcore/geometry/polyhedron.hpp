@@ -62,7 +62,7 @@ struct Moments {
 /// Edges of the box with the same second moments, longest first; 0 without volume [m].
 [[nodiscard]] Vec3 extents(const Moments& moments);
 
-/// What is wrong with a surface, worst first.
+/// Faults of a surface, worst first.
 enum class SurfaceFault {
   none,
   bad_index,     ///< a face names a vertex that does not exist, or has fewer than three
