@@ -178,7 +178,7 @@ struct OpenClose {
     return switched;
   }
 
-  // What a contact starts from: the memory of the same features, if there is one.
+  // Start of a contact: from the memory of the same features, if there is one.
   void start_contact(const GroundClass& face, PaperContact& contact) {
     const std::vector<ContactMemory>& memory = state.memory[members[contact.a]];
     const bool closed = contact.gap_start < 0 || contact.bond >= 0;
@@ -301,8 +301,8 @@ struct OpenClose {
     report.passes += passes;
   }
 
-  // What a closed contact keeps: in ContactMemory::shear a sticking one its spring, a slipping one
-  // its direction.
+  // Memory of a closed contact: in ContactMemory::shear a sticking one keeps its spring, a slipping
+  // one its direction.
   void remember_contact(size_t r, std::vector<ContactMemory>& memories) {
     const PaperContact& contact = w.contacts[r];
     const bool sticks = contact.state == ContactState::stick;

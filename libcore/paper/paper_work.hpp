@@ -1,5 +1,5 @@
 // libcore/paper/paper_work.hpp
-// What a step of law paper recomputes: equations, contacts, matrix.
+// Scratch of a step of law paper: equations, contacts, matrix.
 // paper: Zhang et al. 2018, Eq. (3), (8)-(24)
 #pragma once
 
@@ -46,7 +46,7 @@ struct PaperContact {
   double held_friction = 0;            ///< friction that slips, of the pass before [N]
 };
 
-/// What an island's step recomputes.
+/// Scratch of an island's step.
 template <int Dof>
 struct OpenCloseWork {  // clang-format off
   using Vec = Eigen::Matrix<double, Dof, 1>;
