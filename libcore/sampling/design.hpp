@@ -32,9 +32,9 @@ struct Design {
                                 const std::string& name);
 
 /// The point of run number `run` among those that share `n_masses` sets of blocks in turn. The runs
-/// of one set would else take points whose first binary digits are alike, and nobody could tell the
-/// blocks from the numbers. So each round of n_masses runs but the first takes its points in an
-/// order of its own. `n_masses` 0 or 1: `run`.
+/// of one set would else take points whose first binary digits are alike, and the effects of blocks
+/// and numbers could not be separated. So each round of n_masses runs but the first takes its
+/// points in an order of its own. `n_masses` 0 or 1: `run`.
 [[nodiscard]] std::uint64_t point_of_run(const Design& design, std::uint64_t run,
                                          std::uint64_t n_masses);
 

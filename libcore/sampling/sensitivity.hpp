@@ -1,5 +1,5 @@
 // libcore/sampling/sensitivity.hpp: public
-// What a result of many runs owes to one of the numbers that they drew, from the runs alone.
+// Share of a result of many runs that depends on one of the numbers drawn, from the runs alone.
 // refs:  Plischke, Borgonovo and Smith 2013 (indices from the runs that are there)
 #pragma once
 
