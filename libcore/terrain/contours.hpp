@@ -45,7 +45,7 @@ struct ContourMap {
   std::vector<BoundaryRing> boundary;  ///< polygons, which may overlap; none: no boundary
 };
 
-/// What cleaning found and mended.
+/// Faults that cleaning found and mended.
 struct CleaningCounts {
   std::size_t duplicate_points = 0;    ///< points on another point at the same height
   std::size_t duplicate_segments = 0;  ///< segments digitised twice

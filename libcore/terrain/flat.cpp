@@ -68,7 +68,7 @@ std::vector<int> number_regions(const TriangleMesh& mesh, const std::vector<std:
   return region;
 }
 
-// What the mending may do with a triangle.
+// Treatment of a triangle by the mending.
 enum class Part : std::uint8_t { kept, flat, beside };
 
 double rise(const TriangleMesh& mesh, std::size_t t) {

@@ -279,7 +279,7 @@ struct Moves {
 };
 
 // Moves that bring the points of `line` that are on the wrong side of `other`, or on it, to the
-// home side. None: they would go beyond the tolerance, or there is no home side.
+// home side. None: they would go beyond the tolerance, or a home side is missing.
 std::optional<Moves> moves_home(const PlanLine& line, const PlanLine& other,
                                 const std::vector<double>& along, double tolerance) {
   std::vector<Part> parts = parts_between(line, along);

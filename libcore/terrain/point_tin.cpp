@@ -37,7 +37,7 @@ void join_repeated(std::vector<Vec3>& points, PointMesh& found) {
   points.resize(n_kept);
 }
 
-// What the edges of a point say of it.
+// Heights around a point, from its edges.
 struct Surroundings {
   double low = infinity, high = -infinity;
   std::int64_t n_edges = 0, n_steep_above = 0, n_steep_below = 0, n_impossible = 0;

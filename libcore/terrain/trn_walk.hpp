@@ -70,8 +70,8 @@ struct WalkAxis {
 
 /// Calls visit(CellPart) for each cell crossed by the segment from local (x, y) `a` to `b`, in
 /// order. Every part has t_in < t_out: a corner that is only touched, or passed exactly, visits no
-/// cell beside. A segment without extent in plan visits the cell of locate() once, with 0..1. What
-/// lies off the grid is left out. Nodata is not looked at. Coordinates must be finite.
+/// cell beside. A segment without extent in plan visits the cell of locate() once, with 0..1. Parts
+/// off the grid are left out. Nodata is not looked at. Coordinates must be finite.
 template <class Visit>
 void walk_cells(const Trn& trn, const Vec2& a, const Vec2& b, Visit&& visit) {
   const int n_cols = trn.n_cols - 1, n_rows = trn.n_rows - 1;
