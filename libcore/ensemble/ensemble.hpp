@@ -25,7 +25,7 @@ struct EnsembleMember {
   std::int64_t seed = 0;
   std::int64_t sample = 0;  ///< of [uncertainty]; 0: none
   Outcome outcome = Outcome::not_started;
-  std::string why;       ///< why there is no result, or the checks that it failed
+  std::string why;       ///< why the result is missing, or the checks that it failed
   std::string digest;    ///< of the run file, as it says itself; "": there is none
   std::string run_id;    ///< "": without a result
   std::string settings;  ///< settings_digest() of the run

@@ -110,7 +110,7 @@ void add_files(Ensemble& ensemble) {
   }
 }
 
-// What a run file says of its run.
+// The member of a run file.
 EnsembleMember member_of(const std::string& file, const std::string& digest,
                          const std::string& path) {
   EnsembleMember out;
@@ -196,7 +196,7 @@ void weigh(Ensemble& ensemble) {
   }
 }
 
-// What options gave to the cases, in their first runs.
+// Compares the settings that options gave to the cases, in their first runs.
 void compare_cases(Ensemble& ensemble) {
   std::map<std::string, MadeWith> first;
   for (const EnsembleMember& member : ensemble.members) {

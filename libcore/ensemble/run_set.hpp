@@ -14,7 +14,7 @@
 
 namespace talus {
 
-/// What is kept of a run for the set.
+/// Data of a run that are kept for the set.
 struct RunMember {
   std::string file;  ///< of a run in a part: its file before, with its folder
   RunInfo info;      ///< without config, made_with and plan, as large as a small run
@@ -35,7 +35,7 @@ struct RunMember {
   std::vector<int> release_cell;     ///< of the terrain, by its number                 (n_blocks)
   std::vector<double> block_weight;  ///< without that of the run; empty: 1 each        (n_blocks)
 };
-/// What messages name.
+/// Name of a run in messages.
 [[nodiscard]] std::string where_of(const RunMember& run);
 /// Of a run read in any parts; health, blocks and weight as far as they were read.
 [[nodiscard]] RunMember member_of(const std::string& file, const RunFile& run);
@@ -52,7 +52,7 @@ struct CaseWeight {
 /// of runs where none is. Throws InputError when a case of the runs is not given, or has no runs.
 [[nodiscard]] std::vector<CaseWeight> cases_of(const std::vector<RunMember>& runs,
                                                const std::vector<CaseWeight>& given);
-/// What each run counts so that the cases have their shares: 1 on average.        (n_runs)
+/// Weight of each run so that the cases have their shares: 1 on average.          (n_runs)
 [[nodiscard]] std::vector<double> run_weights(const std::vector<RunMember>& runs,
                                               const std::vector<CaseWeight>& cases);
 /// The cases of runs that have been weighed, by name, with their shares of the whole.
@@ -81,7 +81,7 @@ void check_member(const RunMember& run, const RunMember& first, const RunSetOpti
 /// The file's name without folder and ending; with the folder where two of the runs share it.
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<RunMember>& runs);
 
-/// What keeps a run from being believed as it is.
+/// Reason not to trust a run as it is.
 struct RunFault {
   std::string name, run_id;
   std::int64_t seed = 0;
@@ -120,7 +120,7 @@ struct FailedShare {
 /// Digest of the runs' ids in whatever order (16 digits): equal for evaluations of the same runs.
 [[nodiscard]] std::string run_set_id(std::vector<std::string> run_ids);
 
-/// What the runs were warned of, each once, sorted.
+/// Warnings of the runs, each once, sorted.
 [[nodiscard]] std::vector<std::string> warnings_of(const std::vector<RunMember>& runs);
 
 }  // namespace talus

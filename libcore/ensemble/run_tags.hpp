@@ -1,5 +1,5 @@
 // libcore/ensemble/run_tags.hpp: public
-// What every output says of the runs that it was made from.
+// Tags with which every output describes the runs that it was made from.
 // in:    the runs, and failed ones that were left out
 // out:   names with their values, the same in whatever order the runs come
 #pragma once
