@@ -13,7 +13,7 @@
 
 namespace talus {
 
-/// What is said of a run: attributes or texts of a run file, columns of the group runs of a part.
+/// Texts on a run: attributes or texts of a run file, columns of the group runs of a part.
 struct InfoText {
   const char *name, *long_name;
   std::string RunInfo::*field;

@@ -104,7 +104,7 @@ std::int64_t add_run(const std::string& db, const RunRecord& run, int wait_ms = 
 /// start) is completed, any other is added. Returns how many there were.
 int adopt_runs(const std::string& db, const std::string& other);
 
-/// What merge_runs did with the runs of other registries.
+/// Result of merge_runs with the runs of other registries.
 struct RegistryMerge {
   int n_added = 0;
   int n_completed = 0;                ///< were known as running, and have ended since

@@ -144,8 +144,8 @@ SQLite::Database open_copy(const std::string& db) {
   return database;
 }
 
-// Whoever may write lets SQLite keep its journal. Others read the file as it is, or, where a
-// process that was killed left a journal, a copy with it.
+// A process that may write lets SQLite keep its journal. Any other reads the file as it is, or,
+// where a process that was killed left a journal, a copy with it.
 SQLite::Database open_there(const std::string& db) {
   if (!std::filesystem::exists(db))
     throw InputError({db}, "there is no such registry", "name it with --db");
@@ -175,7 +175,7 @@ SQLite::Database open_to_read(const std::string& db) {
   return database;
 }
 
-// What is wrong with the moment, the disk or the rights, not with the registry that was named.
+// Faults of the moment, the disk or the rights, not of the registry that was named.
 bool may_pass(int code, const std::string& db) {
   switch (code) {
     case SQLITE_BUSY:
