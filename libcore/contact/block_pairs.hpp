@@ -72,7 +72,7 @@ struct PairWatch {
   int part_a = 0, part_b = 0;
 };
 
-/// What is known of a listed pair of parts, and where the bodies were then.
+/// Data of a listed pair of parts, and where the bodies were then.
 struct ListedPair {
   PairAxis axis;                ///< kind none: not searched yet
   bool touches = false;         ///< along that axis; else it separates the parts
@@ -86,8 +86,7 @@ struct ListedPair {
   int held_begin = 0, held_end = 0;  ///< its features in PairState::held
 };
 
-/// What lasts from step to step. All of it, and PlacedHulls::turned, is needed to resume bit for
-/// bit.
+/// State from step to step. All of it, and PlacedHulls::turned, is needed to resume bit for bit.
 struct PairState {  // clang-format off
   std::vector<PairWatch> watch;       ///< sorted by part_a, part_b                      (n_pairs)
   std::vector<ListedPair> pairs;      ///<                                               (n_pairs)
@@ -113,7 +112,7 @@ struct PairReport {
   bool relisted = false;
 };
 
-/// What is found at consecutive pairs of the list, and the scratch of one thread.
+/// Findings at consecutive pairs of the list, and the scratch of one thread.
 struct ListLook {
   std::vector<PairManifold> manifolds;
   std::vector<PairPoint> points;
@@ -131,7 +130,7 @@ struct PairWork {
   std::vector<PairManifold> manifolds;
   std::vector<PairPoint> points;  ///< manifold by manifold
   // scratch
-  std::vector<ListLook> looks;  ///< one where nobody shares the list
+  std::vector<ListLook> looks;  ///< one without further threads
   AxisScratch axis;
   std::vector<BoxInStrip> strips;
   std::vector<Box> boxes;

@@ -37,7 +37,7 @@ struct Contact {
   double gap = 0;               ///< n . (a - b), > 0 open [m]. The paper's d_n is -gap.
 };
 
-/// What is carried from step to step for a contact that pressed or may press again.
+/// State from step to step of a contact that pressed or may press again.
 struct ContactMemory {
   ContactKey key;
   Vec3 normal = Vec3::Zero();  ///< of the last step, unit, local axes

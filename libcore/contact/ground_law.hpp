@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// What a contact with one class of ground does.
+/// Law of contact with one class of ground.
 struct GroundClass {
   double friction = 0;     ///< tan(phi), >= 0 [-]
   double cohesion = 0;     ///< c, acts on bonded area until the bond breaks [Pa]

@@ -79,7 +79,7 @@ void keep_edges(const Hulls& hulls, const PlacedHulls& placed, int part_a, int p
                                  int part_b, const PairAxis& axis, int incident,
                                  std::span<const HeldPoint> held);
 
-/// What search_contact finds.
+/// Result of search_contact.
 struct ContactSearch {
   AxisChoice choice;
   int incident = -1;  ///< incident_face of a face axis

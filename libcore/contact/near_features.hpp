@@ -1,5 +1,5 @@
 // libcore/contact/near_features.hpp
-// What searches for the contacts of a block with the ground leave for the next ones.
+// Features that searches for contacts of a block with the ground keep for the next ones.
 #pragma once
 
 #include <cstdint>

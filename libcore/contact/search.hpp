@@ -15,7 +15,7 @@
 
 namespace talus {
 
-/// What the search found besides the contacts.
+/// Result of the search besides the contacts.
 struct SearchResult {
   /// `off_ground` also when a vertex lies beyond the known ground and the block is not above it: it
   /// is not known whether ground would support or stop it there.

@@ -117,10 +117,10 @@ const Vec3& nearest_vertex(const Parts& parts, int part, const AxisScratch& scra
 //
 // The separation along a normal of an edge's arc is at most the height that any point of the other
 // part has over the plane through the edge, and where that point is behind the planes of both faces
-// it is no higher over that one than over the higher of them. The centroid of the other body tells
-// so of the edges on the far side, its vertex that is nearest to the part's best face of most
-// remaining ones: it lies behind all faces beside that one. `least` <= 0, and any edge where it is
-// not finite.
+// its height over that one is at most its height over the higher of them. The centroid of the other
+// body tells so of the edges on the far side, its vertex that is nearest to the part's best face of
+// most remaining ones: it lies behind all faces beside that one. `least` <= 0, and any edge where
+// it is not finite.
 int near_edges(const Parts& parts, int part, bool inner, double least, AxisScratch& scratch,
                std::vector<int>& found) {
   const Hulls& hulls = parts.hulls;
