@@ -22,7 +22,7 @@ struct RowArm {
   }
 };
 
-/// What normal impulses let a couple be.
+/// Bounds of a couple from normal impulses.
 struct CoupleBounds {
   double rolling = 0, spinning = 0;  ///< [N m s]
   Vec3 normal = Vec3::Zero();        ///< sum of the normal impulses [N s]

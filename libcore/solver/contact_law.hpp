@@ -99,7 +99,7 @@ template <class V>
 
 // --- the law -----------------------------------------------------------------------------------
 
-/// What the law finds, contact by contact. Of open contacts no more than impulse and state.
+/// Result of the law, contact by contact. Of open contacts no more than impulse and state.
 template <class V>
 struct Found {
   V impulse[3];  ///< on A [N s]
@@ -113,7 +113,7 @@ struct Found {
   bool rubs = false;  ///< one slips against friction: trial_speed and the last two are set
 };
 
-/// What bounds the impulses of contacts.
+/// Bounds of the impulses of contacts.
 template <class V>
 struct Strength {
   V friction, cohesion, tension;

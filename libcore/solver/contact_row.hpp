@@ -1,9 +1,9 @@
 // libcore/solver/contact_row.hpp: public
 // A contact made ready for the solve: one struct for a lone block, an impact and an island. The
-// step fills it, contact by contact. What the contact law reads of it is a struct over the number
-// type: the same fields are those of one contact and of an island's lanes (RowGroup in
-// solver/island.hpp). An island keeps, besides the lanes, KeptContact alone: large masses wait for
-// memory. theory 1.6 (normal, arm, gap), 1.7, 1.8
+// step fills it, contact by contact. Input and result of the contact law are a struct over the
+// number type: the same fields are those of one contact and of an island's lanes (RowGroup in
+// solver/island.hpp). Islands store only RowGroup and KeptContact; large islands are limited by
+// memory bandwidth. theory 1.6 (normal, arm, gap), 1.7, 1.8
 #pragma once
 
 #include <cstdint>
@@ -66,8 +66,8 @@ inline void see_fields(A& a, B& b, See&& see) {
   see(a.normal_tangent, b.normal_tangent), see(a.trial_speed, b.trial_speed);
 }
 
-/// What an island keeps of a contact while its lanes are solved. Velocities and displacements are
-/// those of A's point relative to B's. Axes: of A's body at the end of the substep for a lone
+/// Data of a contact that an island keeps while its lanes are solved. Velocities and displacements
+/// are those of A's point relative to B's. Axes: of A's body at the end of the substep for a lone
 /// block, local ones for an island.
 struct KeptContact {  // clang-format off
   // bodies that it acts between

@@ -43,7 +43,7 @@ struct Few {
       }
   }
 
-  // What the law makes of `trial`, and how that changes with it.
+  // The law's impulse for `trial`, and its derivative.
   static Vec3 projected(const ImpactContact& c, const Vec3& trial, Mat3& by_trial) {
     by_trial.setIdentity();
     if (c.is_bond) return trial;
@@ -62,7 +62,7 @@ struct Few {
     return pressed * n + cap * direction;
   }
 
-  // What the impulses miss of the law [m/s]; sets Newton's equations.
+  // Error of the impulses against the law [m/s]; sets Newton's equations.
   double set_equations() const {
     few.slip = few.slip_before;
     few.slip.noalias() += few.response * few.impulse;

@@ -411,7 +411,7 @@ struct Solver {
   }
 
   // Newton's method with friction that follows the normal impulses is quick, and fails where many
-  // contacts stick and slide. The convex form then finds which do. What has not settled is nearly a
+  // contacts stick and slide. The convex form then finds which do. An unsettled result is nearly a
   // solution, and whatever its slips are it gains no energy without restitution (theory 1.12).
   bool solve() {
     find_pattern();

@@ -19,7 +19,7 @@
 
 namespace talus {
 
-/// What an impact came to.
+/// Result of an impact.
 struct Impact {
   bool converged = true;
   int passes = 0;          ///< evaluations of all contacts

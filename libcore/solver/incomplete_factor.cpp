@@ -88,7 +88,7 @@ bool has_workers(const IncompleteFactor& factor) {
 }
 
 // Calls row(k) for each place, as if one by one: in several threads each row waits for those that
-// it needs, which for_needed(k, use) names. They were begun before it: nobody waits in vain.
+// it needs, which for_needed(k, use) names. They were begun before it: no row waits in vain.
 template <class ForNeeded, class Row>
 void sweep(IncompleteFactor& factor, bool upwards, const ForNeeded& for_needed, const Row& row) {
   const size_t n = factor.order.size();

@@ -54,7 +54,7 @@ class RowIn {
     return static_cast<ContactState>(static_cast<int>(value(&RowGroup::state)));
   }
 
-  /// What the contact law reads and leaves.
+  /// Input and result of the contact law.
   [[nodiscard]] LawRow<double> law() const {
     LawRow<double> out;
     see_fields(group_, out, [lane = lane_](const auto& of, auto& value) {
@@ -108,7 +108,7 @@ class RowIn {
   Group& group_;
   int lane_;
 };
-/// What a step sees of a row. It knows nothing of groups and lanes.
+/// A row as a step sees it. It knows nothing of groups and lanes.
 using IslandRow = RowIn<RowGroup>;
 using ConstIslandRow = RowIn<const RowGroup>;
 

@@ -71,7 +71,7 @@ void add_to_diagonals(const BodyPair& pair, const Packed<6>& W, const Vec3& shif
   if (pair.b >= 0) add_carried(W, shift, matrix.diagonal[static_cast<size_t>(pair.b)]);
 }
 
-// What the active bodies have to do with.
+// Reads the rows and neighbours of the active bodies.
 void read_active(const Island& island, IslandMatrix& matrix) {
   ActiveBodies& active = matrix.active;
   active.pairs.clear();

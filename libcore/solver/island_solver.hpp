@@ -39,7 +39,7 @@ struct IslandResult {
   int n_lowered = 0;  ///< rows stiffer than IslandSettings::stiffest, of pairs that changed
 };
 
-/// What an evaluation finds for a pair.
+/// Result of an evaluation for a pair.
 struct PairImpulse {
   Vec6 impulse;
   bool changed = false;  ///< its tangent did

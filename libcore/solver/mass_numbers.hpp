@@ -18,7 +18,7 @@ inline constexpr double calm_time = 0.2;
 
 // --- rows --------------------------------------------------------------------------------------
 
-/// [-] What a contact gives, of the mobility of its point: D_n = 1 / (compliance W_n).
+/// [-] Compliance of a contact, relative to the mobility of its point: D_n = 1 / (compliance W_n).
 inline constexpr double compliance = 1e-3;
 /// [m/s] Contacts farther apart than this closes in h, and than g h^2, are left out.
 inline constexpr double reach_speed = 0.5;

@@ -138,7 +138,7 @@ void sweep_turns(MassSystem& s) {
   }
 }
 
-// What the last sweep changed of the velocities since `before` [m/s]: root of the mean square over
+// Change of the velocities since `before` by the last sweep [m/s]: root of the mean square over
 // the bodies or over the mass, whichever is larger. So a heavy block does not hide many light ones,
 // nor do they hide it.
 double change_since_before(const MassSystem& s) {

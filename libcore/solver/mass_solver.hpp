@@ -62,7 +62,7 @@ struct MassResult {
   int n_colours = 0;
 };
 
-/// What is solved, and its scratch. Buffers grow to the largest mass and are kept.
+/// A mass to be solved, and its scratch. Buffers grow to the largest mass and are kept.
 struct MassSystem {  // clang-format off
   std::vector<MassInertia> inertia;         ///< in                                      (n_bodies)
   std::vector<MassRow> rows;                ///< pair by pair

@@ -1,4 +1,4 @@
-// Eight lanes of a mass at a time, for processors with AVX2. What headers define inline is shared
+// Eight lanes of a mass at a time, for processors with AVX2. Inline functions of headers are shared
 // with other files and must run everywhere, so they come before the pragma.
 #include <cmath>
 #include <span>

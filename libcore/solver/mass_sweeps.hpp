@@ -1,6 +1,6 @@
 // libcore/solver/mass_sweeps.hpp
-// What a pass over all batches of a mass reads and changes: the seam between the solver and its
-// lanes of four (mass_solver.cpp) or eight (mass_solver_avx2.cpp).
+// Data that a pass over all batches of a mass reads and changes: the seam between the solver and
+// its lanes of four (mass_solver.cpp) or eight (mass_solver_avx2.cpp).
 #pragma once
 
 #include <cstdint>

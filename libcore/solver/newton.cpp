@@ -63,8 +63,8 @@ CoupleBounds bounds_of(const BlockSystem<Dof>& system, const AngularRow& turn,
   return bounds;
 }
 
-// What angular rows add to the residual whose rows were evaluated, and to its derivative: apart,
-// since few blocks have them.
+// Terms of angular rows in the residual, after their rows were evaluated, and in its derivative:
+// apart, since few blocks have them.
 template <int Dof>
 [[gnu::noinline]] void add_couples(const BlockSystem<Dof>& system, std::span<const ContactRow> rows,
                                    Vec<Dof>& r) {
@@ -145,7 +145,7 @@ template <int Dof, int k>
   }
 }
 
-// What is left of b above row k, whose unknown is the last one not yet known.
+// Back substitution for row k, whose unknown is the last one not yet known.
 template <int Dof, int k>
 [[gnu::always_inline]] inline void substitute(const Mat<Dof>& H, Vec<Dof>& b) {
   b[k] *= H(k, k);
@@ -233,7 +233,8 @@ NewtonResult solve_holding_normals(BlockSystem<Dof>& system, std::span<ContactRo
   return {with.converged, without.passes + with.passes};
 }
 
-// What steps of Newton do not find, to no less than the rounding of velocities and impulses.
+// Solutions that steps of Newton do not find, to no less than the rounding of velocities and
+// impulses.
 template <int Dof>
 NewtonResult solve_relaxing(BlockSystem<Dof>& system, std::span<ContactRow> rows, int most_steps) {
   double stiffness = 0;

@@ -36,8 +36,8 @@ struct NewtonResult {
 /// Solves M (v - v_free) = sum J^T p(J v) + couples; sets `impulse` and `state` of the rows.
 ///
 /// Newton with the friction bound coupled to the normal impulse: whole steps at first, then with a
-/// line search. What has not settled after `max_passes` relaxes (solver/relax.hpp), in twelve times
-/// as many steps.
+/// line search. A block that has not settled after `max_passes` relaxes (solver/relax.hpp), in
+/// twelve times as many steps.
 template <int Dof>
 NewtonResult solve_contacts(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes);
 

@@ -110,7 +110,7 @@ inline void evaluate(const Vec3& spin, const CoupleBounds& bounds, AngularRow& r
   row.couple = row.rolling.couple + row.spinning.couple;
 }
 
-/// What a step of Newton has to take off the residual where a part aims at holding.
+/// The part that a step of Newton has to take off the residual where a couple aims at holding.
 [[nodiscard]] inline Vec3 aimed(const AngularRow& row) {
   Vec3 sum = Vec3::Zero();
   for (const CouplePart* part : {&row.rolling, &row.spinning})

@@ -1,5 +1,5 @@
 // libcore/solver/pair_evaluation.hpp
-// What an evaluation of the contact law over lanes takes and gives for a pair of bodies.
+// Input and result of evaluating the contact law over lanes for a pair of bodies.
 #pragma once
 
 #include <span>

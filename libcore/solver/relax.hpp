@@ -1,7 +1,7 @@
 // libcore/solver/relax.hpp
 // The balance of momentum M (v - v_free) = sum J^T p(J v) where steps of Newton do not find it: the
-// velocities come to rest from the free motion in a time of their own, M dv/ds = -residual. What
-// they settle on is a solution, and a stable one. theory, "One step of an island", 7
+// velocities come to rest from the free motion in a time of their own, M dv/ds = -residual. Their
+// limit is a solution, and a stable one. theory, "One step of an island", 7
 //
 // Where a heavy body jams a light one, forces differ by orders of magnitude between solutions that
 // are next to each other, and steps of Newton do not get there. A step of s is one of implicit

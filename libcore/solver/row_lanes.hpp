@@ -20,7 +20,7 @@ struct Rows {
   using Row = RowGroup;
   RowGroup* group[n_groups<V>];
 
-  // What `of` a group is, of all of them.
+  // The lanes `of` each group, joined.
   template <class Of>
   [[gnu::always_inline]] void gather(Of&& of, V& out) const {
     if constexpr (n_groups<V> == 1)
