@@ -15,7 +15,7 @@ using std::size_t;
 
 // Faces that are not parallel within this angle do not hold together [rad].
 constexpr double bonded_angle = 1e-3;
-// What lies against the faces of a bond may have another normal by less than the first; two faces
+// The normal of a face against the faces of a bond may differ by less than the first; two faces
 // of one block that meet the same other one differ by more than the second.
 constexpr double same_direction = 1 - 1e-5, still_its_face = 0.99;
 

@@ -1,6 +1,6 @@
 // libcore/scene/events.hpp: public
-// What happens to a block, a row an event: hits on fences and stems, and its end. The state
-// collects them, run files keep them.
+// Events of a block, a row each: hits on fences and stems, and its end. The state collects them,
+// run files keep them.
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 // yield (Yielding). Blocks meet them through the same search as blocks; for the solver of an island
 // they are the ground.
 // in:    convex bodies, their class of ground, and how they yield
-// out:   effect of a contact with a fixed body; what has hit those that yield so far
+// out:   effect of a contact with a fixed body; hits so far on those that yield
 //
 // A fixed body has an id of its own, from 0. Only the search of pairs knows it as a body of
 // Blocks::hulls (fixed_of(), hull_of_fixed() in scene/scene.hpp).
@@ -61,7 +61,7 @@ struct Yielded {
   int broken_by = -1;                     ///< block; -1 while it is whole
 };
 
-/// What a body that was pushed has met; those that nothing pushed have none.
+/// State of a body that was pushed; bodies that nothing pushed have none.
 struct MetBody {
   std::int32_t yielding = 0;  ///< index into `yieldings`; after them, the stems
   Yielded met;
@@ -86,7 +86,7 @@ struct YieldPush {
   Vec3 along = Vec3::Zero();  ///< the body's axis; without one, normal of the contact
 };
 
-/// What touched the panels of fences since the start; part of the state.
+/// Hits on the panels of fences since the start; part of the state.
 struct FenceState {
   std::vector<FenceHit> hits;  ///< in the order of their times, step by step
   HitChain chain;              ///< of `hits`

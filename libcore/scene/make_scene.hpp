@@ -10,7 +10,7 @@
 
 namespace talus {
 
-/// What a block is made of.
+/// Material of a block.
 struct Material {
   double density = 2500;  ///< > 0 [kg/m3]
   double young = 5e10;    ///< E, > 0 [Pa]

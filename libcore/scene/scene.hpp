@@ -1,5 +1,5 @@
 // libcore/scene/scene.hpp: public
-// What a run is made of, read once and const afterwards: ground, blocks at rest, loads, settings.
+// Input of a run, read once and const afterwards: ground, blocks at rest, loads, settings.
 // in:    plain data; make_scene() in scene/make_scene.hpp fills it from a block set
 // paper: Zhang et al. 2018, Sect. 2; docs/theory/theory.md
 #pragma once
@@ -122,7 +122,7 @@ struct Scene {
 /// Id of the fixed body that is body `b` of Blocks::hulls.
 [[nodiscard]] inline int fixed_of(const Scene& scene, int b) { return b - n_blocks(scene); }
 [[nodiscard]] inline int hull_of_fixed(const Scene& scene, int id) { return id + n_blocks(scene); }
-/// What the other side of a contact of two bodies of Blocks::hulls is called in ContactKey.
+/// Name in ContactKey of the other side of a contact of two bodies of Blocks::hulls.
 [[nodiscard]] inline int name_of_body(const Scene& scene, int b) {
   return is_fixed(scene, b) ? name_of_fixed(fixed_of(scene, b)) : b;
 }

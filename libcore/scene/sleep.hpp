@@ -1,5 +1,5 @@
 // libcore/scene/sleep.hpp: public
-// What blocks asleep carry, and how blocks wake.
+// Loads of blocks asleep, and how blocks wake.
 // docs/theory/theory.md, "Blocks asleep"
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace talus {
 
-/// What block b carried when it fell asleep, by neighbour.
+/// Load of block b when it fell asleep, by neighbour.
 [[nodiscard]] std::span<const SleepLoad> carried_by(const State& state, int b);
 /// Notes a load on a block that falls asleep: added to its load from that neighbour.
 void note_carried(const SleepLoad& load, State& state);

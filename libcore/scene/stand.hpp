@@ -16,7 +16,7 @@ namespace talus {
 /// Side of the cells in which a stand in a polygon is drawn [m].
 inline constexpr double stand_cell = 10;
 
-/// What is known of the trees on a square.
+/// Known data of the trees on a square.
 struct Stocking {
   double stems_per_ha = 0;
   double dbh_mean = 0, dbh_std = 0;  ///< diameter at breast height; a deviation of 0: all alike [m]

@@ -41,14 +41,14 @@ struct MassShare {
   int steady = 0;           ///< substeps in a row that a long step would have followed as well
 };
 
-/// What a block that sleeps carried when it fell asleep, of one neighbour.
+/// Load of a sleeping block when it fell asleep, from one neighbour.
 struct SleepLoad {
   std::int32_t block = 0;    ///< asleep
   std::int32_t by = 0;       ///< the neighbour
   Vec6 load = Vec6::Zero();  ///< force, and couple about the centroid of `block` [N, N m]
 };
 
-/// What a block has slid, on ground whose friction follows that.
+/// Slip distance of a block, on ground whose friction follows that.
 struct SlidWay {
   double way = 0;   ///< [m]
   double time = 0;  ///< when it did so last [s]

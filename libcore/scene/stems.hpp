@@ -33,7 +33,7 @@ namespace talus {
 /// Adds stems to a scene whose blocks and fixed bodies are all there. `faces`: of each section.
 void add_forest(Scene& scene, std::vector<Stem> stems, std::vector<GroundClass> faces);
 
-/// What stem `stem` has met in a world (YieldingState); nothing where nothing pushed it.
+/// State of stem `stem` in a world (YieldingState); that at the start where nothing pushed it.
 [[nodiscard]] const Yielded& met_by_stem(const Scene& scene, const State& state, int world,
                                          int stem);
 
