@@ -20,7 +20,7 @@ struct WayError {
 };
 
 /// From the changes of the mean acceleration and spin rate since the substep of `last_h` before.
-/// What changes linearly, by c over h, leaves c h^2 / 12.
+/// A linear change by c over h leaves an error of c h^2 / 12.
 [[nodiscard]] inline WayError error_of_way(const BlockNumbers& c, const Vec3& change,
                                            const Vec3& change_of_spin, const Vec3& path,
                                            const Vec3& turn, double h, double last_h) {
@@ -53,7 +53,7 @@ struct MeanError {
 }
 
 /// The longest substep that is tried after one of `h` whose error is `share`, `longest` having been
-/// that before. What was cut short for another reason says nothing [s].
+/// that before. A substep cut short for another reason says nothing [s].
 [[nodiscard]] inline double longest_after(const Settings& settings, double share, double h,
                                           double longest) {
   constexpr double sure = 0.8;

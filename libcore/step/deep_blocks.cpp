@@ -119,7 +119,7 @@ bool is_too_fast(const Scene& scene, const State& state, size_t b) {
   return motion.velocity.squaredNorm() > 2 * fall + blocks.velocity[b].squaredNorm();
 }
 
-// What a block is in, by its body and not by its contact.
+// The body that a block is in, by its overlap and not by its contact.
 int partner_of(const Scene& scene, const State& state, int b, DeepWork& w) {
   w.is_suspect[static_cast<size_t>(b)] = 1;
   place_suspects(scene, state, w);

@@ -5,7 +5,7 @@
 // out:   State::deep, and the largest overlap of the step
 //
 // A contact only raises the suspicion: along its own normal a block that has turned or gone round a
-// corner seems to be in where it is not. What counts is the overlap of the two bodies.
+// corner seems to be in where it is not. The overlap of the two bodies counts.
 #pragma once
 
 #include "scene/scene.hpp"

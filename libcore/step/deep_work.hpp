@@ -11,7 +11,7 @@
 
 namespace talus {
 
-/// What note_deep_blocks recomputes, but `is_suspect`, which a step fills.
+/// Scratch of note_deep_blocks, but `is_suspect`, which a step fills.
 struct DeepWork {  // clang-format off
   std::vector<std::uint8_t> is_suspect;   ///< 1: by a contact it is deep in something   (n_blocks)
   std::vector<Pose> poses;                ///< at the end of the step                    (n_bodies)

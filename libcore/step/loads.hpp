@@ -1,6 +1,6 @@
 // libcore/step/loads.hpp: public
-// What drives a block besides its contacts: gravity, base motion, point loads, which water in
-// joints is.
+// Loads of a block besides its contacts: gravity, base motion, and point loads, which include water
+// in joints.
 // theory 1.5, 1.14
 #pragma once
 
@@ -21,7 +21,7 @@ namespace talus {
 
 /// The point loads of block b.
 [[nodiscard]] std::span<const PointLoad> loads_on(const Scene& scene, int b);
-/// What is left of one [N].
+/// The present force of one [N].
 [[nodiscard]] inline Vec3 force_of(const PointLoad& load, std::span<const double> pressure) {
   if (load.wet_face < 0) return load.force;
   return pressure[static_cast<std::size_t>(load.wet_face)] * load.force;
@@ -32,7 +32,7 @@ namespace talus {
 /// Torque of the point loads about the centroid of block b, local axes [N m].
 [[nodiscard]] Vec3 load_torque(const Scene& scene, int b, const Quat& attitude,
                                std::span<const double> pressure);
-/// What they do to its strains, body axes [N m].
+/// Their load on its strains, body axes [N m].
 [[nodiscard]] Vec6 load_strain(const Scene& scene, int b, const Quat& attitude,
                                std::span<const double> pressure);
 

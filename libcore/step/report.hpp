@@ -1,5 +1,5 @@
 // libcore/step/report.hpp: public
-// What one step reports: its numbers for the health record, and trouble as bits.
+// Report of one step: its numbers for the health record, and trouble as bits.
 #pragma once
 
 #include <array>

@@ -34,7 +34,8 @@ StepReport step(const Scene& scene, State& state, Work& work);
 
 /// State at time 0 without static start.
 [[nodiscard]] State start_unsettled(const Scene& scene);
-/// What follows the motion of the blocks over settings.dt: time, breakage, deep blocks, counters.
+/// Ends a step after the motion of the blocks over settings.dt: time, breakage, deep blocks,
+/// counters.
 void end_step(const Scene& scene, State& state, Work& work, StepReport& report);
 
 /// Energies of all blocks at state.time [J]. Potential energy counts from the local zero.

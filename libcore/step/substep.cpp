@@ -412,7 +412,7 @@ void set_motions(const Scene& scene, int b, const Substep& s, const Mat3& to_bod
   }
 }
 
-// What the rows take over from the step before.
+// Data that the rows take over from the step before.
 void inherit_all(const Scene& scene, const BlockNumbers& c, const Substep& s, const Mat3& to_body,
                  std::span<const ContactMemory> memory, std::span<const Contact> contacts,
                  std::span<ContactRow> rows) {

@@ -1,5 +1,5 @@
 // libcore/step/substep.hpp: public
-// What a substep of law talus starts from, for a lone block and for an island: numbers of a block,
+// Start of a substep of law talus, for a lone block and for an island: numbers of a block,
 // its free motion, and the rows of its contacts with the ground.
 // theory 1.7, 1.8 (law of a contact over a step), 1.10 (correction about the free motion)
 #pragma once
@@ -96,7 +96,8 @@ void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s,
 void hold(const GroundClass& face, double recovery_time, ContactRow& row);
 
 /// The corner of a bonded face of class `face` at a contact that carries `impulse` [N s] over a
-/// substep of h [s]. What balances load and inertia judges a face; springs lag behind (theory,
+/// substep of h [s]. A face is judged by the load that balances inertia; springs lag behind
+/// (theory,
 /// "Bonds").
 [[nodiscard]] BondCorner corner_of(const KeptContact& contact, const GroundClass& face,
                                    const Vec3& impulse, double h);
@@ -126,7 +127,7 @@ void add_segment(int b, bool flight, double t, double h, const Motion& start, co
 /// Ends the flight of block b at `t`, not before its local time: its motion is then that at `t`.
 void end_flight(const Scene& scene, int b, double t, State& state, Work& work);
 
-/// What an overlap that presses nothing loses in `h`: slower than gravity, so nothing hops [m].
+/// Decrease in `h` of an overlap that presses nothing: slower than gravity, so nothing hops [m].
 [[nodiscard]] inline double offset_relaxed(double gravity, double h) {
   return std::min(law::fastest_relaxing, law::relaxes_by_gravity * gravity * h) * h;
 }

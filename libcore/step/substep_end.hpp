@@ -1,6 +1,6 @@
 // libcore/step/substep_end.hpp
-// What every step does where a substep of it holds: with blocks, with the energy that contacts
-// took, and with fixed bodies that were touched. A lone block, an island and a mass share these.
+// End of a substep that is accepted, for every step: blocks, energy taken by contacts, and fixed
+// bodies that were touched. A lone block, an island and a mass share these.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// Stage 9 of an island's step: the substep holds. What it leaves of bonds, memory, motion, panels,
-// and the work of its contacts.
+// Stage 9 of an island's step: accepts the substep: its bonds, memory, motion, panels, and the work
+// of its contacts.
 #include <algorithm>
 #include <cmath>
 
@@ -125,7 +125,7 @@ struct SubstepAcceptance {
                                                : Vec3(contact.shear + path - along * normal);
   }
 
-  // What the contacts keep for the next step, and the work they did. In one piece: see
+  // The memory of the contacts for the next step, and their work. In one piece: see
   // ContactMaker::add_points().
   [[gnu::flatten]] void remember() {
     forget_contacts(members, state);

@@ -1,6 +1,6 @@
 // Stage 6 of an island's step, its end: hits become part of the motion without contact, about which
-// the contacts that press are solved. What presses a body that was pressed before does so over all
-// of the substep; another is pressed from its last hit on.
+// the contacts that press are solved. A body that was pressed before is pressed over all of the
+// substep; another from its last hit on.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -208,7 +208,7 @@ void take_pair(const HitLooks& looks, size_t p, const FreeMotions& free, IslandS
   for (const size_t r : contacts_of(system, p)) take_row(looks, r, rest, free, system, hits);
 }
 
-// What the contacts of pair `p` change of the velocity of its member k.
+// Change of the velocity of member k of pair `p` by its contacts.
 Vec6 change_by_pair(const IslandSystem& system, size_t p, int k) {
   const BodyPair& pair = system.island.pairs[p];
   Vec6 sum = Vec6::Zero();

@@ -96,7 +96,7 @@ struct SubstepCheck {
   }
 
   // When the first contact that waits closes: that ends the substep of a small island, and the
-  // contact is hit when the next one begins. What was hit in free flight had its hit.
+  // contact is hit when the next one begins. A member hit in free flight had its hit.
   [[nodiscard]] double first_hit() const {
     double first = free.h + 1;
     for (const size_t r : system.waiting) {
@@ -180,7 +180,8 @@ struct SubstepCheck {
 
   // --- sleep -----------------------------------------------------------------------------------
 
-  // Whether members asleep have to be awake in the substep. What is hit wakes with its pile.
+  // Whether members asleep have to be awake in the substep. A block that is hit wakes with its
+  // pile.
   [[nodiscard]] bool wakes_any() const {
     if (!asks_for_presses(state, members)) return false;
     list_presses(members, free.h, system, end.presses);

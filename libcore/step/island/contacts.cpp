@@ -46,7 +46,7 @@ struct PointPath {
   Vec3 start, end, moved, velocity, spin_end;
 };
 
-/// What the contacts of a manifold of two blocks have in common.
+/// Common data of the contacts of a manifold of two blocks.
 struct Meeting {
   size_t ka, kb;         ///< members
   Vec3 shift;            ///< of B's arms from A's [m]
@@ -129,7 +129,7 @@ struct ContactMaker {
 
   // --- with the ground -------------------------------------------------------------------------
 
-  // What block b remembers; of a bond with the ground that the substep breaks, no more.
+  // Memory of block b; of a bond with the ground that the substep breaks, no more.
   [[nodiscard]] std::span<const ContactMemory> ground_memory(int b) const {
     if (tries.broken.empty()) return memory_of(b);
     making.unbonded = memory_of(b);

@@ -1,8 +1,8 @@
 // libcore/step/island/data.hpp
-// What the step of an island computes and may throw away, each struct by its life. The nine stages
-// that fill them are in step/island/stages.hpp; the comment at a group names the stage.
-// PairSearch: a step, for all islands. All else is in IslandScratch: the island at hand, so that
-// each thread could have one of its own. Buffers grow to the largest step and are kept.
+// Scratch of the step of an island, each struct by its life. The nine stages that fill them are in
+// step/island/stages.hpp; the comment at a group names the stage. PairSearch: a step, for all
+// islands. All else is in IslandScratch: the island at hand, so that each thread could have one of
+// its own. Buffers grow to the largest step and are kept.
 #pragma once
 
 #include <algorithm>
@@ -70,7 +70,7 @@ struct PairSearch {  // clang-format off
   SleepScratch sleep;
 };  // clang-format on
 
-/// What the step of a lone block may change, as it was before.
+/// State of a block before the step of a lone block, which may change it.
 struct LoneBefore {
   int block = 0;
   Phase phase = Phase::near_ground;
@@ -254,14 +254,14 @@ struct SubstepHits {  // clang-format off
   std::vector<PairPoint> points;
 };  // clang-format on
 
-/// What the substep comes to.
+/// Result of the substep.
 struct SubstepEnd {  // clang-format off
   // 8 check_substep
   std::vector<Vec6> displacement;           ///< by contact                              (n_members)
   std::vector<BondFace> bond_faces;         ///< and their loads                        (n_bonded)
   double error = 0;                         ///< estimated, as a share of the displacement [-]
   std::vector<YieldPush> pushes;            ///< on yielding fixed bodies
-  std::vector<PairPress> presses;           ///< where needed to find who sleeps
+  std::vector<PairPress> presses;           ///< where needed to find sleeping blocks
   std::vector<Vec6> load_change;            ///< of those asleep                        (n_members)
   SleepScratch sleep;                         ///< its `blocks` have to be awake in it
   // 9 accept
@@ -269,7 +269,7 @@ struct SubstepEnd {  // clang-format off
   std::vector<Vec3> ground_impulse;        ///< hits aside [N s]                        (n_members)
 };  // clang-format on
 
-/// What became of an attempt at a substep.
+/// Verdict on an attempt at a substep.
 struct SubstepVerdict {
   enum class Kind : std::uint8_t { accept, again, left } kind = Kind::accept;
   SubstepCut reason = SubstepCut::unconverged;  ///< where it is made again
@@ -281,7 +281,7 @@ struct SubstepVerdict {
   static SubstepVerdict left() { return {Kind::left}; }
 };
 
-/// What the attempts at a substep have come to so far, and those of the step.
+/// Record of the attempts at a substep so far, and of those of the step.
 struct SubstepTries {
   // of the substep
   int halvings = 0;              ///< because it did not converge

@@ -35,8 +35,8 @@ struct HitLooks {
   void look_ahead(std::size_t p, double from, double not_before) const;
   /// Takes the looks that are due first, all those of one time; empty: there is none.
   void take_due(std::vector<PairLook>& due) const;
-  /// What touches where the pair of `look` is at its time: appended to SubstepHits::batch where the
-  /// pair is hit. Else it looks on.
+  /// The contacts that touch where the pair of `look` is at its time: appended to
+  /// SubstepHits::batch where the pair is hit. Else it looks on.
   void look_at(const PairLook& look) const;
 
   // parts of these

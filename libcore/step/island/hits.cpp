@@ -165,7 +165,7 @@ struct HitPhase {
     hits.hit_members.add(static_cast<int>(k));
   }
 
-  // What the contacts that were solved did to blocks that may break or be crushed. All together
+  // Loads of the solved contacts on blocks that may break or be crushed. All together
   // they took no more than `taken`.
   void note_impulses(int group, double taken) const {
     const auto speed_of = [&](const ImpactContact& c, int body) {
@@ -240,7 +240,7 @@ struct HitPhase {
     }
   }
 
-  // What is hit at `time`.
+  // Hits the contacts that close at `time`.
   void hit(double time) {
     const bool is_same = time <= last_time + 1e-9 * free.h;
     rounds = is_same ? rounds + 1 : 0;

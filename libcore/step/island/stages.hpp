@@ -95,7 +95,7 @@ int close_waiting(const IslandMembers& members, const FreeMotions& free, IslandS
                   SubstepHits& hits);
 
 // --- 7 solve (step/island/impacts.cpp)
-/// What a solution has come to.
+/// Result of a solution.
 struct Solution {
   bool converged = true;
   int passes = 0;
@@ -122,7 +122,7 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
                                            const SubstepTries& tries,
                                            std::vector<NearFeatures>& near_ground,
                                            ContactMaking& making, SubstepEnd& end);
-/// What the forces of member `k` leave, `change` being that of its velocity by contact and
+/// Error by the forces of member `k`, `change` being that of its velocity by contact and
 /// `displacement` that of its centroid. None where the previous contact force is unknown.
 [[nodiscard]] WayError error_of_member(const Scene& scene, const State& state,
                                        const IslandMembers& members, const FreeMotions& free,

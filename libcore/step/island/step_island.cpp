@@ -1,4 +1,4 @@
-// The step of an island as a page: its nine stages in order. What they are: step/island/stages.hpp.
+// The step of an island as a page: its nine stages in order (see step/island/stages.hpp).
 #include "step/island/step_island.hpp"
 
 #include <algorithm>

@@ -92,8 +92,8 @@ struct UntouchedCheck {
   size_t first_segment;  // of the island at hand
   double thrown = 0;     // hits may move a block of the island that is not alone by this more [m]
 
-  // What the blocks of the island that are not alone may do to each other and to the ground throws
-  // none of them faster than twice as fast as the fastest of their points is.
+  // Contacts of the blocks that are not alone with each other and the ground throw none of them
+  // faster than twice the speed of their fastest point.
   void see_throws(std::span<const int> members) {
     thrown = 0;
     for (const int b : members)

@@ -13,7 +13,7 @@
 
 namespace talus {
 
-/// What the ground does beside the rows that are made.
+/// Couples, friction and drag of the ground for the rows that are made.
 inline void begin_soil(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                        const State& state, double t, Work& work) {
   SoilWork& soil = work.soil;

@@ -144,7 +144,7 @@ struct Advance {
     }
   }
 
-  // What a longer substep would have broken may hold over a shorter one.
+  // A bond that a longer substep would have broken may hold over a shorter one.
   Attempt shorten(double to, double& h) {
     h = to;
     breaks_bonds = false;
@@ -289,8 +289,8 @@ struct Advance {
   }
 
   // Whether the ground's motion may be too rough to take its mean over the substep where the block
-  // begins or ceases to move in it. What drives the block before that counts in the mean and does
-  // nothing: the speed errs by up to an eighth of how far the acceleration ranges, times h.
+  // begins or ceases to move in it. Forces before that count in the mean without an effect: the
+  // speed errs by up to an eighth of how far the acceleration ranges, times h.
   [[nodiscard]] bool is_rough(double t, double h) const {
     if (scene.base.time.empty()) return false;
     return h / 8 * range_of_base(scene.base, t, t + h) >
@@ -312,8 +312,8 @@ struct Advance {
     std::erase_if(work.bond_faces, [](const BondFace& face) { return holds(face); });
   }
 
-  // What carries more than it holds is gone. The substep is then computed again without it; the
-  // state loses it when that is accepted, since rows without a bond leave none.
+  // An overloaded bond is gone. The substep is then computed again without it; the state loses it
+  // when that is accepted, since rows without a bond leave none.
   bool break_bonds() {
     if (work.bond_faces.empty()) return false;
     if (!breaks_bonds) work.unbonded = state.memory[i()];

@@ -39,7 +39,7 @@ struct PressedRow {
   [[nodiscard]] Vec3 along_face() const { return impulse - p_n * normal; }
 };
 
-/// What both stages read.
+/// Input of both stages.
 struct MassEnd {
   const Scene& scene;
   const IslandMembers& members;

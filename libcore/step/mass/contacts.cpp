@@ -180,7 +180,7 @@ struct MassMaker {
   }
   static constexpr double law_limit = 1e30;  // a float, and its square times a mobility too
 
-  // What the contact pressed with in the last step, over this one.
+  // The impulse of the contact in the last step, scaled to this one.
   [[nodiscard]] Vec3 last_impulse(const ContactMemory& then, const Vec3& n,
                                   const Faces& faces) const {
     const double p_n = free.h * then.normal_force;
@@ -193,7 +193,7 @@ struct MassMaker {
 
   // --- with the ground -------------------------------------------------------------------------
 
-  // What an impact returns at this approach on ground.
+  // Restitution of an impact at this approach on ground.
   static double restitution_on(const GroundClass& ground, double mass, double restitution,
                                double approach) {
     return approach < 0 ? fall_on(ground, mass).at(restitution, -approach) : restitution;

@@ -1,7 +1,6 @@
 // libcore/step/mass/data.hpp
-// What the mass step computes and may throw away. The stages that fill it are in
-// step/mass/stages.hpp. Members, manifolds and free motions are those of the exact step
-// (step/island/data.hpp).
+// Scratch of the mass step. The stages that fill it are in step/mass/stages.hpp. Members, manifolds
+// and free motions are those of the exact step (step/island/data.hpp).
 #pragma once
 
 #include <vector>
@@ -41,7 +40,7 @@ struct MassContact {
   bool yields = false;     ///< the other side yields
 };
 
-/// What the contacts did to a member.
+/// Changes of a member by its contacts.
 struct MassChange {
   Vec3 impulse = Vec3::Zero();    ///< [N s]
   Vec3 couple = Vec3::Zero();     ///< about `middle` [N m s]
@@ -69,7 +68,7 @@ struct MassPart {
 
 struct MassScratch {  // clang-format off
   // 2 make_mass_contacts
-  std::vector<MassPart> parts;              ///< one where nobody shares the work
+  std::vector<MassPart> parts;              ///< one without further threads
   std::vector<MassMember> members;          ///<                                        (n_members)
   MassSystem system;                        ///< bodies: members
   std::vector<MassContact> contacts;        ///< of the rows                               (n_rows)

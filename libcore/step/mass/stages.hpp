@@ -51,11 +51,11 @@ void bar_from_mass(const Scene& scene, const IslandMembers& members, State& stat
 }
 /// Sweeps at least, at an accuracy [-].
 [[nodiscard]] int mass_sweeps(double accuracy);
-/// [-] What a contact gives, of the mobility of its point: while the mass grows calm, step by step
-/// as much as in the exact step, so that nothing sags once that one has it.
+/// [-] Compliance of a contact, relative to the mobility of its point: while the mass grows calm,
+/// step by step as much as in the exact step, so that nothing sags once that one has it.
 [[nodiscard]] double mass_compliance(const Scene& scene, const MassShare& share);
 /// Takes into State::mass how the substep of `h` was solved, and whether a long step would have
-/// been accurate. What most sweeps do not settle counts in the report as not converged.
+/// been accurate. A system that most sweeps do not settle counts in the report as not converged.
 void note_solution(const Scene& scene, const IslandMembers& members, double h, const MassScratch& w,
                    State& state, StepReport& report);
 

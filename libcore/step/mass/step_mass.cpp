@@ -1,4 +1,4 @@
-// The mass step as a page: its stages in order. What they are: step/mass/stages.hpp.
+// The mass step as a page: its stages in order (see step/mass/stages.hpp).
 #include "step/mass/step_mass.hpp"
 
 #include <algorithm>
