@@ -1,10 +1,10 @@
 // libcore/blocks/area_clip.hpp: public
-// What of each triangle of a TRN lies in an area: convex pieces in plan.
+// The part of each triangle of a TRN in an area: convex pieces in plan.
 // in:    TRN, area
 // out:   the triangles that the area overlaps, the sides that cut them, the pieces inside
 //
 // A triangle is cut along the whole line of each side that crosses it, so pieces are convex; they
-// lie wholly inside or outside of the area. What is nearer to a side than the tolerance lies on it:
+// lie wholly inside or outside of the area. A point nearer to a side than the tolerance lies on it:
 // corners on nodes, and sides along grid lines, cut nothing. Corners a hair beside them are moved
 // there first, so that each triangle and its neighbour see the same.
 #pragma once

@@ -25,7 +25,7 @@ struct AssembleOptions {
   int material = 0;
 };
 
-/// What became of the mass.
+/// Balance of the mass.
 struct AssembleReport {
   int n_cells = 0;            ///< convex cells after cutting
   int n_pieces = 0;           ///< bodies of rock between joints, before slivers were merged

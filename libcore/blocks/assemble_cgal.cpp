@@ -139,7 +139,7 @@ std::vector<int> merge_slivers(const std::vector<CellPiece>& pieces, const Conta
   std::vector<int> dropped;
   for (const int start : order) {
     int p = root(parent, start);
-    // What a sliver has become by taking in smaller ones is looked at as it now is.
+    // A sliver that has taken in smaller ones is judged as it now is.
     if (p != start || !is_sliver(sum[p], options)) continue;
     int best = -1;
     double best_area = 0;

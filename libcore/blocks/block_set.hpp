@@ -18,7 +18,7 @@
 
 namespace talus {
 
-/// What made a face; joint sets count from 0.
+/// Origin of a face; joint sets count from 0.
 enum FaceOrigin : int {
   face_terrain = -1,      ///< the ground surface, or any face of a block that was not cut here
   face_failure = -2,      ///< the failure surface below the mass

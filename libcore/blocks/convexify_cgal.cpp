@@ -215,7 +215,7 @@ Polyhedron cut_to_volume(const Polyhedron& body, const Vec3& normal, double low,
   return below((low + high) / 2);
 }
 
-// What the cells of a block say about its shape.
+// Shape of a block from its cells.
 struct RockShape {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high = -low;
@@ -263,7 +263,7 @@ ConvexTask part_of(const ConvexTask& task, const Plane& plane, double tolerance)
     part.volume += volume_of(clipped);
     part.cells.push_back(std::move(clipped));
   }
-  // What was given to the block by its neighbours is shared out by volume.
+  // Volume given to the block by its neighbours is shared out by volume.
   if (whole > 0) part.volume *= task.volume / whole;
   return part;
 }

@@ -17,7 +17,7 @@
 
 namespace talus {
 
-/// What a face of the complex is, besides joints (>= 0: index of the joint).
+/// Origin of a face of the complex, besides joints (>= 0: index of the joint).
 enum CutFace : int {
   cut_terrain = -1,
   cut_failure = -2,

@@ -20,7 +20,7 @@
 namespace talus {
 namespace {
 
-// What a vertex remembers: which plane it was last compared with, and on which side it lies.
+// Memory of a vertex: the plane that it was last compared with, and its side of it.
 struct VertexInfo {
   int joint = -1;   // or n_joints + side of the outline
   double side = 0;  // signed distance, exactly 0 on the joint [m]

@@ -174,7 +174,7 @@ void lay_plane(const Trn& ground, const Area& area, const Where& where, FailureP
   plane.rising_share = share_over_rising_bed(ground, mass.bed, area, plane.attitude.dip_direction);
 }
 
-// What find_source refuses is refused before the foot is looked for.
+// Inputs that find_source refuses are refused before the foot is looked for.
 void check_source(const Trn& ground, const Area& area, const Where& where) {
   SourceOptions options;
   options.kind = FailureSurface::vertical_depth;

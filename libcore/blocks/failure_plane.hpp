@@ -41,7 +41,7 @@ struct FootPoint {
 [[nodiscard]] std::vector<FootPoint> find_foot(const Trn& ground, const Area& area,
                                                const Attitude& plane);
 
-/// What a plane does at the foot.
+/// A plane at the foot.
 struct PlaneAtFoot {
   double free_share = 0;               ///< of the foot where the plane is not below the ground
   double largest_step = 0;             ///< of the ground above the plane on the rest [m]
@@ -89,7 +89,7 @@ struct FailurePlane {
   double rising_share = 0;  ///< share of the mass over bed that rises against the motion
 };
 
-/// What the joint sets of a source offer.
+/// Planes and wedges that the joint sets of a source offer.
 struct FailurePlanes {
   Attitude slope;                    ///< mean plane of the ground in the area
   double friction = 0;               ///< of the ground below the mass [rad]
@@ -123,7 +123,7 @@ struct PlaneAtShare {
 /// find_source options of a plane.
 [[nodiscard]] SourceOptions source_on_plane(const Attitude& plane, const Vec3& point);
 
-/// Joint sets for a slope whose joints nobody has measured: one that dips out of it, two
+/// Joint sets for a slope whose joints have not been measured: one that dips out of it, two
 /// thirds of the path from friction to slope, a rear and a lateral one, spaced for about `n_blocks`
 /// blocks. Empty when the slope is not at least `least_room_deg` steeper than friction, or its foot
 /// is too uneven for a plane to daylight.

@@ -1,5 +1,5 @@
 // libcore/blocks/failure_raster.hpp: public
-// What the values of a failure raster are: elevations of the surface, or depths of the mass.
+// Meaning of the values of a failure raster: elevations of the surface, or depths of the mass.
 // in:    the raster at the nodes of the terrain, the source area
 // out:   a raster of elevations; refusals of one that is plainly the other
 #pragma once

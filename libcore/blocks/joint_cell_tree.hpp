@@ -1,8 +1,7 @@
 // libcore/blocks/joint_cell_tree.hpp
 // The binary tree of joint cells: which joint divides which of them, and in what order.
 // in:    one joint cell around the mass with all pieces of rock, joints, the sides of the outline
-// of
-//        the mass, and a cutter of pieces
+//        of the mass, and a cutter of pieces
 // out:   the joint cells that no joint divides any more, each cut by the sides that cross it into
 //        convex leaves, with their pieces
 //

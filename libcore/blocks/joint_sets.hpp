@@ -68,7 +68,7 @@ struct Attitude {
 [[nodiscard]] std::vector<Joint> draw_joints(const JointSet& set, int index, const Vec3& centre,
                                              double radius, std::uint64_t seed);
 
-/// What the number of joint cells in a mass hangs on.
+/// Measures of a mass that determine its number of joint cells.
 struct MassMeasure {
   double volume = 0;               ///< [m3]
   std::vector<Vec3> vertices;      ///< of its surface [m]

@@ -154,7 +154,7 @@ std::vector<RestPlane> merged(std::span<const BlockContact> contacts) {
 
 namespace {
 
-// What of the mass is still there.
+// The remaining part of the mass.
 struct Peeling {
   std::span<const std::vector<BlockContact>> contacts;
   std::span<const double> weight;

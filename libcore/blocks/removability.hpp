@@ -52,15 +52,15 @@ struct BlockContact {
   double area = 0;  ///< [m2]
 };
 
-/// What each kind of face of a block set resists with.
+/// Friction of each kind of face of a block set.
 struct FaceFriction {
   std::vector<double> of_set;  ///< tangent of the friction angle of each joint set  (n_joint_sets)
   double of_bed = 0;           ///< of the ground below the mass
   double of_rock = 0;          ///< of all other faces
 };
 
-/// The contacts of each block: joint faces it shares, failure surface, sides of the source. What is
-/// smaller than 0.02 V^(2/3) is left out.
+/// The contacts of each block: joint faces it shares, failure surface, sides of the source. Faces
+/// smaller than 0.02 V^(2/3) are left out.
 [[nodiscard]] std::vector<std::vector<BlockContact>> contacts_of(const BlockSet& blocks,
                                                                  const FaceFriction& friction);
 
