@@ -22,7 +22,7 @@ namespace talus {
 namespace fs = std::filesystem;
 namespace {
 
-// What accompanies a file of data.
+// Files that accompany a file of data.
 bool is_companion(const std::string& path, Contents contents, const std::set<std::string>& all) {
   static const std::set<std::string> extensions = {
       ".shx", ".dbf", ".prj",  ".cpg", ".sbn", ".sbx", ".qix", ".qpj",  ".qml", ".sld", ".qmd",

@@ -22,7 +22,7 @@ void check_polygon(const OGRPolygon& polygon, const Where& where);
 /// As check_polygon() for a polygon given by the corners of its outline.
 void check_polygon(const std::vector<Vec2>& corners, const Where& where);
 
-/// What unite_polygons() did.
+/// Result of unite_polygons().
 struct Uniting {
   int n_united = 0;  ///< polygons that overlapped or touched another one
   int n_made = 0;    ///< polygons made of them

@@ -51,7 +51,7 @@ std::string authority(const OGRSpatialReference& srs) {
   return name && code ? std::string(name) + ":" + code : std::string();
 }
 
-// What a GeoPackage calls the reference of a layer that has none.
+// Name in a GeoPackage for the reference of a layer that has none.
 bool is_undefined(const OGRSpatialReference& srs) {
   const char* const name = srs.GetName();
   return name != nullptr && std::string_view(name).starts_with("Undefined ");
@@ -103,7 +103,7 @@ std::string crs_name(const std::string& crs_wkt) {
   const OGRSpatialReference srs = parsed_crs(crs_wkt);
   const char* name = srs.GetName();
   const std::string code = authority(srs);
-  // What GDAL and PROJ write where there is none.
+  // Names that GDAL and PROJ write for missing ones.
   const auto is_name = [](const char* word) {
     return word && word != std::string("unnamed") && word != std::string("unknown");
   };

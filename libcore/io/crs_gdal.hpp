@@ -28,7 +28,7 @@ namespace talus {
 /// "EPSG:31287 (MGI / Austria Lambert)", or the name alone, or "no CRS".
 [[nodiscard]] std::string crs_name(const std::string& crs_wkt);
 
-/// What a command takes for the system in plan: "EPSG:31287", also where a .prj leaves the code
+/// The name of the system in plan for a command: "EPSG:31287", also where a .prj leaves the code
 /// out; the quoted WKT of one that has no code.
 [[nodiscard]] std::string crs_code(const std::string& crs_wkt);
 
@@ -48,8 +48,8 @@ namespace talus {
 /// WKT of the system that heights are in ("EGM96 height"); empty when it is not said.
 [[nodiscard]] std::string height_crs(const std::string& crs_wkt);
 
-/// Metres in one unit of heights that are in `crs_wkt`, where nobody says it of them: that of the
-/// system of heights, else a metre. Nothing where there is none and the plan is in another unit
+/// Metres in one unit of heights that are in `crs_wkt`, without other statements on them: that of
+/// the system of heights, else a metre. Nothing where there is none and the plan is in another unit
 /// (feet): its heights may be in either, and a plan that is reprojected alone would leave slopes
 /// 3.28 times too steep.
 [[nodiscard]] std::optional<double> height_unit_m(const std::string& crs_wkt);

@@ -354,8 +354,8 @@ struct H5Reader::Impl {
   Id file;
   std::size_t most_bytes = 0;  // no array can be longer: deflate packs 1032 to 1 at best
 
-  // Talus writes no links to other files, and no values in them: whoever gives such a file wants
-  // another one read.
+  // Talus writes no links to other files, and no values in them: such a file is meant to make
+  // another one be read.
   void check_links() const {
     const auto found = [](hid_t, const char* name, const H5L_info_t* link, void* to) -> herr_t {
       if (link->type == H5L_TYPE_HARD) return 0;

@@ -170,7 +170,7 @@ std::string doubt_on_precision(const std::vector<MeshBody>& bodies) {
   double worst = 0;
   for (const MeshBody& body : bodies) {
     Vec3 low = Vec3::Constant(HUGE_VAL), high = -low, step = Vec3::Zero();
-    bool is_single = true, is_round = true;  // round: whole centimetres, which nobody has rounded
+    bool is_single = true, is_round = true;  // round: whole centimetres that are not rounded
     const auto look = [&](const Polyhedron& surface) {
       for (const Vec3& v : surface.vertices) {
         low = low.cwiseMin(v), high = high.cwiseMax(v);

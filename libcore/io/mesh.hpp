@@ -62,8 +62,8 @@ struct Mesh {
 /// Reads a file; the format follows from the extension. Throws InputError.
 [[nodiscard]] std::vector<MeshBody> read_mesh(const std::string& path);
 
-/// What bodies of a file may be instead, a line each: several bodies in one object move apart, and
-/// so do bodies that are named like parts where the object of that name is missing.
+/// Likely mistakes in the bodies of a file, a line each: several bodies in one object move apart,
+/// and so do bodies that are named like parts where the object of that name is missing.
 [[nodiscard]] std::vector<std::string> doubts_about(const std::vector<MeshBody>& bodies);
 
 /// A body as the text of an OBJ file, coordinates with 17 digits: an object of one surface, or of

@@ -21,7 +21,7 @@ class MeshBuilder {
   void add_vertex(const Vec3& p, const Where& where);
   /// Vertices by their number in the file, from 0.
   void add_polygon(const std::vector<std::int64_t>& file_vertices, const Where& where);
-  /// What follows belongs to an object of its own, or to a group of the last object.
+  /// Begins an object, or a group of the last object.
   void start_object(const std::string& name);
   void start_group(const std::string& name, int part = -1);
   [[nodiscard]] std::int64_t n_file_vertices() const {

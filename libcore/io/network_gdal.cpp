@@ -30,7 +30,7 @@ constexpr const char* refusal = "is on a network, which this tool does not use";
 constexpr const char* way_out =
     "fetch it first and name the copy, or give --allow-network for files that you trust";
 
-// What holds its own values once it is copied.
+// The command that makes a copy with its own values.
 std::string copy_of_own(const std::string& path, bool is_raster) {
   return (is_raster
               ? "copy what it holds: gdal_translate " + command_words(path) + " copy.tif"
@@ -176,7 +176,7 @@ bool is_elsewhere(const std::string& source) {
   return false;
 }
 
-// What a virtual raster takes its values from.
+// Sources of the values of a virtual raster.
 struct Sources {
   std::vector<std::string> names;
   bool has_raw_bytes = false;  // of a file that need not be a raster

@@ -1,12 +1,12 @@
 // libcore/io/raster_commands.hpp: public
-// Commands of GDAL that messages give for rasters. What they write says which cells are unknown.
+// Commands of GDAL that messages give for rasters. Their output says which cells are unknown.
 #pragma once
 
 #include <string>
 
 namespace talus {
 
-/// What the cells of a raster hold: how it is resampled.
+/// Kind of the cells of a raster: decides how it is resampled.
 enum class CellKind { heights, values, classes };
 
 /// gdalwarp of `from` to a file called `to`: cells beyond the edge of `from` are unknown.

@@ -28,7 +28,7 @@ constexpr std::size_t bytes_of_face = 13;  // a count and three corners
 constexpr std::size_t longest_line = 400;  // MeshLab gives up on lines of more than 500 bytes
 constexpr std::string_view wkt_comment = "crs_wkt ", accepted_comment = "doubts_accepted ";
 
-// What the comments of a header say.
+// Content of the comments of a header.
 struct Said {
   std::string crs, crs_wkt;  // one line, and all lines of the WKT
   std::string judged, accepted;

@@ -1,5 +1,5 @@
 // libcore/io/trn_digest.hpp: public
-// What a terrain is, in 64 digits: ties blocks and runs to the ground that they were made for.
+// Digest of a terrain, in 64 digits: ties blocks and runs to the ground that they were made for.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@
 
 namespace talus {
 
-/// What a TRN file says besides its elevations.
+/// Metadata of a TRN file besides its elevations.
 struct TrnFileOptions {
   std::map<std::string, std::string> tags;  ///< metadata, e.g. RUN_ID
   std::string accepted_doubts = {};         ///< places that the user accepted; empty: none
