@@ -26,14 +26,14 @@ void write_canonical(const std::string& path, const InputsRequest& request, cons
 /// where the files that it was made from have changed.
 [[nodiscard]] std::optional<InputsRequest> canonical_request(const std::string& path);
 
-/// What such a file holds of a section of a site.
+/// The part of such a file for a section of a site.
 struct CanonicalLayer {
   std::string path;  ///< for read_vectors()
   std::string seal;  ///< digest_of() the data read from there; another one: changed_since()
 };
 
-/// What the file holds of the layer, section, file and digest of `wanted`, which is to be taken to
-/// `crs`. Nothing where it does not hold the section, holds it of another file, or is in another
+/// The part of the file for the layer, section, file and digest of `wanted`, which is to be taken
+/// to `crs`. Nothing where it does not hold the section, holds it of another file, or is in another
 /// system: the named file is read itself then. Throws InputError where the digests differ, and for
 /// a file that talus-import did not write.
 [[nodiscard]] std::optional<CanonicalLayer> canonical_layer(const std::string& path,

@@ -48,7 +48,7 @@ Owned<PJ_OPERATION_FACTORY_CONTEXT> factory_for(PJ_CONTEXT* context, const Degre
   return factory;
 }
 
-// What PROJ knows of one operation.
+// PROJ's data of one operation.
 struct Candidate {
   std::string text, name, missing_grid;
   double accuracy_m = NAN;

@@ -44,7 +44,7 @@ struct CrsOperation {
 /// "reprojected from A to B by "MGI to ETRS89 (1)", good to 1.5 m".
 [[nodiscard]] std::string sentence_on(const CrsOperation& operation);
 
-/// What to warn of: a ballpark operation, or a better one whose grid is missing. Empty: nothing.
+/// Warning: a ballpark operation, or a better one whose grid is missing. Empty: nothing.
 [[nodiscard]] std::string doubt_on(const CrsOperation& operation);
 
 /// Heights taken from one system to another, at places of one system in plan.
@@ -84,7 +84,7 @@ inline constexpr const char* ellipsoidal_heights = "ellipsoidal";
 [[nodiscard]] std::string target_heights_from_user(const std::string& user_text,
                                                    const std::string& option);
 
-/// What to call heights in a message.
+/// Name of heights in a message.
 [[nodiscard]] std::string heights_name(const std::string& vertical_wkt);
 
 /// `crs` with heights in the system that the user states (WKT, or ellipsoidal_heights, which

@@ -46,7 +46,7 @@ struct CrsProblem {
 /// the data in this CRS, x (east, longitude) first.
 [[nodiscard]] CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place);
 
-/// Extent of the data, and how the user can say what they are.
+/// Extent of the data, and the user's options to state their system.
 struct CrsExtent {
   std::string crs_wkt;           ///< of the coordinates; empty: local, nothing is checked
   MapWindow extent;              ///< of the data; of a raster the outer edges of its cells

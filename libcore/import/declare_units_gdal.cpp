@@ -47,8 +47,7 @@ double plan_unit_of(const RawLayer& layer, const std::string& crs, ImportReading
                           window_of(layer.lines.points), ways_of(layer, drawing_unit(drawing)));
 }
 
-// What the user says of the unit of heights; 0: nothing. A system that the user names for the
-// ground is in metres.
+// The user's unit of heights; 0: none. A system that the user names for the ground is in metres.
 double height_unit_by_user(const RawLayer& layer, const InputsRequest& request, bool is_ground) {
   if (request.elevation_unit_m > 0) return request.elevation_unit_m;
   if (layer.source.ref.unit_m > 0) return layer.source.ref.unit_m;
@@ -93,7 +92,8 @@ double height_unit_of(const RawLayer& layer, const std::string& crs, double by_u
   return *unit_m;
 }
 
-// What the user says of heights whose file does not; a system of heights holds for its own unit.
+// The system with the user's statement on heights whose file has none; a system of heights holds
+// for its own unit.
 std::string with_user_heights(const InputsRequest& request, const RawLayer& ground) {
   const double unit_m = ground.taken.unit_m;
   const std::string plan = unit_m != 1 ? horizontal_crs(ground.crs) : ground.crs;

@@ -24,8 +24,8 @@ class GDALRasterBand;
 
 namespace talus {
 
-/// What the user says about a DEM. It is reprojected bilinearly, at the file's resolution; where an
-/// unknown cell has a share, the value is unknown.
+/// The user's statements about a DEM. It is reprojected bilinearly, at the file's resolution; where
+/// an unknown cell has a share, the value is unknown.
 struct DemOptions : SystemsByUser {
   bool accepts_doubts = false;      ///< areas of one value far off their neighbours are ground
   bool crs_may_be_missing = false;  ///< no CRS and none given means local metres

@@ -21,7 +21,7 @@ struct DrawingUnit {
 /// Reads the header. A file that is not a DXF drawing says nothing.
 [[nodiscard]] DrawingUnit drawing_unit(const std::string& path);
 
-/// What to warn of: a header that says inches. GDAL (up to 3.10) and QGIS write that into every
+/// Warning: a header that says inches. GDAL (up to 3.10) and QGIS write that into every
 /// drawing, and no map is drawn in inches, so it is taken to say nothing. Empty: no doubt.
 [[nodiscard]] std::string doubt_on_unit(const std::string& path, double user_unit_m);
 

@@ -33,7 +33,7 @@ struct Imported {
 /// As import_map(), and each layer of a site as read_vectors().
 [[nodiscard]] Imported import_inputs(const InputsRequest& request, ImportReading& reading);
 
-/// What a sealed file is refused with; `layer` is one of its own.
+/// The refusal of a sealed file; `layer` is one of its own.
 [[nodiscard]] InputError changed_since(const std::string& layer);
 
 /// SHA-256 of all coordinates of a map.

@@ -1,5 +1,5 @@
 // libcore/import/layer_reading.hpp: public
-// What was taken from vector sources, for people and for programs.
+// Report of reading vector sources, for people and for programs.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,7 @@ struct LayerReading {
   std::vector<Magnitude> magnitudes;
 };
 
-/// What was found in all layers of a request, in their order. Sentences are for the user.
+/// Findings in all layers of a request, in their order. Sentences are for the user.
 struct ImportReading {
   std::vector<LayerReading> layers;
   std::vector<std::string> notes;

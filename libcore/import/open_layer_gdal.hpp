@@ -27,7 +27,7 @@ namespace talus {
 /// Heights of a layer: not needed, one a line, or one a point.
 enum class HeightsOf { nothing, level_lines, points };
 
-/// What a source is read for.
+/// Purpose of reading a source.
 struct LayerRole {
   LayerShape shape;
   const char* name;        ///< of its parts, for messages: "contours"
@@ -82,7 +82,7 @@ struct OpenLayer {
 void for_each_part(OpenLayer& source,
                    const std::function<void(const OGRGeometry&, const OGRFeature&)>& visit);
 
-/// What for_each_part() has found.
+/// Findings of for_each_part().
 [[nodiscard]] LayerReading reading_of(const OpenLayer& source);
 
 /// Sentences on its filter, its remarks and the features passed over.

@@ -71,8 +71,8 @@ void declare_heights(RawInputs& raw);
 /// As declare_heights() does for contours with labels.
 void take_heights_of_labels(RawLayer& contours, RawLayer& labels, RawInputs& raw);
 
-/// What a unit of the plan is: scales the plan to the unit of its system. Throws InputError for a
-/// drawing in another one.
+/// Finds the unit of the plan, and scales the plan to the unit of its system. Throws InputError for
+/// a drawing in another one.
 void declare_plan_units(RawInputs& raw);
 
 /// The system that each layer is in, and the frame that all are taken to. Throws InputError where

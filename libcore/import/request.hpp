@@ -51,7 +51,7 @@ struct RequestedLayer {
   Where where = {};               ///< in the site file
 };
 
-/// What the user says of the systems of a ground that its file does not, or not as wanted.
+/// The user's statements on the systems of a ground that its file lacks, or names otherwise.
 struct SystemsByUser {
   bool crs_given = false;  ///< `crs` replaces a missing CRS, one that says no heights, or one that
                            ///< cannot be true; refused when the file has another one

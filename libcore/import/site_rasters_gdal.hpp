@@ -30,7 +30,7 @@ void check_raster_system(const std::string& raster, const std::string& terrain, 
 [[nodiscard]] std::vector<std::int32_t> read_cell_classes(const std::string& path, const Trn& trn,
                                                           std::vector<Doubt>& doubts);
 
-/// What a raster `role` ("dem", "forest.upper.nrtrees_raster") holds: its system, cells and unknown
+/// Content of a raster `role` ("dem", "forest.upper.nrtrees_raster"): its system, cells and unknown
 /// value, and how large its values are. Of more than four million cells some rows are looked at.
 /// Throws InputError as open_raster(), and where a row cannot be read.
 [[nodiscard]] LayerReading look_at_raster(const std::string& role, const std::string& path);

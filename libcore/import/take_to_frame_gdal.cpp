@@ -9,7 +9,7 @@
 namespace talus {
 namespace {
 
-// Heights stay as they are. What was done is noted.
+// Heights stay as they are. The operation is noted.
 void take_plan(RawLayer& layer, RawInputs& raw) {
   std::vector<Vec3>& points = layer.lines.points;
   ImportReading& reading = raw.reading;

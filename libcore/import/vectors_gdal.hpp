@@ -16,10 +16,10 @@ struct RawLayer;
 
 enum class VectorKind { points, lines, areas };
 
-/// What a layer of a site is read for.
+/// Purpose of a layer of a site.
 [[nodiscard]] InputRole role_of(VectorKind kind);
 
-/// What is asked for.
+/// A query of vectors.
 struct VectorQuery {
   std::string path;  ///< with layers and a filter where need be: base/source_path.hpp
   VectorKind kind = VectorKind::areas;
