@@ -28,7 +28,7 @@ struct RecordLine {
   bool standing = false;         ///< a fence that stops blocks; false: a line that stops nothing
 };
 
-/// Where a search thinks of a fence: lines of this name are watched, but nobody asked for a fence
+/// Where a search considers a fence: lines of this name are watched, though the site has no fence
 /// there. Their names are that of the search and a number.
 inline constexpr std::string_view candidate_prefix = "fence_search.";
 [[nodiscard]] inline bool is_candidate(const RecordLine& line) {

@@ -62,7 +62,7 @@ Passage arrival(int block, const PassageTracker& tracker, double time, double z,
   return row;
 }
 
-// What a piece passes when the covered cells may change in it.
+// Records the cells of a piece in which the covered cells may change.
 void record_sweep(PassageRecorder& recorder, const Scene& scene, const PassagePiece& piece,
                   const PassageValues& whole) {
   const Motion &a = piece.a.motion, &b = piece.b.motion;

@@ -26,7 +26,7 @@ struct PassagePiece {
 /// the new set.
 void cover_end(PassageRecorder& recorder, const Scene& scene, const PassagePiece& piece);
 
-/// What is pending for the covered cells, into the table.
+/// Writes the pending values of the covered cells into the table.
 void flush_pending(PassageTable& table, int block, const PassageTracker& tracker);
 
 /// The tracker to the end of a piece, or of several.

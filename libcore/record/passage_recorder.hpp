@@ -1,5 +1,5 @@
 // libcore/record/passage_recorder.hpp
-// What the recording of passages keeps: its grid, each block between two pieces of its motion, and
+// Data of the recording of passages: its grid, each block between two pieces of its motion, and
 // the table. Filled by record/passages.hpp and the pieces below it.
 #pragma once
 
@@ -36,7 +36,7 @@ struct PassageInstant {
   double spin_energy = 0;  ///< [J]
 };
 
-/// What is kept of a block between two pieces of its motion.
+/// State of a block between two pieces of its motion.
 struct PassageTracker {
   PassageInstant last;
   double last_time = 0;      ///< [s]

@@ -150,7 +150,7 @@ void merge_object_hits(const Lineage& lineage, RunFile& run) {
   for (const auto& [key, row] : rows) run.object_hits.push_back(row);
 }
 
-// What one body did alone is done by the largest of its pieces.
+// Rows of one body alone (hits, breaks, deep rows) become those of the largest of its pieces.
 void rename_alone(const Lineage& lineage, RunFile& run) {
   const auto rename = [&lineage](std::int32_t& block) {
     if (block >= 0) block = lineage.largest[static_cast<size_t>(block)];

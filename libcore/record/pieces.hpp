@@ -14,7 +14,7 @@
 namespace talus {
 
 /// Replaces the bodies of `run` by those that exist at its end; does nothing where nothing can
-/// break. Hits on fences, and rows of a body in its own world, go to its largest piece. Needs
+/// break. Hits on fences, and rows of one body alone, go to its largest piece. Needs
 /// phases; frames, passages, crossings and hits of objects as far as they were read.
 void merge_pieces(RunFile& run);
 

@@ -25,7 +25,7 @@ struct ReachLine {
   }
 };
 
-/// What only the frames of a run tell of its reach.
+/// Part of a run's reach that only its frames tell.
 struct RunReach {
   double tolerance = 0;            ///< of the simplified paths that lengths are measured on [m]
   std::vector<ReachLine> block;    ///< of the centroids                           (n_blocks)

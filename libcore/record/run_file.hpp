@@ -27,7 +27,7 @@ namespace talus {
 
 struct State;
 
-/// What is said of a run as a whole.
+/// Description of a run as a whole.
 struct RunInfo {
   std::string run_id;          ///< digest of version, settings and inputs
   std::string version;         ///< of the program
@@ -116,7 +116,7 @@ struct PanelRow {
 /// By line; after them those of rocks, by rock, then line.
 [[nodiscard]] std::vector<PanelRow> panel_rows(const Scene& scene, const State& state);
 
-/// A block that was in something by more than a tenth of its thickness, and what it may have moved.
+/// A block that was in something by more than a tenth of its thickness, and its possible effects.
 struct DeepRow {
   /// Values of `partner` below the numbers of blocks.
   static constexpr std::int32_t ground = -1, fence = -2, fixed_body = -3;
@@ -195,7 +195,7 @@ struct RunFile {
 /// Block b in frame k; strain zero when it was not stored.
 [[nodiscard]] FrameBlock frame_block(const RunFile& run, int k, int b);
 
-/// What to read beside info and blocks; files of many runs are read for their passages alone.
+/// Parts to read beside info and blocks; files of many runs are read for their passages alone.
 struct RunParts {
   bool frames = true, passages = true, crossings = true, health = true, checkpoint = true;
   bool objects = true;           ///< and their hits
