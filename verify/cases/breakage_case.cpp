@@ -60,7 +60,7 @@ Scene falling_cube(const Settings& settings, double side, double speed) {
   const double above = 0.003 * speed;
   BlockSet set;
   set.material_names = {"rock"};
-  // the speed gained on the way down is taken off
+  // less the speed gained in the fall
   add_body(set, body_of(box(Vec3(0, 0, above), Vec3(side, side, side + above)),
                         Vec3(0, 0, -std::sqrt(speed * speed - 2 * g * above))));
   SplitSettings split;

@@ -67,7 +67,7 @@ struct Run {
   [[nodiscard]] Vec3 spin(const Motion& m) const {
     return angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[0]);
   }
-  /// What it has taken so far.
+  /// Counts and times so far.
   [[nodiscard]] CaseResult counted() const {
     CaseResult counts = result;
     counts.cpu = std::max(0.0, processor_seconds() - begin - clock - counts.reference_cpu);

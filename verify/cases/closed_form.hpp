@@ -22,7 +22,7 @@ struct CaseSettings : Settings {
 
 namespace talus::cases {
 
-/// Outcome of a case. What `error` is, and its unit, is said at the case.
+/// Outcome of a case. The meaning of `error`, and its unit, are said at the case.
 struct CaseResult {
   double value = 0;     ///< computed
   double expected = 0;  ///< closed form

@@ -75,7 +75,7 @@ double integrated_rocking_time() {
   return t;
 }
 
-/// What a rocking column did at its first impact.
+/// Motion of a rocking column about its first impact.
 struct Rocking {
   CaseResult result;
   double time = 0, before = 0, after = 0;

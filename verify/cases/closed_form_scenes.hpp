@@ -1,11 +1,10 @@
 // verify/cases/closed_form_scenes.hpp
-// What the cases of closed_form.hpp have in common: a body on one plane.
-// Within the module, for
+// Common scenes of the cases of closed_form.hpp: a body on one plane. Within the module, for
 // closed_form_sliding.cpp  blocks at rest or sliding: planes, wedge, column, bond, shaken base
-// closed_form_rolling.cpp  prisms that roll, columns that rock
-// closed_form_events.cpp   events within a step: bounces, rolling, take-off, edges, borders
-// closed_form_soil.cpp     yielding ground: COR, rolling resistance, friction, drag
-// closed_form_flight.cpp   free flight and spin, and motion after an impact
+// closed_form_rolling.cpp  prisms that roll, columns that rock closed_form_events.cpp   events
+// within a step: bounces, rolling, take-off, edges, borders closed_form_soil.cpp     yielding
+// ground: COR, rolling resistance, friction, drag closed_form_flight.cpp   free flight and spin,
+// and motion after an impact
 #pragma once
 
 #include "verify/cases/cases.hpp"

@@ -457,7 +457,7 @@ std::vector<VerifyCase> block_cases() {
   };
 }
 
-// What happens within a step, at its time.
+// Events within a step, at their times.
 std::vector<VerifyCase> event_cases() {
   return {
       {.name = "rolling_64",
@@ -603,7 +603,7 @@ std::vector<VerifyCase> contact_cases() {
   };
 }
 
-// What a method changes of the settings of its law.
+// Changes by a method of the settings of its law.
 struct Change {
   double stiffness = 0;
   bool strains = false;

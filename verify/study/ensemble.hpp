@@ -15,7 +15,7 @@
 
 namespace talus {
 
-/// What is compared, in the order of EnsembleResult::mean.
+/// Compared quantities, in the order of EnsembleResult::mean.
 enum class Quantity { centre, p90, spread };
 inline constexpr std::array<const char*, 3> quantity_names = {"centre", "p90", "spread"};
 
@@ -45,7 +45,7 @@ using Breaks = std::function<bool(const cases::Run&)>;
                                           const std::optional<PaperSettings>& paper = {},
                                           const Breaks& breaks = {});
 
-/// What the answer tends to as the step does to nothing, and how far that can be trusted.
+/// Limit of the answer for short steps, and its uncertainty.
 struct EnsembleReference {
   std::array<double, 3> mean{};  ///< [m]
   std::array<double, 3> band{};  ///< its standard error and how far the two shortest steps are from

@@ -104,7 +104,7 @@ void note_ends(const Scene& scene, const State& state, OmissionRun& out) {
   }
 }
 
-// What has to come up in a scene for an omission to show.
+// Count of events that have to come up in a scene for an omission to show.
 using Shown = std::function<long(const State&)>;
 
 long impacts(const State& state) { return state.counters.impacts; }

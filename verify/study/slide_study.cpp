@@ -26,8 +26,8 @@ Method law_talus(const std::string& what, const std::function<void(Settings&)>& 
   return method;
 }
 
-// Others first, then the defaults from the longest step. Law paper with the stiffness of the paper,
-// and with a softer one, whose hits are resolved by longer steps.
+// Variants first, then the defaults from the longest step. Law paper with the stiffness of the
+// paper, and with a softer one, whose hits are resolved by longer steps.
 std::vector<Method> slide_methods(bool full) {
   if (!full) return {law_paper(paper_stiffness, {1e-3}), {"talus", {}, {2e-2, 1e-2}}};
   return {law_paper(paper_stiffness, {2e-3, 1e-3, 5e-4, 2e-4, 1e-4}),

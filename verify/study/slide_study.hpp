@@ -16,7 +16,7 @@ namespace talus {
 /// As named on the command line and in file names.
 inline constexpr const char* slide_name = "slide39";
 
-/// What the table of cases says of the slide, by Quantity.
+/// Claims on the slide in the table of cases, by Quantity.
 [[nodiscard]] const std::array<VerifyCase, 3>& slide_claims();
 
 struct SlideStudy {

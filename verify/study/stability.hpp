@@ -21,7 +21,7 @@ enum class Outcome {
 };
 [[nodiscard]] std::string text_of(Outcome outcome);
 
-/// What was seen of a scene.
+/// Findings on a scene.
 struct Seen {
   double error = 0;  ///< in the corner's norm; 0 where it has no closed form
   bool finite = true;
