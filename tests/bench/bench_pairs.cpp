@@ -142,7 +142,7 @@ PairScene two_cubes(double gap) {
   return scene;
 }
 
-// What is repeated for one pair: nothing but places, the features too, or the axis too.
+// The part that is repeated for one pair: nothing but places, the features too, or the axis too.
 enum class Repeat { places, features, axis };
 
 void pair_cost(benchmark::State& bench, double gap, Repeat repeat) {

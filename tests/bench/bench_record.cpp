@@ -17,7 +17,7 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-/// What the solver hands to the recorder in a run of one rock.
+/// Motion that the solver hands to the recorder in a run of one rock.
 struct Track {
   Scene scene;
   Motion start;

@@ -1,5 +1,5 @@
 // tests/bench/bench_terrain.cpp
-// What the terrain costs: lookups on the paper's two grids (2,240 and 516,652 triangles), setting
+// Cost of the terrain: lookups on the paper's two grids (2,240 and 516,652 triangles), setting
 // up the large one, candidate cells, traversal, and gridding a TIN of a million points.
 #include <benchmark/benchmark.h>
 

@@ -1,6 +1,6 @@
 // tests/fuzz/fuzz.hpp
-// What the fuzz targets share. The claim of each: whatever the bytes, the parser gives a value or
-// throws InputError; it never crashes, hangs, or throws anything else. tests/fuzz/run.sh
+// Common code of the fuzz targets. The claim of each: whatever the bytes, the parser gives a value
+// or throws InputError; it never crashes, hangs, or throws anything else. tests/fuzz/run.sh
 #pragma once
 
 #include <unistd.h>

@@ -61,7 +61,7 @@ TEST(LawPaper, ElasticRestitutionTendsToOne) {
   EXPECT_LT(elastic_restitution(law_paper(1e-6, 1e11), 1e8).value, 0.85);
 }
 
-// What a shaken ground does to a block is put in, not gained.
+// Energy of a block from a shaken ground is put in, not gained.
 TEST(LawPaper, WorkOfTheBaseMotionIsBooked) {
   const SlopeFrame flat = slope_frame(0, 0);
   const Body cube = body_of(box_in(flat, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));

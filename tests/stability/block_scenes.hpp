@@ -97,7 +97,7 @@ inline Scene heap(const Settings& settings, int number = 0) {
   return scene;
 }
 
-/// What the springs of pressed contacts hold [J].
+/// Energy of the springs of pressed contacts [J].
 inline double spring_energy(const State& state) {
   double sum = 0;
   for (const std::vector<ContactMemory>& of_block : state.memory)

@@ -23,7 +23,7 @@ namespace talus::stability {
 /// [m].
 inline constexpr double depth_tolerance = 0.02, least_depth_m = 5e-3;
 
-/// What was seen.
+/// Findings of a run.
 struct Outcome {
   int not_finite = 0, too_deep = 0, gained = 0;
   std::set<int> thin_too_deep;  ///< plates and needles that were too deep at some time

@@ -117,7 +117,7 @@ double total(const Scene& scene, const State& state) {
          l.rolling + l.drag + l.breakage + l.removed - l.base;
 }
 
-// What the budget misses after some seconds, over the energy of the fall.
+// Error of the budget after some seconds, over the energy of the fall.
 double missed_by(const Scene& scene, State& state) {
   state = start(scene);
   Work work = make_work(scene);

@@ -29,7 +29,7 @@ std::string name_of(const testing::TestParamInfo<Corner>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Stability, Corners, testing::ValuesIn(stability_corners()), name_of);
 
-// What the chart shows outside its tolerance: contacts too soft for the weight on them.
+// Corners that the chart shows outside their tolerance: contacts too soft for the weight on them.
 bool is_known_to_err(const Corner& c) { return c.axis == "k_n" && c.value <= 1e6; }
 
 TEST_P(Corners, IsRight) {

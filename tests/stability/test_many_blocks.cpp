@@ -18,7 +18,7 @@ using namespace talus::stability;
 // A pile of four cubes is 4 high and 1 wide: it topples where tan(dip) > 1/4, dip > 14.04 degrees.
 TEST(ManyBlocks, PileTopplesWhereItsWeightLeavesItsBase) { EXPECT_LT(pile_topples({}).error, 0.5); }
 
-// What the columns lean with on one another, and which of them slide, is found by the engine.
+// The engine finds the forces between the columns, and which of them slide.
 TEST(ManyBlocks, ColumnsToppleAsGoodmanAndBraySay) {
   const CaseResult result = columns_topple({});
   EXPECT_NEAR(result.expected, 38.146, 1e-3);

@@ -25,7 +25,7 @@ TEST(Workers, DoEveryChunkOnce) {
   }
 }
 
-// Who slept between two loops misses none.
+// A thread that slept between two loops misses none.
 TEST(Workers, WakeForALoopThatComesLate) {
   Workers workers(3);
   std::vector<int> times(50, 0);

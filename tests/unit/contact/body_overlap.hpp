@@ -1,6 +1,7 @@
 // tests/unit/contact/body_overlap.hpp
-// What frees two bodies of several convex parts, by brute force: no contact is asked. Out of one
-// part may be into the next, so paths and displacements count only where they leave all of them.
+// Displacements that free two bodies of several convex parts, by brute force, independent of
+// contacts. Out of one part may be into the next, so paths and displacements count only where they
+// leave all of them.
 #pragma once
 
 #include <algorithm>

@@ -144,8 +144,8 @@ TEST(FindContacts, AFaceRestsOnALongCrestByItsEdges) {
 }
 
 // A box leans with one face on the flank of a fin whose crest it overlaps by 5 cm. The edges of its
-// next face cross the crest as well, where they read as a metre deep: that is not the shortest way
-// out.
+// next face cross the crest as well, where they read as a metre deep: the shortest displacement out
+// is another one.
 TEST(FindContacts, EdgesAreInContactOnlyAlongTheShortestWayOut) {
   Trn trn;
   trn.n_rows = trn.n_cols = 17;

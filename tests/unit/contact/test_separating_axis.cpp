@@ -194,7 +194,7 @@ Bodies bar_over_a_seam(double covered, double across, double gap, double past = 
   return bodies;
 }
 
-// What keeps the bar apart from the part on the far side is an edge of the seam.
+// An edge of the seam keeps the bar apart from the part on the far side.
 TEST(FindAxis, EdgeOfASeamKeepsAPartApart) {
   const double gap = 0.5 - 0.2 * std::sqrt(2.0);
   const Bodies bodies = bar_over_a_seam(5, 0, gap);

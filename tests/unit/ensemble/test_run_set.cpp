@@ -85,8 +85,8 @@ TEST(CheckMember, TakesFailedRunsAndRefusesInterruptedOnes) {
   EXPECT_THROW(check_member(running, running, {"trn.tif", ""}), InputError);
 }
 
-// Their seeds draw nothing: three runs are one, and intervals know it. What a seed draws makes a
-// trial of its own, whatever comes out.
+// Their seeds draw nothing: three runs are one, and intervals know it. Draws by a seed make a trial
+// of its own, whatever the result.
 TEST(RunSet, RunsThatAreTheSameButForTheirSeedCountOnce) {
   RunFile file;
   file.info.config = "[solver]\nseed = 1  # cli\nduration_s = 6  # default\n";

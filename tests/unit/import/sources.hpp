@@ -62,7 +62,7 @@ struct ImportTest : testing::Test {
   }
 };
 
-/// What an error says; empty: there was none.
+/// The message of an error; empty: there was none.
 template <class Function>
 std::string error_of(const Function& function) {
   try {

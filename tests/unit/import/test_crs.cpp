@@ -116,7 +116,7 @@ TEST(Crs, SystemsAreComparedInPlan) {
   EXPECT_FALSE(talus::same_heights(egm96, dhhn));
 }
 
-// What is reprojected in plan keeps its heights, and the system that they are in.
+// Data reprojected in plan keep their heights, and the system that these are in.
 TEST(Crs, HeightsAreCarriedOn) {
   const std::string utm33 = crs_from_user("EPSG:25833", "--t-srs");
   const std::string egm96 = crs_from_user("EPSG:25832+5773", "--crs");

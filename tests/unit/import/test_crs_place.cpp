@@ -67,7 +67,7 @@ TEST(CrsPlace, MapsWhereTheyBelongAreTakenWithoutAWord) {
   }
 }
 
-// What counts is the scale where the work is, not the name of the projection.
+// The scale at the place of work counts, not the name of the projection.
 TEST(CrsPlace, StretchedMetresAreRefused) {
   struct Case {
     const char* crs;

@@ -143,7 +143,7 @@ bool is_refused(const std::string& path) {
   return false;
 }
 
-// Who writes a TRN has judged it; the copy of another program keeps that, a change does not.
+// The writer of a TRN has judged it; the copy of another program keeps that, a change does not.
 TEST_F(Raster, JudgedHeightsAreNotJudgedAgain) {
   talus::write_trn(path("judged.tif"), tower(), {{}, "level area at 1400 m"});
   EXPECT_FALSE(is_refused(path("judged.tif")));

@@ -72,8 +72,8 @@ TEST(ComparisonLayer, HoldsTheTrueDifference) {
   EXPECT_GE(speed, 0.92 * n_trials);
 }
 
-// Where one of both never came its reach is 0, with the bound that it has there, and there is no
-// percentile to compare.
+// Where nothing of one side came, its reach is 0, with the bound that it has there, and a
+// percentile to compare is missing.
 TEST(ComparisonLayer, OfACellThatOneSideNeverReached) {
   const Made a = runs_over(100, 0, 10, 1), b = runs_over(100, 0.6, 10, 2);
   const MapLayer layer = comparison_layer({a.cells, a.basis}, {b.cells, b.basis});

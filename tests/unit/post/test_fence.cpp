@@ -398,7 +398,7 @@ const DesignStep& step(const DesignResult& result, const std::string& symbol) {
 
 }  // namespace
 
-// Who reads the derivation can compute the need from its lines.
+// A reader of the derivation can compute the need from its lines.
 TEST(DesignSteps, OfUniMultiplyToWhatIsNeeded) {
   DesignInput input{1.5, 0.8, 2700, 2, false, NAN, NAN};
   input.block_source = "95th percentile of the 100 blocks that arrive";

@@ -594,7 +594,7 @@ TEST(Recipe, HolesAreRefusedWithTheirPlace) {
   expect("label = \"low hazard\"", "", "class.yellow.label");
 }
 
-// What is stronger or comes more often has no lower class; on both sides of the split.
+// A stronger or more frequent event has no lower class; on both sides of the split.
 TEST(Recipe, UpsideDownIsRefused) {
   const std::string whole = shipped();
   const auto expect = [&](const std::string& from, const std::string& to,

@@ -74,7 +74,7 @@ TEST(MapPage, HasTheSizeOfItsPaper) {
             std::string::npos);
 }
 
-// What one leaves out changes the drawing: all of it is there.
+// Leaving out any one item changes the drawing: all of it is there.
 TEST(MapPage, ShowsAllThatItIsGiven) {
   const std::string whole = Sheet(PageSize::a4).png();
   const auto without = [&whole](auto change) {

@@ -37,7 +37,7 @@ bool has(const std::string& xml, const std::string& part) {
   return xml.find(part) != std::string::npos;
 }
 
-// What is said when the template is refused.
+// The message that refuses the template.
 std::string refusal(const QgisTemplate& from) {
   try {
     static_cast<void>(qgis_project_xml(project_of("a", "b"), from));
@@ -85,7 +85,7 @@ TEST(QgisProject, LayersCannotBeExpressionsInTheLegend) {
   EXPECT_FALSE(has(qgis_project_xml(project, small("")), "[%"));
 }
 
-// What an authority looks for on a sheet.
+// Items of a sheet that an authority looks for.
 TEST(QgisProject, LayoutHasGridNorthScaleAndATitleBlock) {
   QgisProject project = project_of("a slope", "one line\nand another");
   project.contour_interval = 20;

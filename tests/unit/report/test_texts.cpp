@@ -19,7 +19,7 @@ heads = ["run", "from {n}"]
 
 Texts page_texts() { return parse_texts(page, "texts.toml"); }
 
-// What is said when a file with this content takes the place of the page's texts.
+// The message when a file with this content takes the place of the page's texts.
 std::string refusal(const std::string& content) {
   try {
     page_texts().replace_by(parse_texts(content, "office.toml"));

@@ -276,7 +276,7 @@ TEST(Runner, ResumesInAMassOfLongSteps) {
   expect_same_frames(whole, computed(scene, wanted, {3, 50, 51, 77}));
 }
 
-// What a block rebounds with is found where it hits, and given to it where it lifts off.
+// The rebound of a block is found where it hits, and given to it where it lifts off.
 TEST(Runner, ResumesTheReboundsOfLawPaper) {
   Scene scene = bouncing_scene();
   scene.settings.dt = 1e-3;

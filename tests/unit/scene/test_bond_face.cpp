@@ -14,7 +14,7 @@ using namespace talus;
 
 constexpr double cohesion = 2e5, tension = 5e4, friction = 0.4;
 
-/// What a face carries: forces along its axes u, v and normal (> 0 pressed), moments about them.
+/// Load of a face: forces along its axes u, v and normal (> 0 pressed), moments about them.
 struct Load {
   double shear_u = 0, shear_v = 0, pressed = 0, bending_u = 0, bending_v = 0, torsion = 0;
 };

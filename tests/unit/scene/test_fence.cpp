@@ -120,7 +120,7 @@ TEST(Fence, HitsAtTheSameTimeAddUp) {
   EXPECT_NEAR(state.fence.hits[0].work + state.fence.hits[1].work, capacity, 1e-6 * capacity);
 }
 
-// What a broken panel no longer stops: the second block passes with all its energy.
+// A broken panel no longer stops the second block, which passes with all its energy.
 TEST(Fence, LetsThroughWhatComesAfterItBroke) {
   const double energy = energy_of(10);
   const Scene scene = smooth_plane(
@@ -300,7 +300,7 @@ TEST(Fence, RocksThatMeetItsTopEdgeAreNotDeepInIt) {
   EXPECT_LT(deepest, 0.1 * 0.8);
 }
 
-// There is no obstacle beside the fence.
+// Blocks beside the fence meet no obstacle.
 TEST(Fence, DoesNotReachBeyondItsEnds) {
   const Scene scene = smooth_plane({cube_at(Vec3(0, 10.5, 0), Vec3(10, 0, 0))},
                                    fence_across(Yielding::no_limit, 0));

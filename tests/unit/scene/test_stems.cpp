@@ -131,7 +131,7 @@ TEST(Stems, AStopIsReachedInFewSubsteps) {
     }
 }
 
-// What one block left of a stem is all that the next one meets.
+// The next block meets only the energy that the one before left of a stem.
 TEST(Stems, HitsOneAfterTheOtherAddUp) {
   const Scene scene = forest_on_plane({cube_at(Vec3(-1, 0, side / 2), Vec3(10, 0, 0)),
                                        cube_at(Vec3(1, 40, side / 2), Vec3(0, -20, 0))},

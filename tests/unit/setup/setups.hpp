@@ -143,7 +143,7 @@ inline std::string geojson_of(const std::vector<std::string>& features) {
   return text + "]}";
 }
 
-/// What `run` throws, with its hint; "accepted" where it does not.
+/// The message that `run` throws, with its hint; "accepted" where it does not.
 template <class Run>
 std::string refusal_of(const Run& run) {
   try {

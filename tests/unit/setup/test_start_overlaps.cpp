@@ -60,8 +60,8 @@ TEST(StartOverlaps, OfABlockWithAFenceAreNeverSmall) {
   EXPECT_FALSE(found[0].is_small);
 }
 
-// Rocks that fall one by one are released in one place by the thousand: eight million pairs that
-// nobody asks for.
+// Rocks that fall one by one are released in one place by the thousand: eight million pairs that do
+// not matter.
 TEST(StartOverlaps, OfRocksThatDoNotMeetAreSoughtWithFencesAlone) {
   StandingFence fence;
   fence.posts = {Vec3(-5, 1.05, 0), Vec3(5, 1.05, 0)};
@@ -101,7 +101,7 @@ TEST(Settle, MovesARowApartAndLeavesItsCentreOfMassInPlace) {
   EXPECT_NEAR(set.vertices[0].x(), set.centroid[0].x() - 0.5, 1e-12);
 }
 
-// The lowest cube is on the ground and stays; each of the others rises by the overlaps below it.
+// The lowest cube is on the ground and stays; each cube above rises by the overlaps below it.
 TEST(Settle, LiftsAStackOffTheBlockThatStandsOnTheGround) {
   BlockSet set = cubes_at({{0, 0, 0.97}, {0, 0, 0}, {0, 0, 1.94}});
   const Settled settled = settle(set, flat_ground(), true, 1e-6);

@@ -46,7 +46,7 @@ size_m = [1, 2, 3]
 position_m = [5, 6]
 )";
 
-// What a site file is refused with.
+// The message that refuses a site file.
 std::string refusal(const std::string& text) {
   try {
     static_cast<void>(parse_site(text, "s/site.toml"));
@@ -143,7 +143,7 @@ TEST(Site, TheCommandLineOverridesTheFile) {
   }
 }
 
-// What is printed reads back as the same configuration.
+// A printed configuration reads back as the same one.
 TEST(Site, ANameMayHoldWhatAKeyAndItsValueArePartedBy) {
   const std::string fence = "line = [[0, 0], [1, 1]]\n";
   Site site = parse_site(

@@ -63,7 +63,7 @@ Site drawn_site(std::int64_t sample, DrawScope scope = DrawScope::all) {
   return site;
 }
 
-// What a section [uncertainty.q] is refused with, beside a site with a ground and a joint set.
+// The message that refuses a section [uncertainty.q], beside a site with a ground and a joint set.
 std::string refusal(const std::string& section, const std::string& before = "") {
   const std::string text =
       "[ground.slope]\nfriction_deg = 28\n[joints.J1]\ndip_deg = 70\ndip_direction_deg = 10\n"
@@ -105,7 +105,7 @@ TEST(Uncertainty, SamplesHaveTheMomentsThatWereGiven) {
   EXPECT_NEAR(std::sqrt(squares / n), 2, 0.02);
 }
 
-// What belongs together stays together, as often as its weight says.
+// Keys that belong together stay together, as often as their weight says.
 TEST(Uncertainty, RowsAreDrawnWhole) {
   const std::string rows =
       "[ground.slope]\nfriction_deg = 28\n[rockfall.a]\nshape = 'rock'\nvolume_m3 = 1\n"

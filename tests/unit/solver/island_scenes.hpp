@@ -12,7 +12,7 @@
 
 namespace talus::scenes {
 
-/// What every contact of a scene has in common. D = stiffness_ratio * reduced mass.
+/// Common data of all contacts of a scene. D = stiffness_ratio * reduced mass.
 struct LawOfScene {
   double step = 1e-3;            ///< h [s]
   double stiffness_ratio = 0.3;  ///< k_n h^2 / m

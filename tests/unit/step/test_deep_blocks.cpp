@@ -133,7 +133,8 @@ TEST(DeepBlocks, AnEdgeInANotchIsInByItsDistanceFromTheGround) {
   EXPECT_EQ(state.deep[0].steps, 1);
 }
 
-// What is not deep is named too where it is the deepest of the run: block, partner, time, place.
+// An overlap that is not deep is named too where it is the deepest of the run: block, partner,
+// time, place.
 TEST(DeepBlocks, TheDeepestOverlapOfARunIsNamed) {
   OnASlope pair(0,
                 {cube_at({0, 0, 0}), cube_at({-1.5, -1.5, 30}, 3), cube_at({-0.5, -0.5, 32.99})});

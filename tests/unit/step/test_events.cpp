@@ -1,4 +1,4 @@
-// What happens within a step of a lone block happens at its time: errors fall with the square of
+// Events within a step of a lone block happen at their time: errors fall with the square of
 // the step, at long steps too.
 #include <gtest/gtest.h>
 

@@ -182,7 +182,7 @@ TEST(Step, BlockThatBouncesIsHitWithoutASearchOnTheWay) {
   EXPECT_EQ(state.counters.substeps, 0);
 }
 
-// What is left out of a bouncing block's path, the search while nothing can be hit, changes no bit.
+// Leaving out the search while nothing can be hit changes no bit of a bouncing block's path.
 TEST(Step, SearchedFlightsAreTheSameToTheBit) {
   Settings planned, searched;
   planned.sleep = searched.sleep = searched.flight = false;

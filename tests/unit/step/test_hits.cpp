@@ -1,4 +1,4 @@
-// What blocks of an island hit in order of time: their answers are those of hit by hit.
+// Hits of blocks of an island in order of time: the results are those of hit by hit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -112,7 +112,7 @@ TEST(Hits, FastTumblingPairsKeepTheirEnergy) {
   }
 }
 
-// Tumbling cubes without friction: every hit returns its e. What a hit does to momentum and angular
+// Tumbling cubes without friction: every hit returns its e. The changes of momentum and angular
 // momentum tells its normal and the lever arms, so the speeds of its point before and after.
 TEST(Hits, EveryHitOfATumblingPairReturnsItsRestitution) {
   for (const double e : {0.5, 0.7, 0.95, 1.0}) {

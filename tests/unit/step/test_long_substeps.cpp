@@ -137,7 +137,7 @@ Scene walls(const std::vector<Body>& bodies, const Settings& settings) {
   return scene;
 }
 
-/// What 0.9 s of a scene take, and where a corner of its last block is then.
+/// Substeps and errors of 0.9 s of a scene, and where a corner of its last block is then.
 struct Course {
   long substeps = 0, cuts = 0;
   double largest_error = 0;

@@ -355,7 +355,7 @@ TEST(MassStep, SlidesAsTheExactStepDoes) {
   EXPECT_NEAR(lost_by_mass, lost_by_exact, 0.01 * lost_by_exact);
 }
 
-// What ground does besides, and a base that moves: a layer of blocks goes as far as by the exact
+// Yielding ground, and a base that moves: a layer of blocks goes as far as by the exact
 // step.
 struct GroundLaw {
   const char* name;

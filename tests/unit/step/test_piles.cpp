@@ -43,7 +43,7 @@ TEST_P(PileStands, UpToTheAngleOfARigidOne) {
   EXPECT_LT(talus::cases::farthest(pile, 5), 1e-3 * pile.side);
 }
 
-// What lies on a slope beyond it falls.
+// Piles on a slope beyond it fall.
 TEST(Piles, FallBeyondTheAngleOfARigidOne) {
   for (const Pile& pile :
        {Pile{.high = 8, .share = 1.01}, Pile{.high = 16, .share = 1.01},

@@ -172,7 +172,7 @@ Pair with_and_without_sleep(const Scene& scene, const State& state, double time)
   return runs;
 }
 
-// What blocks err by in `time`, that would move were they not asleep: the accelerations that do not
+// Error in `time` of blocks that would move were they not asleep: the accelerations that do not
 // wake them [m].
 double missed_in(double time) { return law::least_speed * g * time * time / 2; }
 

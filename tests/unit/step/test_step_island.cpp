@@ -468,7 +468,7 @@ struct OnLevelGround {
       : scene(scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5), bodies, {})),
         state(start(scene)),
         work(make_work(scene)) {
-    // tests put blocks elsewhere between steps, which is no change of force to be followed;
+    // tests put blocks elsewhere between steps, which is not a change of force to be followed;
     // ADeepCornerThatMovesOnIsPressedOutWithAccuracyAsWithout leaves them where they are
     scene.settings.accuracy = 1e9;
   }
@@ -532,7 +532,7 @@ TEST(StepIsland, ThinBlocksThatMeetFastAreNotDeepInEachOther) {
   EXPECT_GT(n_hit, 1000);
 }
 
-// What one end of a block pressed does not count for the other end, which comes down within a step:
+// The load of one end of a block does not count for the other end, which comes down within a step:
 // there the memory of the pair is only the next best. A corner that is found deep and fast beside
 // it is hit, and rebounds.
 TEST(StepIsland, OtherFeaturesFoundDeepAndFastAreHitWhateverThePairRemembers) {
@@ -651,7 +651,7 @@ struct CubeInSlot : OnLevelGround {
   }
 };
 
-// What presses nothing is pressed out, but not against many times the weight of the lighter block:
+// Overlap without force is pressed out, but not against many times the weight of the lighter block:
 // it would drive apart blocks of a thousand times its mass. Only where it is deep.
 TEST(StepIsland, AJamIsNotDrivenApartBySmallOverlaps) {
   CubeInSlot slight(2e-3), large(0.11);

@@ -171,7 +171,7 @@ TEST(Water, AWedgeSlidesAtItsFriction) {
 }
 
 /// A block of 2 x 2 x 1 m on level ground with a head below it that lifts `share` of its weight.
-/// What is left of a pressure is renewed at the ends of steps: the error goes with their length.
+/// The remaining pressure is renewed at the ends of steps: the error goes with their length.
 Scene lifted(double share, double drained_at, double dt = 1e-3) {
   Settings settings;
   settings.dt = dt;

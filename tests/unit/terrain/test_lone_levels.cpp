@@ -15,7 +15,7 @@ constexpr double cell_size = 5;
 
 double slope(int row, int col) { return 1000 + 4.0 * row + 0.5 * col; }
 
-// What is found on a raster of 30 x 40 cells.
+// Result on a raster of 30 x 40 cells.
 std::optional<LoneLevel> find(const std::function<double(int, int)>& elevation,
                               double size = cell_size) {
   const double step = impossible_step(size);
