@@ -23,7 +23,7 @@ inline constexpr const char* level_area = "level area";
 
 /// Each node once, row by row; none in most sound terrain:
 ///  sunken node: below lowest_land, which is refused
-/// level area: two nodes and more of one value, off most of their neighbours by doubtful_step()
+///  level area: two nodes and more of one value, off most of their neighbours by doubtful_step()
 ///  rim node: beside unknown ground, off the node further in by that: blended with nodata
 ///  step: off a node beside by impossible_step()
 ///  seam: one step along a straight line of nodes (seams.hpp), by the middle of its line

@@ -31,9 +31,9 @@ struct Mending {
   double largest_move = 0;        ///< [m]
 };
 
-/// How well a map shows its contours [m]: nine in ten bends of the lines are within it of the chord
-/// of the points beside them. Generalising to a tolerance leaves bends of about that tolerance and
-/// more. 0 where there are fewer than 30 bends to judge by.
+/// How well a map shows its contours [m]: nine in ten bends of the lines are farther than this off
+/// the chord of the points beside them. Generalising to a tolerance leaves bends of about that
+/// tolerance and more. 0 where there are fewer than 30 bends to judge by.
 [[nodiscard]] double accuracy_of_lines(const Polylines& lines);
 
 /// Moves points of contours that meet contours of other heights back to the side that the rest of

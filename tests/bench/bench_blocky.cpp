@@ -1,6 +1,6 @@
 // TRN against blocky slope, same engine, same scene, one run: the first 5 s of the peers' slide
 // (scene F, 39 blocks) on 2,240 triangles, and with the slope 10 times larger around it, where no
-// comes. TALUS_PEERS_DIR=... bench_blocky; counters: cost of a step, triangles, mean displacement.
+// block comes. TALUS_PEERS_DIR=... bench_blocky; counters: cost of a step, triangles, mean path.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

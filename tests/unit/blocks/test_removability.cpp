@@ -55,7 +55,7 @@ double trend_deg(const Vec3& v) { return std::fmod(std::atan2(v.x(), v.y()) / de
 double plunge_deg(const Vec3& v) { return std::asin(-v.z() / v.norm()) / degree; }
 
 // n cubes of weight 1 in a row on a plane that dips `dip`, each resting on the plane and against
-// against the one in front; `ahead` is before the first.
+// the one in front; `ahead` is before the first.
 std::vector<std::vector<BlockContact>> row_of_cubes(int n, double dip_deg,
                                                     const std::vector<BlockContact>& ahead) {
   const double tangent = std::tan(30 * degree), dip = dip_deg * degree;

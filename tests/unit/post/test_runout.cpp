@@ -112,8 +112,8 @@ TEST(MassReach, BeginsAtTheTopOfWhatMoved) {
   EXPECT_EQ(reach.n_beyond, 0);
 }
 
-// Four of nine cubes in a square end beyond its sides, two of these outside a corner: the rest has
-// have not left the source. A cube of twice the mass in the middle counts twice.
+// Four of nine cubes in a square end beyond its sides, two of these outside a corner: the rest
+// has not left the source. A cube of twice the mass in the middle counts twice.
 TEST(MassReach, SaysHowMuchLeftTheSource) {
   RunFile run;
   std::vector<FrameBlock> start, end;

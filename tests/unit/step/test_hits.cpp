@@ -113,7 +113,7 @@ TEST(Hits, FastTumblingPairsKeepTheirEnergy) {
 }
 
 // Tumbling cubes without friction: every hit returns its e. The changes of momentum and angular
-// momentum tells its normal and the lever arms, so the speeds of its point before and after.
+// momentum tell its normal and the lever arms, so the speeds of its point before and after.
 TEST(Hits, EveryHitOfATumblingPairReturnsItsRestitution) {
   for (const double e : {0.5, 0.7, 0.95, 1.0}) {
     Random random(11, "cubes");
