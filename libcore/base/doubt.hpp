@@ -60,7 +60,7 @@ struct DoubtGroup {
 /// "map.gpkg: 3 spot heights, the first at 0 m, x 650000, y 5200100: ..."
 [[nodiscard]] std::string sentence_on(const DoubtGroup& group);
 
-/// Marks doubts that would refuse the input as accepted.
+/// Marks as accepted the doubts that would refuse the input.
 void accept(std::vector<Doubt>& doubts);
 /// Subjects of up to 20 that were accepted, and how many more there are. Empty: none.
 [[nodiscard]] std::string accepted_places(const std::vector<Doubt>& doubts);

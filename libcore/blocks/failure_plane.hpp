@@ -41,7 +41,6 @@ struct FootPoint {
 [[nodiscard]] std::vector<FootPoint> find_foot(const Trn& ground, const Area& area,
                                                const Attitude& plane);
 
-/// A plane at the foot.
 struct PlaneAtFoot {
   double free_share = 0;               ///< of the foot where the plane is not below the ground
   double largest_step = 0;             ///< of the ground above the plane on the rest [m]
@@ -89,7 +88,7 @@ struct FailurePlane {
   double rising_share = 0;  ///< share of the mass over bed that rises against the motion
 };
 
-/// Planes and wedges that the joint sets of a source offer.
+/// Failure planes that the joint sets of a source offer.
 struct FailurePlanes {
   Attitude slope;                    ///< mean plane of the ground in the area
   double friction = 0;               ///< of the ground below the mass [rad]

@@ -24,7 +24,6 @@ struct Box {
          one.low.z() <= other.high.z() && other.low.z() <= one.high.z();
 }
 
-/// A box in a strip.
 struct BoxInStrip {
   int strip, first;  ///< `first`: of the strips that the box is in
   int box;

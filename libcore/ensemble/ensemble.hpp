@@ -49,7 +49,6 @@ struct Ensemble {
   std::vector<std::string> differs;  ///< settings that differ between the cases, a line each
 };
 
-/// How many members have this outcome.
 [[nodiscard]] int count_of(const Ensemble& ensemble, Outcome outcome);
 /// How many members have no result.
 [[nodiscard]] int n_missing(const Ensemble& ensemble);

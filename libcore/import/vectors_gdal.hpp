@@ -19,7 +19,6 @@ enum class VectorKind { points, lines, areas };
 /// Purpose of a layer of a site.
 [[nodiscard]] InputRole role_of(VectorKind kind);
 
-/// A query of vectors.
 struct VectorQuery {
   std::string path;  ///< with layers and a filter where need be: base/source_path.hpp
   VectorKind kind = VectorKind::areas;

@@ -104,7 +104,6 @@ class TextReader {
   int line_ = 0;
 };
 
-/// The words of a line.
 [[nodiscard]] inline std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
   for (std::size_t at = 0; at < line.size();) {

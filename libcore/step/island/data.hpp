@@ -319,7 +319,6 @@ struct IslandScratch {
   return row_of(system.island, system.contacts[r].row);
 }
 
-/// Contacts of a pair of the island.
 [[nodiscard]] inline IndexRange contacts_of(const IslandSystem& system, std::size_t pair) {
   const BodyPair& of = system.island.pairs[pair];
   const auto first = static_cast<std::size_t>(system.first_contact[pair]);

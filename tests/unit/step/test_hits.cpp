@@ -243,7 +243,6 @@ TEST_P(EdgesThatHardlyCross, AreHitAcrossBoth) {
     }
 }
 
-// Elastic boxes in a bowl.
 TEST(Hits, ElasticBoxesInABowlKeepTheirEnergy) {
   Random random(3, "bowl");
   std::vector<Body> bodies;
