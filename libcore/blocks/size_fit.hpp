@@ -34,7 +34,7 @@ struct SizeFit {
 [[nodiscard]] std::vector<SizeFit> fit_sizes(const std::vector<double>& edges);
 
 struct SizeAnchor {
-  double volume = 0, years = 0;  ///< a block of this volume or more comes once in so many years
+  double volume = 0, years = 0;  ///< a block of this volume or more comes once in this many years
 };
 /// Blocks a year of any size.
 [[nodiscard]] double rate_of_all(const SizeFit& fit, const SizeAnchor& anchor);

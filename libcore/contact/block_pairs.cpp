@@ -13,7 +13,7 @@ namespace {
 
 constexpr double look_now = -std::numeric_limits<double>::infinity();
 constexpr double passing_ratio = 1e-4;  // ... by more than this in a step
-constexpr double steps_ahead = 20;      // ... and along the motion of so many steps ahead ...
+constexpr double steps_ahead = 20;      // ... and along the motion of this many steps ahead ...
 constexpr double farthest_ahead = 0.5;  // ... up to this part of its radius
 
 int n_free(const Hulls& hulls, const PairMotion& motion) {

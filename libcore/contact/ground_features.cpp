@@ -26,7 +26,7 @@ constexpr double explained = 2;    // of its depth: so near to another overlap i
 constexpr double at_node = 0.01;   // of half the thickness: a ridge supports this far beyond its
                                    // ends
 constexpr double blunt_cos = 0.1;  // of the normals beside a ridge: a normal between is along both
-constexpr double searches_ahead = 10;  // a list of features is to last for so many ...
+constexpr double searches_ahead = 10;  // a list of features is to last for this many ...
 constexpr double least_skin = 5e-3;    // ... of the radius
 constexpr double short_lived = 5;      // searches: such a list would not pay
 

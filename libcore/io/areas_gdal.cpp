@@ -18,7 +18,7 @@ namespace {
 using Polygons = std::vector<std::unique_ptr<OGRPolygon>>;
 
 // Groups of polygons that meet. Pairs are looked for from west to east, so that each polygon is
-// held against those near it alone.
+// compared with those near it alone.
 DisjointSets find_groups(const Polygons& polygons) {
   const std::size_t n = polygons.size();
   std::vector<OGREnvelope> box(n);

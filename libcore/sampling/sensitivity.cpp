@@ -23,7 +23,7 @@ bool is_constant(const std::vector<double>& values) {
                                        [&](double value) { return value == values.front(); });
 }
 
-// Pairs in an order that hangs on the pairs alone, so that sums do too.
+// Pairs in an order that depends on the pairs alone, so that sums do too.
 struct Pairs {
   std::vector<double> x, y;
 };

@@ -59,7 +59,7 @@ struct BlockLives {  // clang-format off
   std::vector<double> flight_end;           ///< nothing can be hit before; of a block that does
                                             ///< not fly: it can not before [s]      (n_blocks)
   std::vector<Pose> rest_pose;              ///< pose that it has not left ...       (n_blocks)
-  std::vector<int> rest_steps;              ///< ... for so many steps               (n_blocks)
+  std::vector<int> rest_steps;              ///< ... for this many steps             (n_blocks)
 };  // clang-format on
 
 /// All blocks near the ground at time 0, each at its pose of `rest`.

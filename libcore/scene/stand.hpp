@@ -1,7 +1,7 @@
 // libcore/scene/stand.hpp: public
 // A stand of trees that is drawn: a Poisson process of stems whose diameters are gamma distributed.
 // in:    stems on a hectare, mean and deviation of diameters, share of conifers, cell by cell
-// out:   stems; those of a cell hang on (seed, name, cell) alone, not on other cells or an order
+// out:   stems; those of a cell depend on (seed, name, cell) alone, not on other cells or an order
 // ref:   Dorren 2016 (Rockyfor3D), whose rasters have the same quantities
 #pragma once
 

@@ -22,10 +22,10 @@ namespace talus::law {
 /// this, and left unpressed; a contact that comes fast takes over no memory when it is deeper by
 /// more.
 inline constexpr double shallow = 1e-2;
-/// [thickness] Sunk in, and behind a ridge gone through it: overlap above this is pressed out
-/// whatever the force, in full from twice as much on; a contact is stiffer than the heaviest
-/// neighbour asks for; an overlap left by a hit is hit anew when a substep deepens it by so much; a
-/// hit cuts the substep that ends deeper by so much.
+/// [thickness] A block is sunk in at this overlap; behind a ridge, it has gone through. Larger
+/// overlap is pressed out whatever the force, in full from twice this on, and its contact is
+/// stiffer than the heaviest neighbour asks for. An overlap left by a hit is hit anew when a
+/// substep deepens it by this; a hit cuts a substep that ends deeper by this.
 inline constexpr double sunk = 2e-2;
 /// [g h, or the resting speed] Speed that is not a hit where the solver's error or a block's own
 /// motion may bring it about, and that a sweep of a mass may still change. Tried for masses: 0.05;
@@ -35,8 +35,7 @@ inline constexpr double least_speed = 2e-2;
 /// [-] Longest or shortest next substep, step of pseudo-time, or stiffness of a contact that slips
 /// or opens: this many times the last. Tried for pseudo-time: 10; half as many steps again.
 inline constexpr double largest_change = 4;
-/// [blocks] An island of at most so many is small; a mass of which no more are faster than g dt is
-/// calm.
+/// [blocks] Most blocks of a small island; most blocks faster than g dt of a calm mass.
 inline constexpr std::size_t few_blocks = 8;
 /// [-] Rounds of a substep until no contact is added that hits left to be stopped; solutions of the
 /// first step until contacts are as stiff as their loads need; cuts in a step where a block would
@@ -61,7 +60,7 @@ inline constexpr double stiffest_lone = 400;
 /// sway and fall. 30 for all blocks at rest; a mass that comes to rest is thrown up again and
 /// again. 400 for all; the forces of masses in motion are not found.
 inline constexpr double stiffest_at_rest = 30;
-/// [blocks] An island whose contact graph is a tree is small, too, up to so many blocks: a column
+/// [blocks] An island whose contact graph is a tree is small, too, up to this many blocks: a column
 /// ...
 inline constexpr std::size_t small_tree = 64;
 /// [g times the sum of thicknesses] ... whose squared speeds are below this: it is at rest or
@@ -79,23 +78,23 @@ inline constexpr double most_sag_in_motion = 1e-5;
 inline constexpr double soft_sag = 2;
 /// [-] k_n dt^2 / m of the stiffest contact by its load.
 inline constexpr double stiffest_by_load = 4e5;
-/// [-] That is softer by so much where forces are not found, and stays so for `most_rests`. Tried:
-/// 64; it changes little and is in vain ...
+/// [-] It is softer by this factor where forces are not found, and stays so for `most_rests`.
+/// Tried: 64; it changes little and is in vain ...
 inline constexpr double easing = 4096;
 /// [-] ... then all of the island is soft, at once where a block moves; then substeps are halved.
 inline constexpr int most_eased = 2;
-/// [-] A contact at rest becomes stiffer by so much a step, beyond the stiffness for the masses;
-/// one that carries little, slips or opens has that times the stiffness for its own mass.
+/// [-] A contact at rest becomes stiffer by this factor a step, beyond the stiffness for the
+/// masses; one that carries little, slips or opens has that times the stiffness for its own mass.
 inline constexpr double stiffens = 2;
 /// [g dt] Speed of slip or of opening from which a contact does not rest, nor a block.
 inline constexpr double slow = 0.2;
 /// [passes] An island whose first solution in a substep takes more is hard: contacts of moving
 /// blocks ...
 inline constexpr int hard_passes = 10;
-/// [-] ... become softer by so much ...
+/// [-] ... become softer by this factor ...
 inline constexpr double relief = 8;
-/// [steps] ... and no stiffer for so long. Tried: 5; a mass that topples takes half as many passes
-/// again.
+/// [steps] ... and no stiffer for this long. Tried: 5; a mass that topples takes half as many
+/// passes again.
 inline constexpr int most_rests = 40;
 /// [-] Stiffness of a contact whose load asks for more: `stiffens` times the need; times that in
 /// the first step, in which all sag at once. Tried: 2; towers sway ...
@@ -106,7 +105,7 @@ inline constexpr double ample_at_start = 8;
 inline constexpr double too_much = 30;
 /// [-] A contact whose stiffness changes by more than this factor in a step has another law.
 inline constexpr double same_law = 1.5;
-/// [dt] Overlap is pressed out over so many steps (tau). Tried: Newmark's own damping; contacts
+/// [dt] Overlap is pressed out over this many steps (tau). Tried: Newmark's own damping; contacts
 /// ring (lambda near -1). At 2.9 h |lambda| is 0.41 without a change of sign.
 inline constexpr double recovery_steps = 3;
 
@@ -133,7 +132,7 @@ inline constexpr double most_turn = 0.5;
 /// leaves half of it as overlap. Tried for masses: five times; rocks that are poured end a fifth of
 /// their thickness in each other.
 inline constexpr double most_substeps = 64;
-/// [h] Pairs are searched so far ahead. Tried: at predicted poses; an approach becomes an overlap
+/// [h] Pairs are searched this far ahead. Tried: at predicted poses; an approach becomes an overlap
 /// with the wrong face.
 inline constexpr double substeps_ahead = 2;
 /// [rad] A lone block that slides on one plane turns by no more in a substep.
@@ -161,7 +160,7 @@ inline constexpr double longest_turn = 60;
 /// [-] Halvings of an island's substep that does not converge; repetitions of a lone block's once
 /// no forces were found in the step, so that it ends.
 inline constexpr int most_halvings = 4;
-/// [h] So long after the hit the substep ends, and a look that found no hit looks on; so shortly
+/// [h] This long after the hit the substep ends, and a look that found no hit looks on; so shortly
 /// after it the supports of a block are unknown, and the rest of the substep is no shorter. Tried
 /// for looks: none; the next corner of a pair that parts is missed, and stopped without rebound.
 inline constexpr double after_hit = 1.0 / 32;
@@ -189,11 +188,11 @@ inline constexpr int free_steps = 3;
 inline constexpr int most_step_halvings = 8;
 /// [slip stiffness] Change before a pair's tangent is summed again.
 inline constexpr double slack = 0.5;
-/// [-] In so many steps the smallest residual has to fall by half; else motion is relaxed. A mass
-/// that so many steps in a row leave unsettled is exact for mass::calm_time; one that so many
+/// [-] In this many steps the smallest residual has to fall by half; else motion is relaxed. A mass
+/// that this many steps in a row leave unsettled is exact for mass::calm_time; one that this many
 /// substeps follow accurately takes long steps.
 inline constexpr int patience = 6;
-/// [residual] The next step of pseudo-time is as long as leaves so much of its own equation.
+/// [residual] The next step of pseudo-time is as long as leaves this share of its own equation.
 inline constexpr double usually_left = 0.1;
 
 // --- solution of a lone block ------------------------------------------------------------------
@@ -209,8 +208,8 @@ inline constexpr double load_time = 0.1;
 
 // --- rest --------------------------------------------------------------------------------------
 
-/// [steps] A block, or all of an island, stays in place for so long before it is left out. Tried: a
-/// limit on speed; one trembling block keeps an island awake.
+/// [steps] A block, or all of an island, stays in place for this long before it is left out. Tried:
+/// a limit on speed; one trembling block keeps an island awake.
 inline constexpr int steps_before_sleep = 200;
 /// [thickness] In place: no point went farther than this, or g dt^2 where that is less. A block has
 /// left its place where its centroid is farther from where it was at the start.

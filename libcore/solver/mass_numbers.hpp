@@ -8,8 +8,9 @@ namespace talus::mass {
 
 // --- exact or mass? ----------------------------------------------------------------------------
 
-/// [blocks] An island becomes a mass when more than so many of its blocks move. Tried: 8; it saves
-/// nothing on 390 blocks, and columns of ten keep more energy of a hit than their hits in turn.
+/// [blocks] An island becomes a mass when more than this many of its blocks move. Tried: 8; it
+/// saves nothing on 390 blocks, and columns of ten keep more energy of a hit than their hits in
+/// turn.
 inline constexpr int most_moving = 32;
 /// [blocks] A mass is exact again below this size ...
 inline constexpr int least_size = 24;

@@ -212,7 +212,7 @@ Settled settle(const Scene& scene, int b, double friction, bool from_touch, doub
       return Settled::slides;
     }
     if (n >= first_passes && change > accelerates * change_before) return Settled::moves;
-    // so many passes would let it fall over or slide away
+    // this many passes would let it fall over or slide away
     const double most_way = (friction >= 0 ? 0.1 : 0.5) * c.radius;
     if (Dof == 12 && (position - begin).norm() > most_way) return Settled::moves;
     way_before = way;

@@ -11,7 +11,7 @@
 namespace talus {
 
 /// Each node moved by a normal error of standard deviation `rmse` [m]. Errors at a distance d are
-/// correlated by exp(-(d / correlation)^2); `correlation` > 0 [m]. The error of a place hangs on
+/// correlated by exp(-(d / correlation)^2); `correlation` > 0 [m]. The error of a place depends on
 /// the seed and its map coordinates in cells, not on the window. Unknown nodes stay unknown.
 [[nodiscard]] Trn with_error(const Trn& trn, double rmse, double correlation, std::uint64_t seed);
 

@@ -44,7 +44,7 @@ void for_each(const IslandMembers& members, State& state, const Visit& visit) {
   for (const int b : members.moving) visit(state.mass[static_cast<size_t>(b)]);
 }
 
-// Exact from now on, for so many steps at least. False.
+// Exact from now on, for this many steps at least. False.
 bool leave(const IslandMembers& members, int barred, State& state) {
   if (state.mass.empty()) return false;
   for_each(members, state, [&](MassShare& share) {

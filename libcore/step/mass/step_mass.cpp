@@ -23,7 +23,8 @@ MassSettings settings_of(const Scene& scene, const MassShare& share, double h, W
   return settings;
 }
 
-// Overlap is pressed out over so many steps, long ones too: faster, the support of layers rings.
+// Overlap is pressed out over law::recovery_steps, long ones too: faster, the support of layers
+// rings.
 void set_recovery_time(const Scene& scene, double h, IslandMembers& members) {
   const double recovery_time =
       law::recovery_steps * (is_long_step(scene, h) ? h : scene.settings.dt);

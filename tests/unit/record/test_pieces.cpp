@@ -40,7 +40,7 @@ struct Thrown {
     return begin_run(scene, options, {record_line("low", {{15, -80, -9}, {15, 80, -9}})},
                      std::move(file));
   }
-  // Stopped after so many steps, and resumed; 0: never.
+  // Stopped after this many steps, and resumed; 0: never.
   RunFile computed(int stop) const {
     Runner runner = begin();
     for (int i = 0; !is_over(runner); ++i) {

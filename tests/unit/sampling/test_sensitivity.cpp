@@ -76,7 +76,7 @@ TEST(Sensitivity, RanksAndTheirCorrelationAreExactOnAFewNumbers) {
   EXPECT_TRUE(std::isnan(first_order_index({1, 2, 3}, {4, 4, 4})));
 }
 
-// A number with two values: the share between both, and none of a y that does not hang on it.
+// A number with two values: the share between both, and none of a y that does not depend on it.
 TEST(Sensitivity, FewValuesAreGroups) {
   const auto x = points({Sampling::random, 2}, 2000, 2);
   std::vector<double> two, y, y_of_two;
