@@ -116,7 +116,7 @@ const Vec3& nearest_vertex(const Parts& parts, int part, const AxisScratch& scra
 // ones, with `inner` also those at which the part alone ends but its body does not.
 //
 // The separation along a normal of an edge's arc is at most the height that any point of the other
-// part has over the plane through the edge, and where that point is behind the planes of both faces
+// part has over the plane through the edge. Where that point is behind the planes of both faces,
 // its height over that one is at most its height over the higher of them. The centroid of the other
 // body tells so of the edges on the far side, its vertex that is nearest to the part's best face of
 // most remaining ones: it lies behind all faces beside that one. `least` <= 0, and any edge where

@@ -33,8 +33,7 @@ struct Clusters {
   std::vector<double> weight;      ///< released by each, times that of its runs       (n_clusters)
   std::vector<int> n_blocks;       ///< released by each, in all runs                  (n_clusters)
   std::vector<int> of_run;         ///< cluster of a run, as shares of runs count it       (n_runs)
-  std::vector<double> run_weight;  ///< weight of a run, 1 on average
-                                   ///< (n_runs)
+  std::vector<double> run_weight;  ///< weight of a run, 1 on average                       (n_runs)
   std::vector<std::vector<int>> of_block;  ///< release cells: cluster of each block  (n_runs x n)
 };
 [[nodiscard]] inline int n_clusters(const Clusters& clusters) {

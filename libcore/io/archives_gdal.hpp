@@ -12,7 +12,7 @@ namespace talus {
 enum class Contents { vectors, rasters };
 
 /// The source that GDAL opens for a path: the one file of data where the path is an archive, else
-/// itself. Throws InputError where there is none, or several; Shapefiles of one folder are one.
+/// its own. Throws InputError where there is none, or several; Shapefiles of one folder are one.
 /// `remarks` gets a sentence on the member taken.
 [[nodiscard]] std::string source_in(const SourcePath& path, Contents contents,
                                     std::vector<std::string>& remarks);

@@ -21,7 +21,7 @@ struct PlyFile {
   std::size_t n_header_bytes = 0;
 };
 
-/// Elements besides x, y, z of a vertex and vertex_indices of a face are passed over. Throws
+/// Properties besides x, y, z of a vertex and vertex_indices of a face are passed over. Throws
 /// InputError, with the expectation, for anything else, a truncated or a lying file, and for
 /// faces of more or fewer than three corners where only triangles will do.
 [[nodiscard]] PlyFile parse_ply_file(std::string_view bytes, const std::string& path,

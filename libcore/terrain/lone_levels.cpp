@@ -1,4 +1,4 @@
-// Finds areas of one value in a raster that differ much from all their neighbours.
+// Finds areas of one value in a raster that differ much from their neighbours.
 #include "terrain/lone_levels.hpp"
 
 #include <algorithm>
