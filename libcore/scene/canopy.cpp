@@ -51,8 +51,8 @@ double drag_at(const std::vector<Canopy>& canopies, const Trn& trn, const Vec3& 
 
 namespace {
 
-// Adds where the height above the canopy's top is zero on a segment; the ground below bends it in
-// pieces; `low` and `high` are shares of the segment.
+// Adds where the height above the canopy's top is zero on a segment over ground that is linear
+// in pieces; `low` and `high` are shares of the segment.
 void add_top(const Canopy& canopy, const Trn& trn, const Vec3& from, const Vec3& to,
              std::vector<double>& shares) {
   constexpr int pieces = 4, halvings = 40;  // a substep goes over a few triangles at most

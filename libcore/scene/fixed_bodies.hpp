@@ -1,7 +1,7 @@
 // libcore/scene/fixed_bodies.hpp: public
 // Bodies without mass that no block moves: panels of fences, prisms of a blocky slope. Some of them
-// yield (Yielding). Blocks meet them through the same search as blocks; for the solver of an island
-// they are the ground.
+// yield (Yielding). Blocks meet them through the search that finds other blocks; for the solver of
+// an island they are the ground.
 // in:    convex bodies, their class of ground, and how they yield
 // out:   effect of a contact with a fixed body; hits so far on those that yield
 //
@@ -71,8 +71,7 @@ struct MetBody {
 /// other blocks left them. Rocks that fall one by one have a world each: every body there is as it
 /// was at the start, except those that the rock itself and its pieces pushed.
 struct YieldingState {  // clang-format off
-  std::vector<std::vector<MetBody>> worlds;  ///< bodies pushed there, ascending
-                                             ///< (n_worlds)
+  std::vector<std::vector<MetBody>> worlds;  ///< bodies pushed there, ascending          (n_worlds)
   std::vector<int> shifted;         ///< fixed bodies pushed in the shared world, in that order
 };  // clang-format on
 
@@ -92,7 +91,7 @@ struct FenceState {
   HitChain chain;              ///< of `hits`
 };
 
-// --- names of partners of a contact -------------------------------------------------------------
+// --- names of partners of a contact ------------------------------------------------------------
 // ContactKey::body_b and DeepBlock::partner: a block by its number, the ground, or a fixed body.
 
 inline constexpr int ground_name = -1;

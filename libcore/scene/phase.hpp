@@ -27,7 +27,7 @@ enum class Phase : std::uint8_t {
   left_domain,  ///< left the known terrain: stopped where it left, and counted
   stopped,      ///< its numbers failed: stopped at its last good state, and flagged
   unborn,       ///< not there yet: a fragment of a block that is still whole
-  crushed,      ///< debris without support, where it was crushed
+  crushed,      ///< debris that supports nothing, where it was crushed
   broken,       ///< not there any more: its fragments are
 };
 inline constexpr Phase last_phase = Phase::broken;

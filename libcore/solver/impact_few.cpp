@@ -12,7 +12,7 @@ namespace {
 using std::size_t;
 
 constexpr int most_steps = 24;  // of Newton
-// Share of a contact's own flexibility added to Newton's matrix alone: contacts that share a load
+// Share of a contact's own mobility added to Newton's matrix alone: contacts that share a load
 // share about evenly, and steps get nearer by this factor. Tried: 1e-7, 1e-3; fewer are found.
 constexpr double regularization = 1e-5;
 

@@ -55,8 +55,8 @@ struct IncompleteFactor {  // clang-format off
 /// Heights of the bodies' centroids: `down` points along gravity, of any length.
 void set_heights(const Island& island, const Vec3& down, IncompleteFactor& factor);
 
-/// The factor for the active bodies of `matrix`, which holds symmetric tangents; the rest is at
-/// rest.
+/// The factor for the active bodies of `matrix`, which holds symmetric tangents; the rest is
+/// fixed.
 void eliminate(const Island& island, const IslandMatrix& matrix, IncompleteFactor& factor);
 
 /// K x = -b for the active bodies by conjugate gradients from zero, after eliminate(), until the

@@ -1,6 +1,6 @@
 // libcore/solver/island_groups.hpp: public
 // Which blocks touch each other, directly or through other blocks: union-find over the pairs in
-// contact. The ground, and blocks as fixed as the ground, join no blocks.
+// contact. The ground and fixed blocks join no groups.
 #pragma once
 
 #include <cstddef>

@@ -202,7 +202,7 @@ struct Solve {
     return result.residual;
   }
 
-  // Takes the target of couples that are about to hold off the residual.
+  // Subtracts the targets of couples that are about to hold from the residual.
   void aim_couples() {
     for (const int p : work.matrix.active.pairs) {
       const BodyPair& pair = island.pairs[p];

@@ -129,8 +129,8 @@ std::optional<FeatureStart> edge_start(const Scene& scene, const Substep& s, con
 
 // A contact of a face or an edge that continues acts, over the substep, half-way between its places
 // on the block at the start and the end, and its gap is that between the features at either time.
-// With the point of its end alone, a face that slides over a node at speed v would be supported v h
-// / 2 away from its place.
+// With the point of its end alone, a face that slides over a node at speed v would be
+// supported v h / 2 away from its place.
 void follow_features(const Scene& scene, const Substep& s, const Contact& contact,
                      const Mat3& to_body, ContactRow& row) {
   const Mat3 from_start = to_body * s.R_start;

@@ -31,8 +31,7 @@ struct Work {  // clang-format off
   // find_contacts: candidates of the block at hand
   std::vector<Vec3> world_vertices;          ///< at the predicted pose [m]
   std::vector<Contact> contacts;             ///< of the block at hand             (n_candidates)
-  std::vector<NearFeatures> near_ground;     ///< features that each block may touch there
-                                             ///< (n_blocks)
+  std::vector<NearFeatures> near_ground;     ///< features that a block may touch there (n_blocks)
   // make_rows, solve_contacts
   std::vector<ContactRow> rows;              ///< of the block at hand
   SoilWork soil;                             ///< beside them

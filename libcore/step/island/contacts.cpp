@@ -16,7 +16,7 @@ namespace {
 using std::size_t;
 
 // Sets the data of a contact that follow from the motion of its points: they move by `moved`
-// relative within the substep without contact forces, and with `slip` at its start.
+// relative to each other within the substep without contact forces, and with `slip` at its start.
 void set_motion(const Vec3& normal, double gap, const Vec3& arm, const Vec3& drift,
                 const Vec3& moved, const Vec3& slip, ContactRow& row) {
   row.normal = normal;

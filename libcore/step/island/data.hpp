@@ -101,7 +101,7 @@ struct IslandMembers {  // clang-format off
   std::vector<int> blocks;                  ///< ascending
   std::vector<BlockNumbers> numbers;        ///<                                         (n_members)
   std::vector<int> place;                   ///< of a body in `blocks`, -1: not in it    (n_bodies)
-  std::vector<int> moving;                  ///< blocks that are not at rest, ascending
+  std::vector<int> moving;                  ///< blocks that are not fixed, ascending
   bool is_small = false;                    ///< the island's matrix is cheap to factor
   bool is_soft = false;                     ///< no load makes its contacts stiffer
   bool locates_hits = false;                ///< a hit ends the substep, as of a lone block

@@ -28,7 +28,7 @@ void add_predicted(const Scene& scene, const State& state, const BlockNumbers& c
   island.radius.push_back(c.radius);
 }
 
-// The substep of a member at rest.
+// The substep of a fixed member.
 Substep stand(const Pose& pose, double h) {
   Substep s;
   s.h = h;
