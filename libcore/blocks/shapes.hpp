@@ -1,7 +1,7 @@
 // libcore/blocks/shapes.hpp: public
 // Shapes by name: box, prism, EOTA block and its three usual proportions, random rock. Centred on
-// their centroid. refs: EAD 340059 (the EOTA block: a cube with bevelled edges and corners, 24
-// vertices)
+// their centroid.
+// refs:  EAD 340059 (the EOTA block: a cube with bevelled edges and corners, 24 vertices)
 #pragma once
 
 #include <string>

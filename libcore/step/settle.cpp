@@ -174,8 +174,8 @@ std::optional<StaticPass> static_pass(const Scene& scene, int b, const BlockNumb
 
 // Static iteration: steps from rest, each ending at rest, until the block moves by less than
 // `still` of its radius, or by the same displacement as in the step before without turning. A
-// sliding block is put back by the distance that it slid, and its acceleration is known. friction <
-// 0: that of the ground.
+// sliding block is put back by the distance that it slid, and its acceleration is known. A
+// negative friction means that of the ground.
 template <int Dof>
 Settled settle(const Scene& scene, int b, double friction, bool from_touch, double still,
                State& state, Work& work) {
