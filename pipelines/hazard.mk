@@ -1,6 +1,6 @@
 # Runs and frequencies -> return periods and hazard classes (GeoTIFF, GeoPackage).
 # in: [hazard], [hazard.class.*], HAZARD_FLAGS (e.g. --cell-size-m 10)
-# out: $(OUT)/hazard/*.tif, .qml, .png, .pdf, $(OUT)/hazard/hazard.gpkg, $(OUT)/hazard.json
+# out: $(OUT)/hazard/*.tif, .qml, .png, .pdf, hazard.gpkg, filing.gpkg, $(OUT)/hazard.json
 # With several classes the runs of class C are those of the case C (runs.mk). Without frequencies
 # there are no classes, and talus-hazard says why.
 $(eval $(call remember,hazard,$(HAZARD_FLAGS)))

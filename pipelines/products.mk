@@ -22,7 +22,7 @@ raster_suffixes := tif png pdf qml tif.aux.xml png.aux.xml
 hazard_names := event_exceed event_frequency passage_frequency return_period_* ke_T* probability \
   intensity class class_certain
 hazard_patterns := $(foreach suffix,$(raster_suffixes),$(hazard_names:%=hazard/%.$(suffix))) \
-  hazard/hazard.gpkg
+  hazard/hazard.gpkg hazard/filing.gpkg
 trace_patterns := $(raster_suffixes:%=sources/source_*.%)
 profile_products := $(addprefix profile/,profile.gpkg profile.json crossings.csv bins.csv \
   stations.csv ground.svg count.svg energy.svg speed.svg height.svg)

@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/printable.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/polygons_gdal.hpp"
 
 namespace talus {
 namespace {
@@ -28,7 +29,7 @@ class FixedDate {
 // In the order of GeometryType.
 constexpr OGRwkbGeometryType ogr_types[] = {wkbPoint,        wkbPoint25D,      wkbMultiPoint25D,
                                             wkbLineString,   wkbLineString25D, wkbLineStringZM,
-                                            wkbMultiPolygon, wkbNone};
+                                            wkbMultiPolygon, wkbPolygon,       wkbNone};
 
 OGRwkbGeometryType ogr_type(GeometryType type) { return ogr_types[static_cast<int>(type)]; }
 
@@ -42,13 +43,7 @@ OGRPoint point_of(const VectorFeature& feature, std::size_t i, OGRwkbGeometryTyp
 std::unique_ptr<OGRGeometry> multi_polygon_of(const VectorFeature& feature) {
   auto multi = std::make_unique<OGRMultiPolygon>();
   for (const auto& rings : feature.polygons) {
-    OGRPolygon polygon;
-    for (const auto& points : rings) {
-      OGRLinearRing ring;
-      for (const Vec2& p : points) ring.addPoint(p.x(), p.y());
-      ring.closeRings();
-      polygon.addRing(&ring);
-    }
+    const OGRPolygon polygon = polygon_of(rings);
     multi->addGeometry(&polygon);
   }
   return multi;
@@ -58,6 +53,7 @@ std::unique_ptr<OGRGeometry> geometry_of(const VectorFeature& feature, GeometryT
   const OGRwkbGeometryType type = ogr_type(wanted), flat = wkbFlatten(type);
   if (feature.points.empty() && feature.polygons.empty()) return nullptr;
   if (type == wkbMultiPolygon) return multi_polygon_of(feature);
+  if (type == wkbPolygon) return std::make_unique<OGRPolygon>(polygon_of(feature.polygons.front()));
   if (flat == wkbPoint) return std::make_unique<OGRPoint>(point_of(feature, 0, type));
   auto points = std::make_unique<OGRMultiPoint>();
   auto line = std::make_unique<OGRLineString>();
@@ -102,6 +98,7 @@ void write_features(OGRLayer& out, const VectorLayer& layer) {
 void write_layer(GDALDataset& dataset, OGRSpatialReference* crs, const VectorLayer& layer) {
   CPLStringList options;
   options.SetNameValue("DESCRIPTION", layer.description.c_str());
+  options.SetNameValue("GEOMETRY_NAME", layer.geometry.c_str());
   OGRLayer* const out =
       dataset.CreateLayer(layer.name.c_str(), crs, ogr_type(layer.type), options.List());
   if (out == nullptr) return;
@@ -169,7 +166,7 @@ void write_styles(GDALDataset& dataset, const std::vector<VectorLayer>& layers) 
     for (const char* name : {"f_table_catalog", "f_table_schema", "styleSLD", "owner", "ui"})
       style.SetField(name, "");
     style.SetField("f_table_name", layer.name.c_str());
-    style.SetField("f_geometry_column", "geom");
+    style.SetField("f_geometry_column", layer.geometry.c_str());
     style.SetField("styleName", layer.name.c_str());
     style.SetField("styleQML", layer.qml.c_str());
     style.SetField("useAsDefault", 1);

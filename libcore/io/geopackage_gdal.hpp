@@ -32,6 +32,7 @@ enum class GeometryType {
   line_z,
   line_zm,
   multi_polygon,
+  polygon,
   none
 };
 
@@ -50,7 +51,8 @@ struct VectorLayer {
   GeometryType type = GeometryType::point_z;
   std::vector<VectorField> fields;
   std::vector<VectorFeature> features;
-  std::string qml;  ///< default style; empty: none
+  std::string qml;                ///< default style; empty: none
+  std::string geometry = "geom";  ///< name of its column
 };
 
 /// Writes a new GeoPackage, byte by byte the same for the same layers. `tags` become metadata of

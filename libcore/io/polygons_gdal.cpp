@@ -60,14 +60,18 @@ std::vector<std::vector<std::vector<Vec2>>> polygons_of(const OGRGeometry& geome
   return out;
 }
 
-OGRPolygon polygon_of(const std::vector<Vec2>& ring) {
-  OGRLinearRing outline;
-  for (const Vec2& p : ring) outline.addPoint(p.x(), p.y());
-  outline.closeRings();
+OGRPolygon polygon_of(const std::vector<Ring>& rings) {
   OGRPolygon polygon;
-  polygon.addRing(&outline);
+  for (const Ring& points : rings) {
+    OGRLinearRing ring;
+    for (const Vec2& p : points) ring.addPoint(p.x(), p.y());
+    ring.closeRings();
+    polygon.addRing(&ring);
+  }
   return polygon;
 }
+
+OGRPolygon polygon_of(const Ring& ring) { return polygon_of(std::vector<Ring>{ring}); }
 
 std::vector<std::vector<Ring>> union_of(const std::vector<Ring>& pieces, double tolerance) {
   OGRMultiPolygon all;

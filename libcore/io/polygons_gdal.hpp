@@ -16,6 +16,7 @@ namespace talus {
 [[nodiscard]] std::vector<std::vector<std::vector<Vec2>>> polygons_of(const OGRGeometry& geometry);
 
 [[nodiscard]] OGRPolygon polygon_of(const std::vector<Vec2>& ring);
+[[nodiscard]] OGRPolygon polygon_of(const std::vector<std::vector<Vec2>>& rings);
 
 /// The union of simple rings that meet edge to edge up to `tolerance` [m]. Corners within
 /// `tolerance` of a straight side are left out, and so are rings as narrow as it.

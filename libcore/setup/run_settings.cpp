@@ -108,7 +108,6 @@ void cut_fragments(InputLog& log, const Site& site, DdaInputs& inputs) {
 
 void warn_of_plan(InputLog& log, const Site& site, const ScenePlan& plan, DdaInputs& inputs) {
   const int n = n_blocks(inputs.parts.blocks);
-  const bool has_strains_asked_for = site.output.strain || site.solver.strain == "on";
   if (n < 2) return;
   const auto warn = [&](const std::string& words) {
     inputs.warnings.push_back(words);
@@ -120,7 +119,7 @@ void warn_of_plan(InputLog& log, const Site& site, const ScenePlan& plan, DdaInp
     warn(std::to_string(n) +
          " blocks move as if each were alone: contacts between them are not computed");
   // Whoever asks for stress must not read it off blocks that have none.
-  else if (has_strains_asked_for && site.solver.law == "talus")
+  else if (site.solver.strain == "on" && site.solver.law == "talus")
     warn(
         "strains are asked for: law talus computes blocks that touch each other rigid, their "
         "strains stay as they were");

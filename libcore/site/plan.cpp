@@ -37,10 +37,8 @@ PlanItem strains(const PlanFacts& facts, bool full) {
   if (facts.strain == "off") {
     item.on = false;
     item.reason = "[solver] strain is off";
-  } else if (full || facts.strain == "on" || facts.stress_wanted) {
-    item.reason = full                   ? full_asked_for
-                  : facts.strain == "on" ? "[solver] strain is on"
-                                         : "[output] strain is asked for";
+  } else if (full || facts.strain == "on") {
+    item.reason = full ? full_asked_for : "[solver] strain is on";
   } else {
     item.on = facts.largest_weight_strain > strain_that_matters;
   }
@@ -90,7 +88,6 @@ PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
     if (forest.active && site.solver.law == "talus")
       ++(forest.drag_kg_s > 0 ? facts.n_canopies : facts.n_forests);
   facts.has_base_motion = !site.base_motion.file.empty() || site.base_motion.amplitude_m_s2 > 0;
-  facts.stress_wanted = site.output.strain;
   facts.strain = site.solver.strain;
   facts.passages = site.output.passages;
   facts.law = site.solver.law;
@@ -170,10 +167,11 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
   if (facts.n_canopies > 0)
     add({"drag of forests", true, "in each substep by place; no flight goes over such a forest",
          counted(facts.n_canopies, "forest")});
+  const bool is_asked_for = facts.strain == "on";
   plan.strains_in_frames = add(kept_by_full(
-      full && plan.strains, {"strains in frames", facts.stress_wanted && plan.strains,
-                             "stored where asked for and computed",
-                             facts.stress_wanted ? "[output] strain" : "not asked for"}));
+      full && plan.strains,
+      {"strains in frames", is_asked_for && plan.strains, "stored where asked for and computed",
+       is_asked_for ? "[solver] strain = on" : "not asked for"}));
   return plan;
 }
 

@@ -39,7 +39,6 @@ struct PlanFacts {
   int n_canopies = 0;   ///< forests that drag, law talus
   bool breaks = false;  ///< blocks may break: their pieces meet
   bool has_base_motion = false;
-  bool stress_wanted = false;   ///< [output] strain
   std::string strain = "auto";  ///< [solver] strain: auto, on, off
   bool passages = true;
   std::string law = "talus";

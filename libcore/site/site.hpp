@@ -202,7 +202,7 @@ struct OutputSettings {
   double frame_interval_s = 0.1;
   double checkpoint_interval_s = 60;  ///< of wall time
   double cell_size_m = not_given;
-  bool passages = true, strain = false;
+  bool passages = true;
   bool frames = true;      ///< kept once the run has ended; else the first and the last alone
   double whole_share = 0;  ///< of the runs, where frames is false, that keep them nevertheless
 };
@@ -242,13 +242,11 @@ struct BodySettings {
   std::string name;
   int line = 0;
   std::string file;  ///< OBJ, PLY, OFF or STL; or shape
-  bool y_up = false;
   double scale = 1;
   std::string shape;
   std::vector<double>
       size_m;  ///< edges of a box; axes of a rock, a prism (diameter, length) or an eota
   double volume_m3 = not_given;  ///< scales the shape to it
-  std::int64_t n_sides = 6;      ///< prism
   std::int64_t n_points = 20;    ///< rock
   std::string material;
   std::vector<Vec3> position_m;              ///< map x, y or x, y, z; several: one body each
@@ -286,6 +284,7 @@ struct RockfallSettings : BodySettings {
 /// [hazard]: what hazard classes are made by.
 struct HazardSettings {
   std::string recipe = "switzerland_ti";  ///< a name of share/hazard, or a file
+  std::string author, date, name_space;   ///< of what is filed; all of them, or none
 };
 
 /// [hazard.class.NAME]: how often what was simulated for a class of volumes happens. One of the

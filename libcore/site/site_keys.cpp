@@ -153,7 +153,7 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"accuracy", &S::accuracy, "law talus: estimated error of a moving block's displacement, as a share of it; a step whose estimate is larger is cut", {0, 1, true, false}},
       {"gravity_m_s2", &S::gravity_m_s2, "gravity, downwards", {0, 1000}},
       {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "penalty stiffness of a contact", positive},
-      {"strain", &S::strain, "strain degrees of freedom", any, "auto|on|off"},
+      {"strain", &S::strain, "strain degrees of freedom; on: recorded in frames, too", any, "auto|on|off"},
       {"end_when_standing", &S::end_when_standing, "a run in which no block moved more than 0.1 m or is faster than 2 mm/s after 3 s ends there, and says so"},
       {"seed", &S::seed, "seed of the run", not_negative},
       {"n_runs", &S::n_runs, "runs with seeds counted up. Of [rockfall.*] 10 when not given", {1, 1000000}},
@@ -225,7 +225,6 @@ template <> const std::vector<SiteKey<OutputSettings>>& keys_of() {
       {"checkpoint_interval_s", &S::checkpoint_interval_s, "wall time between checkpoints", positive},
       {"cell_size_m", &S::cell_size_m, "cell size of maps; that of the TRN when not given", positive},
       {"passages", &S::passages, "record passages of cells"},
-      {"strain", &S::strain, "record strains"},
       {"frames", &S::frames, "keep all frames of a run that has ended; else the first and the last"},
       {"whole_share", &S::whole_share, "with frames = false: share of the runs, evenly over their seeds, that keep all frames nevertheless, for the animation", share}};
   return table;
@@ -291,9 +290,7 @@ std::vector<SiteKey<S>> with_body_keys(const char* shapes, std::vector<SiteKey<S
 template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
   using S = PlacedSettings;
   static const std::vector<SiteKey<S>> table = with_body_keys<S>("box|prism|eota|eota111|eota211|eota221|rock", {
-      {"y_up", &S::y_up, "the mesh has y upwards: (x, y, z) becomes (x, -z, y)"},
       {"scale", &S::scale, "factor on the mesh", positive},
-      {"n_sides", &S::n_sides, "sides of a prism", {3, 64}},
       {"in_place", &S::in_place, "the mesh has map coordinates and is not moved"},
       {"yaw_deg", &S::yaw_deg, "rotation about z, applied last", {-360, 360}},
       {"pitch_deg", &S::pitch_deg, "rotation about y", {-360, 360}},
@@ -366,7 +363,10 @@ template <> const std::vector<SiteKey<FenceSearchSettings>>& keys_of() {
 template <> const std::vector<SiteKey<HazardSettings>>& keys_of() {
   using S = HazardSettings;
   static const std::vector<SiteKey<S>> table = {
-      {"recipe", &S::recipe, "how classes are made: a name of share/hazard, or a file like those"}};
+      {"recipe", &S::recipe, "how classes are made: a name of share/hazard, or a file like those"},
+      {"author", &S::author, "who answers for the hazard map: person and office. With the next two it is written to be filed"},
+      {"date", &S::date, "day of the assessment, YYYY-MM-DD"},
+      {"namespace", &S::name_space, "of the identifiers that are filed: ti.ch and the like of a canton file by the Swiss model, others by INSPIRE"}};
   return table;
 }
 template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of() {

@@ -5,7 +5,7 @@
 //             [empty=1] [blocks=N] [step=H] [frames=DT] [seed=K] [height=H] [capacity=KJ|none]
 //             [hits=stopped|held|broken|pile] [moving=1] [still=N] [still_runs=N]
 //             [objects=watched|drawn] [weight=W] [independent=1] [passages=no] [case=NAME]
-//             [share=MAX_FAILED_SHARE]
+//             [share=MAX_FAILED_SHARE] [crs=EPSG:2056]
 // Box b of run r (edge 1 m, 2600 kg) starts at rest at x = 11, y = 10 + 6 b and slides with
 // a = 3 m/s2 along the slope for 4 s (24 m), then brakes evenly to rest within 2 s (12 m more); its
 // speed is that of run 0 times 1 + 0.01 r. Written: DIR/slope.tif, DIR/run_<r>.h5, DIR/site.toml.
@@ -50,11 +50,12 @@ std::string word(const Words& words, const std::string& key, const std::string& 
   return at == words.end() ? otherwise : at->second;
 }
 
-Scene make_scene(int n) {
+Scene make_scene(int n, const std::string& crs) {
   Scene scene;
   scene.ground.trn = trn_of(16, 41, 2, [](double x, double) { return 200 - std::tan(angle) * x; });
-  scene.ground.trn.origin = {250000, 350000, 0};
-  scene.ground.trn.crs_wkt = crs_from_user("EPSG:31254", "crs");
+  scene.ground.trn.origin =
+      crs == "EPSG:2056" ? Vec3(2650000, 1200000, 0) : Vec3(250000, 350000, 0);
+  scene.ground.trn.crs_wkt = crs_from_user(crs, "crs");
   for (int b = 0; b < n; ++b) add_box(scene, {1, 1, 1});
   return scene;
 }
@@ -169,7 +170,8 @@ void record_hits(RunFile& run, const std::string& kind) {
 }
 
 RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
-  const Scene scene = make_scene(static_cast<int>(number(words, "blocks", 1)));
+  const Scene scene =
+      make_scene(static_cast<int>(number(words, "blocks", 1)), word(words, "crs", "EPSG:31254"));
   const double step = number(words, "step", 0.01), interval = number(words, "frames", 0.1);
   RunFile run;
   run.info.run_id =
@@ -242,7 +244,7 @@ int main(int argc, char** argv) {
     const std::string text = argv[i];
     words[text.substr(0, text.find('='))] = text.substr(text.find('=') + 1);
   }
-  const Scene scene = make_scene(1);
+  const Scene scene = make_scene(1, word(words, "crs", "EPSG:31254"));
   Trn trn = scene.ground.trn;
   write_trn(folder + "/slope.tif", trn);
   std::ofstream(folder + "/site.toml") << site_text(words);

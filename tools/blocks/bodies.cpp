@@ -46,7 +46,6 @@ void check_number(const BodySection& section, double n_bodies) {
 Polyhedron shape_of(const BodySection& section, Random& random) {
   const ShapeKind& kind = shape_kind(section.body.shape);
   ShapeSize size;
-  size.n_sides = static_cast<int>(section.body.n_sides);
   size.n_points = static_cast<int>(section.body.n_points);
   const std::vector<double>& given = section.body.size_m;
   const auto wanted = static_cast<std::size_t>(kind.n_extents);
@@ -107,7 +106,6 @@ std::vector<Body> mesh_bodies(const BodySection& section, bool in_place) {
   for (const std::string& doubt : doubts_about(meshes)) section.tool.warn(path + ": " + doubt);
   const auto put_in_frame = [&](Polyhedron& surface) {
     for (Vec3& v : surface.vertices) {
-      if (section.body.y_up) v = Vec3(v.x(), -v.z(), v.y());
       v *= section.body.scale;
       if (in_place) v -= section.ground.origin;
     }

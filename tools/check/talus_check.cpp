@@ -12,6 +12,7 @@
 #include "tools/check/words.hpp"
 #include "tools/frame/doubts.hpp"
 #include "tools/frame/doubts_json.hpp"
+#include "tools/frame/filing_keys.hpp"
 #include "tools/frame/hazard_recipe.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/frame/site_options.hpp"
@@ -116,13 +117,16 @@ int main(int argc, char** argv) {
     const Site& site = site_options.load();
     check_site_crs(site);
     // refused now, not after the runs
-    check_exposure(site, read_recipe(tool, site), hazard_classes(site));
+    const Recipe recipe = read_recipe(tool, site);
+    check_exposure(site, recipe, hazard_classes(site));
+    if (const std::string words = unused_exposure(site, recipe); !words.empty()) tool.warn(words);
     Look look;
     for (const std::string& file : o.reports)
       if (const Json report = Json::parse_or_null(read_file(file));
           report.is_object() && report.value("tool", "") == "talus-stability")
         look.stability = report;
     look_or_show(tool, o, site, look);
+    check_filing(site, recipe, look.work.ground.crs_wkt);
     find_doubts(look);
     probe_look(tool, probe_duration(o, look), look);
     if (tool.interrupted()) throw Interrupted();

@@ -7,15 +7,6 @@
 namespace talus {
 namespace {
 
-using Polygons = std::vector<std::vector<std::vector<Vec2>>>;
-
-Polygons on_map(Polygons polygons, const Vec3& origin) {
-  for (auto& rings : polygons)
-    for (auto& ring : rings)
-      for (Vec2& p : ring) p += origin.head<2>();
-  return polygons;
-}
-
 std::string joined(const std::vector<std::string>& notes) {
   std::string out;
   for (const std::string& note : notes) out += (out.empty() ? "" : "; ") + note;
@@ -59,7 +50,7 @@ VectorLayer class_layer(const std::string& name, const std::string& description,
       if (codes[i] == c->code) cells.push_back(static_cast<std::uint32_t>(i));
     if (cells.empty()) continue;
     VectorFeature feature;
-    feature.polygons = on_map(outline(grid, cells), origin);
+    feature.polygons = polygons_on_map(grid, cells, origin);
     feature.values = values_of(
         class_fields(),
         {recipe, *c, static_cast<double>(cells.size()) * grid.cell_size * grid.cell_size, basis});
@@ -90,7 +81,7 @@ VectorLayer uncertain_layer(const MapLayer& certainty, const PassageGrid& grid,
     if (certainty.bands[0].value[i] == 0) cells.push_back(certainty.cell[i]);
   if (cells.empty()) return layer;
   VectorFeature feature;
-  feature.polygons = on_map(outline(grid, cells), origin);
+  feature.polygons = polygons_on_map(grid, cells, origin);
   feature.values =
       values_of(area_fields(), static_cast<double>(cells.size()) * grid.cell_size * grid.cell_size);
   layer.features.push_back(std::move(feature));
@@ -98,6 +89,16 @@ VectorLayer uncertain_layer(const MapLayer& certainty, const PassageGrid& grid,
 }
 
 }  // namespace
+
+std::vector<std::vector<std::vector<Vec2>>> polygons_on_map(const PassageGrid& grid,
+                                                            const std::vector<std::uint32_t>& cells,
+                                                            const Vec3& origin) {
+  auto polygons = outline(grid, cells);
+  for (auto& rings : polygons)
+    for (auto& ring : rings)
+      for (Vec2& p : ring) p += origin.head<2>();
+  return polygons;
+}
 
 std::vector<VectorLayer> hazard_polygons(const MapLayer& classes, const MapLayer& certainty,
                                          const PassageGrid& grid, const Vec3& origin,

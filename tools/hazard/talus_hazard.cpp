@@ -12,9 +12,11 @@
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
+#include "tools/frame/filing_keys.hpp"
 #include "tools/frame/hazard_recipe.hpp"
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/tool.hpp"
+#include "tools/hazard/filing.hpp"
 #include "tools/hazard/inputs.hpp"
 #include "tools/hazard/layers.hpp"
 
@@ -175,7 +177,7 @@ void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
   if (periods.empty() || rate * periods.back() < 1) return;
   tool.warn("places that no run reached may be reached once in " + text(1 / rate, 3) +
             " years, which is within the " + period_name(periods.back()) +
-            " years of the recipe: more runs are needed to call them free");
+            " years of the recipe; more runs are needed to call them free");
 }
 
 // The maps of all layers; what the result says of each.
@@ -212,6 +214,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   const Recipe recipe = read_recipe(tool, site);
   check_exposure(site, recipe, classes);
   const Trn& trn = runs.trn();
+  check_filing(site, recipe, trn.crs_wkt);
   HazardInputs inputs = read_hazard_inputs(runs, classes, recipe, o.cell_size_m, o.most_rows());
   const std::vector<MapLayer> layers = read_hazard_layers(runs, inputs, o.most_rows());
   const HazardSources& sources = inputs.sources;
@@ -258,6 +261,14 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
     result["frequencies"] = rates;
     result["rate_elsewhere_per_a"] = number_or_null(largest_rate_elsewhere(sources.classes));
     summary += area_lines(result["classes"]);
+    if (is_filed(site)) {
+      const std::string path = (fs::path(o.folder) / "filing.gpkg").string();
+      Filing filing = filing_of(site, sources, layers, grid, frame.known, trn.origin, path);
+      mark_layers(filing.layers, remark);
+      write_geopackage(tool.stage(path), trn.crs_wkt, filing.layers, tags);
+      result["filing"] = filing.result;
+      summary += filing.words;
+    }
   } else {
     result["classes"] = nullptr;
     result["why_no_classes"] = why;

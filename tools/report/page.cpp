@@ -505,8 +505,7 @@ std::string shape_of(const Texts& texts, const BodySettings& placed) {
   if (!size.empty()) size += " m";
   if (placed.shape == "rock")
     return texts.of("assumed.rocks", {{"n", std::to_string(placed.n_points)}}) + size;
-  if (placed.shape == "prism")
-    return texts.of("assumed.prisms", {{"n", std::to_string(placed.n_sides)}}) + size;
+  if (placed.shape == "prism") return texts.of("assumed.prisms", {}) + size;
   if (placed.shape == "joint_cell") return texts.of("assumed.joint_cells", {});
   return xml_escaped(texts.said(placed.shape)) + size;
 }

@@ -274,6 +274,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   const std::vector<HazardClass> classes = hazard_classes(site);
   const Recipe recipe = read_recipe(tool, site);
   check_exposure(site, recipe, classes);
+  if (const std::string words = unused_exposure(site, recipe); !words.empty()) tool.warn(words);
   const Traced traced = trace(tool, site, runs, o, classes);
   const TraceSums& sums = traced.sums;
   const Trn& trn = runs.trn();

@@ -315,8 +315,7 @@ RasterStyle hazard_style(const MapLayer& layer, const Recipe& recipe, const std:
         "Return period of " + shown->description.substr(sizeof("1 / frequency of ") - 1);
     style.legend = "Years between two events [a]";
   } else if (layer.name.starts_with("ke_T")) {
-    style.classes =
-        stepped_classes({3, 30, 100, 300, 1000, 3000, 10000}, " kJ", false, Ramp::energy);
+    style.classes = stepped_classes(energy_limits, " kJ", false, Ramp::energy);
     style.heading = "Kinetic energy within " + layer.name.substr(4) + " years";
     style.legend = "Largest, with rotation, that comes at least once in that time [kJ]";
   } else if (layer.name == "event_exceed" || layer.name == "probability") {

@@ -44,6 +44,9 @@ struct HazardSources {
                                                       const std::string& unit, bool is_deep_low,
                                                       Ramp ramp);
 
+/// Of the classes of layers ke_T* and of areas of energy that are filed [kJ].
+inline const std::vector<double> energy_limits = {3, 30, 100, 300, 1000, 3000, 10000};
+
 /// Of the cells of layer "class": whether it is certain, its bounds, the number in the matrix.
 inline constexpr const char* certainty_layer = "class_certain";
 

@@ -54,6 +54,7 @@ struct Recipe {
   double mass_volume = 0;  ///< released volume above which blocks are a mass; 0: no rule [m3]
   double alone_s = 3;      ///< a block is alone with no other in the cell within so long [s]
   int mass_intensity = 0;  ///< that a cell reached by a mass has at least, from 0
+  double min_area = 0;     ///< of a polygon that is filed; 0: none [m2]
   /// Of a recipe of risk: what a year may bring the one who is most at risk, ascending [1/a].
   std::vector<double> risk_limits;
   /// Indices into `classes`: below the first limit, from each on                   (n_limits + 1)

@@ -17,9 +17,10 @@ class RecipeReader {
   RecipeReader(const toml::table& root, const std::string& path) : root_(root), path_(path) {}
 
   Recipe read() {
-    check_keys(root_, "",
-               {"name", "edition", "source", "intensity", "return_period_a", "probability",
-                "in_years", "matrix", "numbers", "split", "beyond", "risk", "mass", "class"});
+    check_keys(
+        root_, "",
+        {"name", "edition", "source", "intensity", "return_period_a", "probability", "in_years",
+         "matrix", "numbers", "split", "beyond", "risk", "mass", "min_area_m2", "class"});
     recipe_.name = word(root_, "name", "name");
     recipe_.edition = word(root_, "edition", "edition");
     read_intensity();
@@ -115,6 +116,9 @@ class RecipeReader {
     recipe_.side = side == "b";
     if (root_.contains("beyond")) read_beyond();
     if (root_.contains("mass")) read_mass();
+    if (!root_.contains("min_area_m2")) return;
+    recipe_.min_area = number(*root_.get("min_area_m2"), "min_area_m2");
+    if (!(recipe_.min_area > 0)) refuse(root_.get("min_area_m2"), "min_area_m2", "is not above 0");
   }
 
   // The rate of events at which one comes within `years` with the probability p is
@@ -203,8 +207,9 @@ class RecipeReader {
 
   // Every number of the recipe stands somewhere.
   void read_sources() {
-    static const std::vector<std::string> items = {
-        "return_period_a", "probability", "matrix", "intensity", "risk", "mass", "class"};
+    static const std::vector<std::string> items = {"return_period_a", "probability", "matrix",
+                                                   "intensity",       "risk",        "mass",
+                                                   "min_area_m2",     "class"};
     const toml::node& node = needed(root_, "source", "source");
     if (!node.is_array() || !node.as_array()->is_array_of_tables())
       refuse(&node, "source", "is not a list of sections",

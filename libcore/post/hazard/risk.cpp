@@ -73,6 +73,18 @@ void check_exposure(const Site& site, const Recipe& recipe,
   for (const ObjectSettings& object : site.objects) check_object(site, recipe, object);
 }
 
+std::string unused_exposure(const Site& site, const Recipe& recipe) {
+  if (is_of_risk(recipe)) return "";
+  std::string names;
+  for (const ObjectSettings& object : site.objects)
+    if (!std::isnan(object.presence) || !object.vulnerability.empty() ||
+        !std::isnan(object.persons_per_day))
+      names += (names.empty() ? "" : ", ") + object.name;
+  if (names.empty()) return "";
+  return "presence, vulnerability and persons_per_day of " + names + " are not used; recipe " +
+         recipe.name + " has no [risk]";
+}
+
 ObjectRisk risk_of(const Recipe& recipe, const ObjectSettings& object,
                    std::span<const Rate> rates) {
   Rate deaths_of_one;  // a year who is there all the time and never dies

@@ -23,6 +23,9 @@ namespace talus {
 void check_exposure(const Site& site, const Recipe& recipe,
                     const std::vector<HazardClass>& classes);
 
+/// What objects say of who is there and a recipe without [risk] does not read; empty: nothing.
+[[nodiscard]] std::string unused_exposure(const Site& site, const Recipe& recipe);
+
 struct ObjectRisk {
   Rate individual;          ///< a year, of the one most at risk [-]
   double deaths = 0;        ///< expected of all who are there [1/a]

@@ -31,7 +31,7 @@ placed 'file = "two.obj"' 'position_m = [500020, 5200020]'
 expect 0 blocks --overwrite --report r.json
 [ "$(value r.json n_blocks)" -eq 2 ] || fail "two bodies in a file are not two blocks"
 
-placed 'file = "cube.obj"' 'scale = 2' 'y_up = true' 'position_m = [[500020, 5200020], [500030, 5200020]]' \
+placed 'file = "cube.obj"' 'scale = 2' 'roll_deg = 90' 'position_m = [[500020, 5200020], [500030, 5200020]]' \
   'height_above_ground_m = 3' 'velocity_m_s = [1, 0, 0]'
 expect 0 blocks --overwrite --report r.json
 holds "$(value r.json volume_m3) == 16"
