@@ -11,7 +11,7 @@ check: $(check_files) ## a look before the runs: will the mass move, is all in i
 $(eval $(call together,$(check_files)))
 n_runs = $(word 5,$(status_runs)) * $(words $(kinds))
 $(OUT)/check.html: $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/check.flags $(STAGES)/check.files \
-  $(stability_for_others)
+  $(STAGES)/trace.txt $(STAGES)/trace.files $(stability_for_others)
 	$(call not_in_a_shard,$@)
 	$(call say,check: a look before the runs)
 	$(Q)$(BIN)talus-check site.toml --trn $(OUT)/trn.tif --bed $(OUT)/bed.tif \

@@ -23,10 +23,8 @@ void read_data(InputLog& log, const std::string& role, const std::string& path) 
   read_members(log, role, path);
 }
 
-std::string sentence_on(const LayerReading& taken) {
-  std::string words = taken.file + ": layer " + taken.layer;
-  if (!taken.where.empty()) words += " where " + taken.where;
-  words += ", " + counted(taken.n_parts, taken.noun);
+std::string parts_of(const LayerReading& taken) {
+  std::string words = counted(taken.n_parts, taken.noun);
   if (taken.area_m2 > 0) words += " of " + grouped_text(taken.area_m2, 4) + " m2 in all";
   if (taken.n_united > 0)
     words += "; " + std::to_string(taken.n_united) + " that overlap or touch were united to " +
@@ -59,9 +57,8 @@ LayerRead facts_on(const LayerReading& taken, const std::string& role) {
   return layer;
 }
 
-void say_shapes(InputLog& log, const VectorShapes& found) {
+void note_shapes(InputLog& log, const VectorShapes& found) {
   log.content_read(found.role, digest_of(found));
-  log.info(sentence_on(found));
   if (!found.operation.empty()) log.record(found.file + ": " + found.operation);
   for (const std::string& remark : found.remarks) log.info(found.file + ": " + remark);
   if (found.n_passed_over > 0)
@@ -73,7 +70,9 @@ VectorShapes read_layer(InputLog& log, const std::string& role, const VectorQuer
                         const std::string& crs_wkt) {
   VectorShapes found = read_vectors(query, crs_wkt);
   found.role = role;
-  say_shapes(log, found);
+  log.info(found.file + ": layer " + found.layer +
+           (found.where.empty() ? "" : " where " + found.where) + ", " + parts_of(found));
+  note_shapes(log, found);
   log.doubts(found.doubts);
   log.layer_read(facts_on(found, role));
   return found;

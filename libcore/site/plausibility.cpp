@@ -71,7 +71,7 @@ void look_at_resolution(const PlausibilityFacts& f, Doubts& doubts) {
                "take smaller cells, or a finer elevation model");
   doubts.below(f.smallest_spacing / f.cell_size, {1, never_low}, "terrain.cell_size_m",
                "joints are " + metres(f.smallest_spacing) + " apart, cells " + metres(f.cell_size) +
-                   ": blocks smaller than a cell lie on a bed smoother "
+                   "; blocks smaller than a cell lie on a bed smoother "
                    "than they are",
                "widen the spacings, or take smaller cells");
   doubts.below(f.width / f.smallest_spacing, {3, 1}, "joints.spacing_m",

@@ -372,7 +372,7 @@ void warn_of_soils(Tool& tool, const Site& site, const BlockSet& blocks) {
     else if (heaviest_t > soil->heaviest_t)
       tool.warn(words + " was tested with blocks up to " + text(soil->heaviest_t) +
                 " t; the heaviest here has " + text(heaviest_t, 3) +
-                " t, and rebounds less than any test shows. The other bound: "
+                " t, and rebounds less than any test shows; the other bound: "
                 "cor_half_speed_m_s = 10 in its section");
   }
 }

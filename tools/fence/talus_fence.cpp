@@ -75,7 +75,7 @@ void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResul
   if (result.design.verdict == DesignVerdict::too_few)
     tool.warn(name + ": too few arrivals for the percentiles of the code, " +
               std::to_string(result.at_basis.n) + " of " + std::to_string(result.design.n_needed) +
-              ": the largest values stand in for them, and nothing is judged");
+              "; the largest values stand in for them, and nothing is judged");
 }
 
 MapTags output_tags(Tool& tool, const RunInputs& inputs, const FenceRuns& runs,

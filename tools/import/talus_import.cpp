@@ -132,7 +132,8 @@ Json as_json(const LayerReading& layer) {
 
 // "contours: 163 lines, 100 to 126 m high, half of them below 110 m"
 std::string line_of(const LayerReading& layer) {
-  std::string words = layer.role + ": " + counted(layer.n_parts, layer.noun);
+  std::string words = layer.role + ": " + parts_of(layer);
+  if (!layer.where.empty()) words += ", where " + layer.where;
   for (const Magnitude& m : layer.magnitudes) {
     const std::string unit = m.quantity == "z_m" ? " m" : "";
     if (m.quantity == "z_m" || m.quantity == "value")
@@ -149,7 +150,7 @@ void run_tool(Tool& tool, const Site& site, Options& o) {
   ImportReading reading;
   const Imported inputs = import_inputs(request, reading);
   say_reading(tool, reading);
-  for (const VectorShapes& shapes : inputs.shapes) say_shapes(tool, shapes);
+  for (const VectorShapes& shapes : inputs.shapes) note_shapes(tool, shapes);
   doubt_systems(tool, site, inputs.map.crs_wkt);
   o.doubts.crs_wkt = inputs.map.crs_wkt;
   reading.layers.insert(reading.layers.end(), rasters.begin(), rasters.end());

@@ -43,14 +43,14 @@ std::string verdicts_text(const FenceCase& fence, std::size_t index, const Fence
   return out;
 }
 
-// "; design by 70 crossings of its line in 10 runs without the fence, largest energy 42,960 kJ:
+// "; design by 70 crossings of its line in 10 runs without the fence, largest energy 42,960 kJ;
 // does not meet the code, energy governs: needs ..."
 std::string design_text(const FenceResult& r) {
   if (r.at_basis.n == 0) return "";
   const bool is_other = r.basis == DesignBasis::without_fence;
   return "; " +
          (is_other ? "design by " + basis_text(r) + ", largest energy " +
-                         grouped_text(r.at_basis.energy.largest / 1e3) + " kJ: "
+                         grouped_text(r.at_basis.energy.largest / 1e3) + " kJ; "
                    : std::string()) +
          text(r.design);
 }

@@ -47,8 +47,8 @@ expect 0 talus-import site.toml -o inputs.gpkg --report import.json
 prints "source: 1 polygon"
 prints "fence.valley: 1 line"
 prints "terrain.ground_raster: 41 rows, 2 to 2, median 2"
-says "release.gpkg: layer release, 1 polygon of 2304 m2 in all; reprojected from EPSG:25832"
-says "meadow.geojson: layer meadow, 2 polygons of 24,800 m2 in all; 2 that overlap or touch were united to 1"
+prints "source: 1 polygon of 2304 m2 in all; reprojected from EPSG:25832"
+prints "2 polygons of 24,800 m2 in all; 2 that overlap or touch were united to 1"
 for layer in source fences grounds stems object_lines object_points; do
   ogrinfo -so inputs.gpkg $layer | grep -q '^name: String' || fail "no layer $layer with names"
 done
@@ -108,8 +108,7 @@ says "inputs.gpkg: is older than contours.gpkg"
 # what is written in the site file stands beside what is in files
 expect 0 talus-import site.toml -o written.gpkg --set source.polygon_file= --set \
   'source.polygon=[[500096,5200248],[500144,5200248],[500144,5200296],[500096,5200296]]'
-says "command line: layer source, 1 polygon of 2304 m2 in all"
-prints "source: 1 polygon"
+prints "source: 1 polygon of 2304 m2 in all"
 
 # an elevation model stays where it is; its system is that of the site
 gdal_translate -q -a_srs EPSG:32633 -a_ullr 499996 5200324 500228 5199996 "$source_dir/sample_sites/designed/slope.asc" dem.tif
