@@ -29,7 +29,7 @@ struct ReportData {
       stability;              ///< of tools
   std::vector<Doubt> doubts;  ///< of the stages, from the import to the look before the runs
   Trn terrain, bed;           ///< before the slide; what the blocks slide on
-  std::string mobility_svg, stereonet_svg, sizes_svg, stability_svg, curves_csv;
+  std::string mobility_svg, stereonet_svg, sizes_svg, curves_csv;
   std::vector<std::string> search_svgs;  ///< of each fence search
   MapSheet sheet;                        ///< what the maps share
   std::vector<MapPicture> maps, hazard_maps;

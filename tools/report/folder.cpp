@@ -203,7 +203,7 @@ void leave_out_places(ResultFolder& folder, const Site& site, const std::string&
 void leave_out_stability(ResultFolder& folder, const Site& site) {
   const char* const json = "stability/stability.json";
   if (!folder.has(json)) return;
-  const std::vector<std::string> all{json, "stability/blocks.gpkg", "stability/levels.svg"};
+  const std::vector<std::string> all{json, "stability/blocks.gpkg"};
   if (!folder.has("blocks.h5") || text_at(folder.glance(json), "/blocks_sha256") !=
                                       sha256_of_file(folder.path("blocks.h5").string()))
     folder.leave_out(all, "not of the blocks of blocks.h5");

@@ -11,6 +11,7 @@
 #include "report/plan_view.hpp"
 #include "report/run_charts.hpp"
 #include "report/viewer_scene.hpp"
+#include "tools/frame/factor_chart.hpp"
 #include "tools/report/page.hpp"
 
 namespace talus {
@@ -52,6 +53,19 @@ Json curves_of(const ReportData& data) {
         std::array{"translational_energy_kj", "curves.energy", "kJ"}})
     charts.push_back(chart_svg(curve_chart(data.texts, table, column, data.texts.of(title), unit)));
   return charts;
+}
+
+// Of a site with water.
+std::string stability_chart(const Texts& texts, const Json& stability) {
+  const Json water = value_at(stability, {"water"});
+  if (!water.is_string()) return "";
+  const auto group = [&](std::size_t k) {
+    return texts.said(stability.at("groups").at(k).at("group").get<std::string>());
+  };
+  return chart_svg(factor_chart(
+      stability,
+      {texts.of("stability.chart"), texts.said(water.get<std::string>()),
+       texts.of("stability.factor"), group(0), group(1), texts.of("stability.fails_below")}));
 }
 
 }  // namespace
@@ -139,7 +153,7 @@ Json pictures_of(const ReportData& data) {
       {"mobility", svg_address(data.mobility_svg)},
       {"stereonet", svg_address(data.stereonet_svg)},
       {"sizes", svg_address(data.sizes_svg)},
-      {"stability", svg_address(data.stability_svg)},
+      {"stability", stability_chart(texts, data.stability)},
       {"rock", !data.stereonet_svg.empty() || !data.sizes_svg.empty()},
       {"curves", curves_of(data)},
       {"energy", chart_svg(energy_chart(texts, data.shown))},

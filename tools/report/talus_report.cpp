@@ -467,7 +467,6 @@ ReportData read_data(Tool& tool, const Site& site, const std::string& texts, Res
   data.hazard = folder.json("hazard.json");
   data.trace = folder.json("trace.json");
   data.stability = folder.json("stability/stability.json");
-  data.stability_svg = folder.text("stability/levels.svg");
   data.search = folder.json("fence_search.json");
   if (data.search.is_object() && data.search.contains("searches"))
     for (const Json& search : data.search["searches"]) {

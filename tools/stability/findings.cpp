@@ -195,21 +195,4 @@ Json json_of(const Findings& f) {
           {"factor_of_block", blocks}};
 }
 
-Chart chart_of(const Findings& f) {
-  Chart chart;
-  chart.title = "Factor of safety";
-  chart.x_label = text_of(f.measure);
-  chart.y_label = "factor";
-  chart.series = {{"mass", "#1f5fa8", {}, {}, 1.8, 3},
-                  {"blocks that go first", "#c2491d", {}, {}, 1.8, 3},
-                  {"fails below", "#808080", {}, {}, 1}};
-  for (const AtLevel& level : f.levels) {
-    for (ChartSeries& series : chart.series) series.x.push_back(measured(f, level.rise));
-    chart.series[0].y.push_back(value_of(level.found.mass));
-    chart.series[1].y.push_back(value_of(level.found.first));
-    chart.series[2].y.push_back(1);
-  }
-  return chart;
-}
-
 }  // namespace talus

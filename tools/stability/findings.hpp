@@ -1,12 +1,11 @@
 // tools/stability/findings.hpp
-// What was found of a mass before it fails, in numbers, in words and as a chart.
+// What was found of a mass before it fails, in numbers and in words.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "draw/chart.hpp"
 #include "post/statistics.hpp"
 #include "run/stability.hpp"
 #include "scene/joint_water.hpp"
@@ -53,7 +52,5 @@ struct Findings {
 /// Sentences for people who decide, without full stops.
 [[nodiscard]] std::vector<std::string> sentences_of(const Findings& findings);
 [[nodiscard]] Json json_of(const Findings& findings);
-/// Factor against the height of the water.
-[[nodiscard]] Chart chart_of(const Findings& findings);
 
 }  // namespace talus

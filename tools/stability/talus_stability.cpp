@@ -14,6 +14,7 @@
 #include "setup/section_state_gdal.hpp"
 #include "setup/set_up_gdal.hpp"
 #include "setup/site_crs_gdal.hpp"
+#include "tools/frame/factor_chart.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/tool.hpp"
 #include "tools/stability/findings.hpp"
@@ -207,8 +208,12 @@ void run_tool(Tool& tool, const Site& site, const Options& o) {
   result["sections"] =
       section_state(site, {"water", "joints", "material", "ground", "base_motion", "uncertainty"});
   write_blocks_layer(tool, o, setup, found.as_given());
-  if (stage.plan.inputs.parts.water)
-    tool.write_text(o.folder + "/levels.svg", chart_file(chart_of(found)));
+  if (stage.plan.inputs.parts.water) {
+    const std::string water = result["water"].is_string() ? result["water"].get<std::string>() : "";
+    const Chart chart = factor_chart(result, {"Factor of safety", water, "factor", "mass",
+                                              "blocks that go first", "fails below"});
+    tool.write_text(o.folder + "/levels.svg", chart_file(chart));
+  }
   tool.report(o.folder + "/stability.json", result);
   std::string summary;
   for (const std::string& sentence : sentences_of(found))

@@ -53,6 +53,6 @@ expect 1 talus-report slope/site.toml --dir slope/out -o page.html --no-db
 sed -i 's/^depth_m = 4/depth_m = 5/' slope/site.toml
 sed -i 's/"sections": "[0-9a-f]*"/"sections": "0"/' slope/out/stability/stability.json
 expect 0 talus-report slope/site.toml --dir slope/out -o page.html --no-db
-says "left out: stability/stability.json, stability/blocks.gpkg, stability/levels.svg"
+says "left out: stability/stability.json, stability/blocks.gpkg"
 made slope clean
 [ ! -e slope/out ] || fail "left: $(find slope/out)"
