@@ -314,19 +314,19 @@ STUDY = Study(__file__, __doc__)
 STUDY.words.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
 
 
-@STUDY.part("tschamut", 60)
+@STUDY.part("tschamut", 12)
 def of_tschamut(study):
     study.need_data("experiments/tschamut2014")
     tschamut(Tools(study, study.options.set), study.data / "experiments/tschamut2014").add_rows()
 
 
-@STUDY.part("authume_P1", 60)
+@STUDY.part("authume_P1", 12)
 def of_authume(study):
     study.need_data("experiments/authume_P1")
     authume(Tools(study, study.options.set), study.data / "experiments/authume_P1").add_rows()
 
 
-@STUDY.part("hits", 20)
+@STUDY.part("hits", 4)
 def of_hits(study):
     Hits(Tools(study, study.options.set), study.data / "experiments").add_rows()
 
