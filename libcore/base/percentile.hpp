@@ -1,4 +1,5 @@
 // libcore/base/percentile.hpp: public
+// Percentiles and medians, with and without weights.
 #pragma once
 
 #include <span>

@@ -1,4 +1,5 @@
 // libcore/base/read_file.hpp: public
+// Reads files whole, or their first bytes.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// verify/cases/claims.hpp
 // CPU time at equal error, law talus with its default settings against law paper and against other
 // engines, as tables.
 // in:    the rows of each case, with any time step

@@ -1,3 +1,4 @@
+// tests/unit/blocks/scenes.hpp
 // Terrains and masses made up for the tests of the blocks.
 #pragma once
 

@@ -71,7 +71,7 @@ TEST(FenceLines, AreRefusedWhereThereIsNoneAndWhereACornerHangsInTheAir) {
             1U);
 }
 
-// Two fences are refused, whichever end they begin at; one that stops nothing is only told.
+// Two active fences are refused, whichever end they begin at; one that stops nothing is only told.
 TEST(FenceLines, OnOneAnotherAreRefusedOrTold) {
   const FenceSettings a = fence_named("a", true), b = fence_named("b", true),
                       virtual_one = fence_named("c", false);

@@ -1,3 +1,4 @@
+// tests/unit/report/shipped_texts.hpp
 // The words of the page as they are shipped.
 #pragma once
 

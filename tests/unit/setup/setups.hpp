@@ -1,3 +1,4 @@
+// tests/unit/setup/setups.hpp
 // A slope of 30 degrees that runs out on a flat beyond 100 m, three boxes on it, and a log that
 // keeps its messages: for the tests of the set-up.
 #pragma once

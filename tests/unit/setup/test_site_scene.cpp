@@ -12,7 +12,7 @@ namespace {
 
 using namespace talus;
 
-// The cases of talus-verify and the tests run with the settings of a site file without settings.
+// The cases of talus-verify and the tests run with the defaults of a site file.
 TEST(SettingsOf, DefaultsOfASiteFileAreThoseOfTheEngine) {
   ScenePlan plan;
   plan.block_contacts = true;

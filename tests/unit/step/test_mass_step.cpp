@@ -446,7 +446,7 @@ TEST(MassStep, HandsOverWhatHasComeToRest) {
 
 // --- fences ------------------------------------------------------------------------------------
 
-// A layer of blocks runs into a fence, soft or stiff: the energy of its panel and its displacement,
+// A layer of blocks runs into a fence, soft or stiff: the energy of its panel and its deflection,
 // against the exact step at 0.2 ms. (At 5 ms that one takes 6 % less of the soft fence, and 56 %
 // less of the stiff one, which stops a block within a step.)
 TEST(MassStep, PushesAFenceAsTheExactStepDoes) {
