@@ -1,5 +1,5 @@
 // libcore/base/percentile.hpp: public
-// Percentiles and medians, with and without weights.
+// Percentiles, with and without weights, and medians.
 #pragma once
 
 #include <span>

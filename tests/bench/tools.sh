@@ -2,7 +2,7 @@
 # CPU seconds and memory of the tools, as their pages state them: each row is run three times, the
 # registry's figures are printed (median CPU seconds of user and system, largest memory).
 #   bash tests/bench/tools.sh [BIN] [WORK]     BIN: folder of the executables (release), WORK: kept
-# Rows of sites whose data stand beside the checkout (../shared/data) are left out where they are not there.
+# Rows of sites whose data are beside the checkout (../shared/data) are left out where these are missing.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source_dir=$PWD data=$PWD/../shared/data

@@ -37,7 +37,7 @@ MEMORY_BYTES = 4 << 30
 # talus-verify computes for minutes: --tool verify tries it.
 TOOLS = ("blocks check dda export fence hazard maps places reduce report runout runs site source tin trace "
          "trn").split()
-# What an option without a unit in its name holds. Options of --help that are not here hold words.
+# Kinds of options without a unit in their names. Options of --help that are not here hold words.
 OUTPUTS = set("out report json csv svg run-table curves thickness trn-out footprints stereonet "
               "size-curve hillshade doubts hold-out change qgis scenarios "
               "assume-joints page".split())
