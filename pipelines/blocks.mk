@@ -8,8 +8,9 @@ $(eval $(call together,$(block_files)))
 $(OUT)/blocks.h5: $(OUT)/trn.tif $(STAGES)/blocks.txt $(STAGES)/blocks.flags $(STAGES)/blocks.files
 	$(call not_in_a_shard,$@)
 	$(call say,blocks: source and joints -> blocks)
-	$(Q)$(BIN)talus-blocks site.toml --trn $(OUT)/trn.tif $(inputs_given) -o $(OUT)/blocks.h5 \
-	  --trn-out $(OUT)/bed.tif --report $(OUT)/blocks.json \
+	$(Q)$(call taken,$(block_files))$(BIN)talus-blocks \
+	  $(site) --trn $(OUT)/trn.tif \
+	  $(inputs_given) -o $(OUT)/blocks.h5 --trn-out $(OUT)/bed.tif --report $(OUT)/blocks.json \
 	  --footprints $(OUT)/blocks.gpkg --stereonet $(OUT)/stereonet.svg \
 	  --size-curve $(OUT)/sizes.svg $(BLOCKS_FLAGS) --overwrite $(DB)
 	$(call made,talus-blocks)

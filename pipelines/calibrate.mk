@@ -7,7 +7,7 @@ $(eval $(call together,$(calibrate_files)))
 $(OUT)/calibrate.gpkg: $(OUT)/runs/ensemble.json $(STAGES)/calibrate.txt \
   $(STAGES)/calibrate.flags $(STAGES)/calibrate.files
 	$(call say,calibrate: runs -> observations beside them)
-	$(Q)$(BIN)talus-calibrate site.toml $(OUT)/runs --trn $(ground_of_runs) $(inputs_given) \
+	$(Q)$(BIN)talus-calibrate $(site) $(OUT)/runs --trn $(ground_of_runs) $(inputs_given) \
 	  -o $(OUT)/calibrate.gpkg --json $(OUT)/calibrate.json \
 	  --propose $(OUT)/calibrate.toml $(CALIBRATE_FLAGS) --overwrite $(DB)
 	$(call made,talus-calibrate)

@@ -14,7 +14,7 @@ $(OUT)/check.html: $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/check.flags $(ST
   $(STAGES)/trace.txt $(STAGES)/trace.files $(stability_for_others)
 	$(call not_in_a_shard,$@)
 	$(call say,check: a look before the runs)
-	$(Q)$(BIN)talus-check site.toml --trn $(OUT)/trn.tif --bed $(OUT)/bed.tif \
+	$(Q)$(BIN)talus-check $(site) --trn $(OUT)/trn.tif --bed $(OUT)/bed.tif \
 	  --blocks $(OUT)/blocks.h5 -o $(OUT)/check.html --report $(OUT)/check.json \
 	  --reports $(filter %.json,$(import_files) $(tin_files) $(trn_files) $(block_files) \
 	  $(stability_for_others)) \

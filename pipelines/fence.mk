@@ -1,13 +1,13 @@
 # Runs -> what reaches each fence of the site, what it holds and changes.
 # in: [fence.*], FENCE_FLAGS (e.g. --code onr)
 # out: $(OUT)/fence.gpkg, .json, .csv, and with runs without the fences $(OUT)/change.tif, .qml,
-#     .png, .pdf; nothing for a site without fences; of several CASES also $(OUT)/fences/CASE/*
+#     .png, .pdf; nothing for a site without fences; of variants with a weight also fences/NAME/*
 $(eval $(call remember,fence,$(FENCE_FLAGS)))
 ifneq ($(SITE_FENCES),)
 without := $(filter without,$(kinds))
 fence_files := $(addprefix $(OUT)/,$(fence_products) $(if $(without),$(change_products)))
 $(eval $(call together,$(fence_files)))
-fence_tool = $(BIN)talus-fence site.toml $(OUT)/runs$1 $(if $(without),--without $(OUT)/without$1) \
+fence_tool = $(BIN)talus-fence $(site) $(OUT)/runs$1 $(if $(without),--without $(OUT)/without$1) \
   --trn $(ground_of_runs) $(inputs_given) $(FENCE_FLAGS) --overwrite $(DB)
 $(OUT)/fence.gpkg: $(ensembles) $(STAGES)/fence.txt $(STAGES)/fence.flags $(STAGES)/fence.files
 	$(call say,fence: runs -> fences)

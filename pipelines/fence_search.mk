@@ -12,7 +12,7 @@ $(eval $(call remember,verify,$(VERIFY_RUNS)))
 ifneq ($(SITE_FENCE_SEARCHES),)
 search_files := $(addprefix $(OUT)/,$(search_products))
 $(eval $(call together,$(addprefix $(OUT)/,$(screen_products))))
-search_tool = $(BIN)talus-fence-search site.toml $(OUT)/runs --trn $(ground_of_runs) \
+search_tool = $(BIN)talus-fence-search $(site) $(OUT)/runs --trn $(ground_of_runs) \
   $(inputs_given) $(SEARCH_FLAGS) --overwrite $(DB)
 # verify(NAME,OPTIONS): runs in which a proposal stands
 verify = $(batch) --into verify/$1 --seed $(word 4,$(call status_of,runs)) \

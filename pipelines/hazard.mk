@@ -1,7 +1,7 @@
 # Runs and frequencies -> return periods and hazard classes (GeoTIFF, GeoPackage).
 # in: [hazard], [hazard.class.*], HAZARD_FLAGS (e.g. --cell-size-m 10)
 # out: $(OUT)/hazard/*.tif, .qml, .png, .pdf, hazard.gpkg, filing.gpkg, $(OUT)/hazard.json
-# With several classes the runs of class C are those of the case C (runs.mk). Without frequencies
+# With several classes the runs of class C are those of [variant.C]. Without frequencies
 # there are no classes, and talus-hazard says why.
 $(eval $(call remember,hazard,$(HAZARD_FLAGS)))
 hazard_files := $(addprefix $(OUT)/,$(hazard_products))
@@ -11,6 +11,6 @@ $(OUT)/hazard.json: $(OUT)/runs/ensemble.json $(STAGES)/hazard.txt $(STAGES)/haz
   $(STAGES)/hazard.files
 	$(call say,hazard: runs -> return periods and classes)
 	@rm -f $(addprefix $(OUT)/,$(hazard_patterns))
-	$(Q)$(BIN)talus-hazard site.toml $(OUT)/runs --trn $(ground_of_runs) -o $(OUT)/hazard \
+	$(Q)$(BIN)talus-hazard $(site) $(OUT)/runs --trn $(ground_of_runs) -o $(OUT)/hazard \
 	  --json $(OUT)/hazard.json --pages png,pdf $(HAZARD_FLAGS) --overwrite $(DB)
 	$(call made,talus-hazard)

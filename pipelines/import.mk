@@ -11,6 +11,7 @@ $(OUT)/inputs.gpkg: $(STAGES)/import.txt $(STAGES)/import.flags $(STAGES)/import
   | $(contours_file) $(DEM) $(OUT)
 	$(call not_in_a_shard,$@)
 	$(call say,import: what the site names -> metres in one system)
-	$(Q)$(BIN)talus-import site.toml $(contours_given) $(dem_given) -o $(OUT)/inputs.gpkg \
+	$(Q)$(call taken,$(import_files))$(BIN)talus-import \
+	  $(site) $(contours_given) $(dem_given) -o $(OUT)/inputs.gpkg \
 	  --report $(OUT)/import.json $(IMPORT_FLAGS) --overwrite $(DB)
 	$(call made,talus-import)

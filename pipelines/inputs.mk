@@ -38,7 +38,8 @@ $(error $(firstword $(foreign)) was not made by the pipeline, which would replac
 endif
 
 # --- who else works there ---
-run_goals := runs runout maps fence places calibrate hazard trace profile fence-search report all
+run_goals := runs runout maps fence places calibrate hazard trace profile fence-search variants \
+  report all
 # While jobs of this folder wait or run nothing else may make the same runs; their own makes may.
 sent_jobs := $(if $(is_dry_run)$(SHARD)$(SENT),,$(wildcard $(OUT)/shards/jobs))
 ifneq ($(and $(sent_jobs),$(filter submit prepare $(run_goals),$(wanted))),)
@@ -102,7 +103,7 @@ else
 stages_now := $(shell mktemp -d)
 copied := $(shell cp $(STAGES)/.digests $(stages_now) 2>/dev/null)
 endif
-said := $(shell $(BIN)talus-site site.toml -o $(stages_now) --results $(OUT) $(given_files) \
+said := $(shell $(BIN)talus-site $(site) -o $(stages_now) --results $(OUT) $(given_files) \
   --overwrite --no-db)
 ifneq ($(.SHELLSTATUS),0)
 ifneq ($(is_dry_run),)

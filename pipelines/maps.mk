@@ -1,15 +1,17 @@
 # Runs -> hazard maps (GeoTIFF with style and page).
 # in: MAPS_FLAGS (e.g. --cell-size-m 10)
-# out: $(OUT)/maps/*.tif, .qml, .png, .pdf; of several CASES also $(OUT)/maps/CASE/*
+# out: $(OUT)/maps/*.tif, .qml, .png, .pdf; of variants with a weight also $(OUT)/maps/NAME/*; of a
+#     measure maps/compare.tif: what the site as it is has more
 $(eval $(call remember,maps,$(MAPS_FLAGS)))
 map_files := $(addprefix $(OUT)/,$(map_products))
 maps: $(map_files) ## runs -> velocity, energy, height, reach
 $(eval $(call together,$(map_files)))
 maps_tool = $(BIN)talus-maps $1 --trn $(ground_of_runs) --pages png,pdf $(MAPS_FLAGS) \
   --overwrite $(DB)
-$(OUT)/maps/reach.tif: $(OUT)/runs/ensemble.json $(STAGES)/maps.flags $(STAGES)/maps.files
+$(OUT)/maps/reach.tif: $(OUT)/runs/ensemble.json $(BASE:%=%/runs/ensemble.json) \
+  $(STAGES)/maps.flags $(STAGES)/maps.files
 	$(call say,maps: runs -> maps)
-	$(Q)$(call maps_tool,$(OUT)/runs) -o $(OUT)/maps
+	$(Q)$(call maps_tool,$(OUT)/runs) -o $(OUT)/maps $(BASE:%=--compare %/runs)
 	$(call made,talus-maps)
 
 # The maps of each case by themselves, with one window: what cases share may be true of none.

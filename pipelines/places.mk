@@ -6,7 +6,7 @@ places_files := $(OUT)/places.json
 $(OUT)/places.json: $(OUT)/runs/ensemble.json $(STAGES)/place.txt $(STAGES)/places.flags \
   $(STAGES)/places.files
 	$(call say,places: runs -> places)
-	$(Q)$(BIN)talus-places site.toml $(OUT)/runs --trn $(ground_of_runs) $(inputs_given) --json $@ \
+	$(Q)$(BIN)talus-places $(site) $(OUT)/runs --trn $(ground_of_runs) $(inputs_given) --json $@ \
 	  $(PLACES_FLAGS) --overwrite $(DB)
 	$(call made,talus-places)
 endif

@@ -11,6 +11,7 @@ runout_products := runout.gpkg runout.json runout.csv runout.svg runs.csv sensit
 map_names := reach velocity ke_translational ke_total pass_height_centroid \
   pass_height_top exceedance deposit arrival energy_line
 map_products := $(foreach suffix,tif png pdf qml,$(map_names:%=maps/%.$(suffix)))
+compare_products := maps/compare.tif maps/compare.qml maps/compare.png maps/compare.pdf
 fence_products := fence.gpkg fence.json fence.csv
 change_products := change.tif change.qml change.png change.pdf
 places_products := places.json
@@ -29,7 +30,8 @@ profile_products := $(addprefix profile/,profile.gpkg profile.json crossings.csv
 search_products := fence_search.json fence_search.gpkg
 screen_products := search/screen.json search/screen.gpkg
 report_products := report.html site.qgz
-products := $(foreach stage,import tin trn source block stability check runout map fence change \
+products := $(foreach stage,import tin trn source block stability check runout map compare fence \
+  change \
   places calibrate hazard trace profile search screen report,$($(stage)_products))
 
 # As patterns of the shell: a style that comes with its raster, runs with their checkpoints, the
@@ -50,11 +52,11 @@ made_patterns := thickness.qml $(foreach end,h5 tif tif.aux.xml,rock/*_*[0-9].$(
   search/new/*.toml search/charts/fence_search_*.svg \
   $(foreach ending,txt flags files,$(stages_made:%=stages/%.$(ending))) \
   parts/*-of-*.h5 parts/without/*-of-*.h5 shards/merged shards/jobs shards/log/*_*.txt \
-  stages/.digests stages/.lock stages/.now \
+  stages/.digests stages/.lock stages/.now .failed \
   $(addsuffix .*.part-*,$(sort $(dir $(products))) $(run_folders:%=%/) maps/*/ fences/*/ parts/ \
   parts/without/ rock/ stages/ shards/ hazard/ sources/ search/new/ search/charts/)
 # The mark of a folder that the pipeline has written into; it goes last.
 mark_of_out := stages/site.mk
 made_folders := stability maps/* maps fences/* fences hazard sources profile search/new \
   search/charts search runs/.auto without/.auto verify/*-*/.auto verify/*-*/* verify/*-* verify \
-  runs/* runs without/* without parts/without parts rock shards/log shards stages
+  runs/* runs without/* without parts/without parts rock shards/log shards stages variant

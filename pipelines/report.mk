@@ -11,8 +11,9 @@ $(OUT)/report.html: $(import_files) $(tin_files) $(trn_files) $(block_files) $(e
   $(places_files) $(if $(SITE_OBSERVED),$(calibrate_files)) \
   $(if $(SITE_HAZARD_CLASSES),$(hazard_files)) $(if $(SITE_OBJECTS),$(trace_files)) \
   $(if $(SITE_FENCE_SEARCHES),$(search_for_report)) $(stability_for_others) \
+  $(measure_reports) \
   $(STAGES)/report.flags $(STAGES)/report.files
 	$(call say,report: all of it -> report and QGIS project)
-	$(Q)$(BIN)talus-report site.toml --dir $(OUT) -o $(OUT)/report.html --qgis $(OUT)/site.qgz \
+	$(Q)$(BIN)talus-report $(site) --dir $(OUT) -o $(OUT)/report.html --qgis $(OUT)/site.qgz \
 	  $(REPORT_FLAGS) --overwrite $(DB)
 	$(call made,talus-report)

@@ -8,6 +8,7 @@ $(OUT)/rock/blocks_%.h5: $(OUT)/trn.tif $(STAGES)/rock.txt $(STAGES)/blocks.flag
   $(STAGES)/blocks.files | $(OUT)/blocks.h5 $(OUT)/rock
 	$(call not_in_a_shard,$@)
 	$(call say,rock: blocks of mass $*)
-	$(Q)$(BIN)talus-blocks site.toml --trn $(OUT)/trn.tif -o $@ --trn-out $(OUT)/rock/bed_$*.tif \
-	  --sample $* $(inputs_given) $(BLOCKS_FLAGS) --overwrite $(DB)
+	$(Q)$(call taken,$@ $(OUT)/rock/bed_$*.tif)$(BIN)talus-blocks \
+	  $(site) --trn $(OUT)/trn.tif -o $@ \
+	  --trn-out $(OUT)/rock/bed_$*.tif --sample $* $(inputs_given) $(BLOCKS_FLAGS) --overwrite $(DB)
 	$(call made,talus-blocks)

@@ -1,21 +1,17 @@
 # Blocks on their bed -> runs, by talus-batch: which lack, several at a time, what became of them.
 # in: site.toml, DDA_FLAGS
 #   RUNS, SEED  how many seeds, from which one ([solver] n_runs and seed); RUNS=auto, RUNS_MOST
-#   CASES       names of variants, CASE_<name> the options of each, WEIGHTS what they count, e.g.
-#               CASES = low high, CASE_low = --set ground.slope.friction_deg=28,
-#               WEIGHTS = low=1 high=3; CASES = constant weakening: the two bounds of a slide
 #   WITHOUT     yes: also the runs without fences; when not given: where a fence of the site stands
 #   SHARD, SHARDS  which of the runs, of several makes that share them (slurm.mk)
-# out: $(OUT)/runs/run_SEED.h5, of cases runs/CASE/run_SEED.h5, runs/ensemble.json; without/ alike
+# out: $(OUT)/runs/run_SEED.h5, of variants with a weight runs/NAME/run_SEED.h5, runs/ensemble.json;
+#     without/ alike
 # ensemble.json changes when a run does. Results depend on it, not on the times of runs.
 WITHOUT ?= $(SITE_FENCES_STAND)
-CASE_weakening ?= --set solver.friction=weakening
 kinds := runs $(if $(filter yes,$(WITHOUT)),without)
 ensembles := $(kinds:%=$(OUT)/%/ensemble.json)
 
 option_of = $(if $($1),$2 $(call quoted,$($1)))
-batch = $(lastword $(BIN))talus-batch site.toml --results $(OUT) $(if $(BIN),--launcher '$(BIN)') \
-  $(foreach case,$(CASES),--case $(call quoted,$(case)=$(CASE_$(case)))) $(WEIGHTS:%=--weight '%')
+batch = $(lastword $(BIN))talus-batch $(site) --results $(OUT) $(if $(BIN),--launcher '$(BIN)')
 # batch_of(KIND,OPTIONS)
 batch_of = $(batch) --into $1 $(call option_of,RUNS,--runs) $(call option_of,SEED,--seed) \
   $(call option_of,RUNS_MOST,--most) $2 -- $(DDA_FLAGS) \
@@ -24,7 +20,7 @@ batch_of = $(batch) --into $1 $(call option_of,RUNS,--runs) $(call option_of,SEE
 # after them, how many they are, rock masses.
 status_of = $(shell $(call batch_of,$1,--status --no-db --part $(or $(SHARD),0)/$(or $(SHARDS),1)))
 ask = $(eval status_$1 := $(status_of))$(if $(status_$1),,$(error The runs cannot be made, see \
-  above: what is wrong with RUNS, SEED, CASES, WEIGHTS, SHARD, SHARDS, DDA_FLAGS or the site))
+  above: what is wrong with RUNS, SEED, SHARD, SHARDS, DDA_FLAGS or the site))
 $(if $(filter-out terrain source blocks stability,$(wanted)),\
   $(foreach kind,$(kinds),$(call ask,$(kind))))
 
@@ -60,6 +56,8 @@ list_failed = $(if $(call has_failed,$1),@$(call batch_of,$1,--status --no-db)$(
 ifeq ($(is_dry_run)$(SHARD),)
 $(or $(last_goal),runs):
 	$(foreach kind,$(goal_kinds),$(call list_failed,$(kind)))
+	$(if $(filter all report variants,$(asked)),$(foreach \
+	  name,$(measures),$(call failed_measure,$(name))))
 endif
 define newline
 

@@ -5,14 +5,16 @@
 #   RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS, PLACES_FLAGS, CALIBRATE_FLAGS, HAZARD_FLAGS, TRACE_FLAGS,
 #   PROFILE_FLAGS, SEARCH_FLAGS, REPORT_FLAGS
 #                       further options of the tools
-#   RUNS, SEED, CASES, WEIGHTS, WITHOUT, RUNS_MOST   runs.mk
+#   RUNS, SEED, WITHOUT, RUNS_MOST                   runs.mk
 #   SHARDS, SHARD, SBATCH_FLAGS                      runs.mk, slurm.mk
+#   VARIANT, BASE                                    variants.mk
 # and so may the command line (make RUNS=50 -j4). V=1 shows every command. Every rule is one tool:
 # files in, files out.
 
 PIPELINES := $(dir $(lastword $(MAKEFILE_LIST)))
 OUT ?= out
 STAGES := $(OUT)/stages
+site := $(strip site.toml $(VARIANT:%=--variant %))
 DB := --db $(OUT)/$(if $(SHARD),shards/$(SHARD)-of-$(SHARDS),runs).sqlite
 
 include $(PIPELINES)variables.mk
@@ -26,12 +28,13 @@ include $(PIPELINES)products.mk
 all: check report ## everything, up to the report
 
 clean: ## remove what was made, and nothing else
-	$(if $(wildcard $(STAGES)/.lock),$(locked))@sh $(PIPELINES)clean.sh '$(OUT)' '$(mark_of_out)' \
-	  '$(products) $(made_patterns)' '$(made_folders)'
+	$(if $(wildcard $(STAGES)/.lock),$(locked))@for out in $(wildcard $(OUT)/variant/*) $(OUT); do \
+	  sh $(PIPELINES)clean.sh $$out '$(mark_of_out)' '$(products) $(made_patterns)' \
+	  '$(made_folders)'; done
 
 # The rules in the order of the pipeline, and the goals in them and in the site's Makefile.
 rules := trn source blocks stability check runs runout maps fence places calibrate hazard trace \
-  profile fence_search report slurm new_site
+  profile fence_search variants report slurm new_site
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(PIPELINES)site.mk $(rules:%=$(PIPELINES)%.mk) \
 	  $(filter-out $(PIPELINES)%,$(MAKEFILE_LIST)) $(if $(wildcard manifest.sha256),, \
@@ -68,6 +71,9 @@ made = $(if $(is_dry_run),,@sh $(PIPELINES)made.sh $1 $@ '$(shell stat -c '%i %Z
 not_in_a_shard = $(if $(SHARD),$(error $1 is to be made again, and a shard makes runs alone: make \
   prepare, or make submit))
 
+# taken(FILES): in a rule before its tool: takes FILES over from BASE (taken.sh).
+taken = $(if $(BASE),sh $(PIPELINES)taken.sh $(BASE) $(OUT) '$1' '$^' || )
+
 # together(FILES): what one run of a tool writes, the first file last and all with the same time.
 # Rules name the first; the others come with it. One that is missing beside it makes the tool run
 # again.
@@ -83,7 +89,7 @@ endef
 $(OUT) $(OUT)/rock:
 	@mkdir -p $@
 
-several_cases := $(if $(word 2,$(CASES)),$(CASES))
+several_cases := $(SITE_ALTERNATIVES)
 include $(patsubst %,$(PIPELINES)%.mk,import tin $(filter-out new_site,$(rules)) rock)
 endif
 

@@ -11,8 +11,8 @@ FINAL ?= all
 .PHONY: submit
 
 # Of the command line, and of the environment what these rules know.
-known_variables := OUT BIN CONTOURS DEM RUNS RUNS_MOST SEED CASES WEIGHTS WITHOUT DB LINE \
-  VERIFY_RUNS $(filter CASE_% %_FLAGS,$(.VARIABLES))
+known_variables := OUT BIN CONTOURS DEM RUNS RUNS_MOST SEED VARIANT BASE WITHOUT DB LINE \
+  VERIFY_RUNS $(filter %_FLAGS,$(.VARIABLES))
 not_handed_on := SHARD SHARDS SHARDS_AT_ONCE SBATCH_FLAGS FINAL BIN SENT MAKEOVERRIDES MAKEFLAGS \
   MFLAGS GNUMAKEFLAGS -% .%
 is_given = $(filter command override $(if $(filter $1,$(known_variables)),environment),$(firstword \

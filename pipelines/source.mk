@@ -3,5 +3,5 @@
 .PHONY: source
 source: $(OUT)/trn.tif ## which planes of the joint sets daylight, before anything is cut
 	$(call say,source: on which planes of the joint sets could it leave)
-	$(Q)$(BIN)talus-source site.toml --trn $(OUT)/trn.tif $(inputs_given) -o $(OUT)/source.json \
+	$(Q)$(BIN)talus-source $(site) --trn $(OUT)/trn.tif $(inputs_given) -o $(OUT)/source.json \
 	  --layers $(OUT)/source.gpkg --overwrite $(DB)

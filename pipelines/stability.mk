@@ -13,7 +13,7 @@ $(OUT)/stability/stability.json: $(OUT)/blocks.h5 $(STAGES)/stability.txt \
 	$(call not_in_a_shard,$@)
 	$(call say,stability: blocks -> factor of safety)
 	@rm -f $(OUT)/stability/levels.svg
-	$(Q)$(BIN)talus-stability site.toml --trn $(OUT)/bed.tif --blocks $(OUT)/blocks.h5 \
+	$(Q)$(BIN)talus-stability $(site) --trn $(OUT)/bed.tif --blocks $(OUT)/blocks.h5 \
 	  -o $(OUT)/stability $(inputs_given) $(STABILITY_FLAGS) --overwrite $(DB)
 	$(call made,talus-stability)
 stability_for_others := $(if $(or $(wildcard $(OUT)/stability/stability.json),$(filter \

@@ -9,7 +9,8 @@ $(OUT)/tin.ply: $(addprefix $(STAGES)/,tin.txt tin.flags tin.files import.flags 
   | $(OUT)/inputs.gpkg
 	$(call not_in_a_shard,$@)
 	$(call say,tin: contours -> triangles)
-	$(Q)$(BIN)talus-tin $(OUT)/inputs.gpkg -o $(OUT)/tin.ply --report $(OUT)/tin.json \
+	$(Q)$(call taken,$(tin_files))$(BIN)talus-tin \
+	  $(OUT)/inputs.gpkg -o $(OUT)/tin.ply --report $(OUT)/tin.json \
 	  $(SITE_TIN_FLAGS) $(TIN_FLAGS) --overwrite $(DB)
 	$(call made,talus-tin)
 endif

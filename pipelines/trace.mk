@@ -5,11 +5,11 @@ $(eval $(call remember,trace,$(TRACE_FLAGS)))
 trace_files := $(addprefix $(OUT)/,$(trace_products))
 trace: $(trace_files) ## runs -> which source hits which object
 $(eval $(call together,$(trace_files)))
-$(OUT)/trace.gpkg: $(OUT)/runs/ensemble.json $(STAGES)/trace.txt $(STAGES)/trace.flags \
-  $(STAGES)/trace.files
+$(OUT)/trace.gpkg: $(OUT)/runs/ensemble.json $(BASE:%=%/runs/ensemble.json) \
+  $(STAGES)/trace.txt $(STAGES)/trace.flags $(STAGES)/trace.files
 	$(call say,trace: runs -> objects and their sources)
 	@rm -f $(addprefix $(OUT)/,$(trace_patterns))
-	$(Q)$(BIN)talus-trace site.toml $(OUT)/runs --trn $(ground_of_runs) -o $(OUT)/trace.gpkg \
+	$(Q)$(BIN)talus-trace $(site) $(OUT)/runs --trn $(ground_of_runs) -o $(OUT)/trace.gpkg \
 	  --json $(OUT)/trace.json --csv $(OUT)/links.csv --rasters $(OUT)/sources --pages png,pdf \
-	  $(inputs_given) $(TRACE_FLAGS) --overwrite $(DB)
+	  $(inputs_given) $(BASE:%=--compare %/runs) $(TRACE_FLAGS) --overwrite $(DB)
 	$(call made,talus-trace)

@@ -1,5 +1,6 @@
-# What make is given is looked at before anything runs; runs and cases are talus-batch's (runs.mk).
-# in: OUT (site.mk), WITHOUT (runs.mk), LINE (profile.mk)   out: an error that says what is expected
+# What make is given is looked at before anything runs; numbers of runs are talus-batch's (runs.mk).
+# in: OUT (site.mk), WITHOUT (runs.mk), LINE (profile.mk), VARIANT, BASE (variants.mk)
+# out: an error that says what is expected
 # A word of a rule and of a recipe: it cannot hold what make or the shell would part or run.
 signs := ' " ` $$ ; & | < > * ? : %
 sign_in = $(firstword $(foreach sign,$(signs),$(if $(findstring $(sign),$1),$(sign))))
@@ -19,6 +20,20 @@ else ifneq ($(filter profile,$(MAKECMDGOALS)),)
 $(error profile needs LINE, a file with one line: make profile LINE=road.geojson)
 endif
 $(if $(filter-out yes no,$(WITHOUT)),$(error WITHOUT is '$(WITHOUT)', expected yes or no))
+$(if $(VARIANT),$(call one_word,$(VARIANT),VARIANT,a [variant.NAME]))
+$(if $(BASE),$(call one_word,$(BASE),BASE,the folder of the results of the site as it is))
+# CASES, CASE_<name> and WEIGHTS of earlier makefiles: the sections that take their place.
+toml_line = $(shell printf %s '$(subst ','\'',$1)' | \
+  sed -E "s/=(true|false|[-+0-9\[\"'].*)$$/ = \1/; t; s/=(.*)/ = \"\1\"/")
+ifneq ($(CASES)$(WEIGHTS),)
+CASE_weakening ?= --set solver.friction=weakening
+$(foreach case,$(CASES),$(if $(WEIGHTS)$(CASE_$(case)),$(info [variant.$(case)])\
+  $(foreach weight,$(patsubst $(case)=%,%,$(filter $(case)=%,$(WEIGHTS))),\
+  $(info weight = $(weight)))\
+  $(foreach key,$(filter-out --set,$(CASE_$(case))),$(info $(call toml_line,$(key))))))
+$(error CASES, CASE_* and WEIGHTS are gone: write the lines above in site.toml. Variants with a \
+  weight count together, those without one are compared with the site)
+endif
 alone := $(filter submit prepare runs-shard,$(MAKECMDGOALS))
 $(if $(alone),$(if $(word 2,$(MAKECMDGOALS)),$(error $(firstword $(alone)) stands alone: give \
   other goals to a make of their own)))

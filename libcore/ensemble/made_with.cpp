@@ -131,7 +131,9 @@ bool draws_for_all(const MadeWith& settings) {
   });
 }
 
-bool is_of_command_line(const EffectiveValue& value) { return value.source == "cli"; }
+bool is_of_command_line(const EffectiveValue& value) {
+  return value.source == "cli" || value.source.starts_with("variant ");
+}
 
 std::vector<SettingDifference> differences(
     const MadeWith& settings, const MadeWith& others,
@@ -180,10 +182,10 @@ void SettingsCheck::check_settings(const std::string& of_case, const std::string
   };
   const std::vector<SettingDifference> list = differences(settings, first.settings, counts);
   if (list.empty()) return;
-  throw InputError({where},
-                   "was computed with other settings than " + first.where + ": " + text(list),
-                   "evaluate runs of other settings by themselves, or compute all with one site "
-                   "file and the same options; cases may differ by --set (talus-dda --case)");
+  throw InputError(
+      {where}, "was computed with other settings than " + first.where + ": " + text(list),
+      "evaluate runs of other settings by themselves, or compute all with one site "
+      "file and the same options; alternatives may differ ([variant.*] with a weight)");
 }
 
 void SettingsCheck::add(const std::string& where, const RunInfo& info) {

@@ -27,7 +27,7 @@ struct MadeWith {
 /// Whether anything was drawn for a run as a whole, which all of its blocks share: by
 /// [uncertainty], by scatter between runs, a stand of trees.
 [[nodiscard]] bool draws_for_all(const MadeWith& settings);
-/// Given by an option, such as --set of a case.
+/// Given by an option, or by a variant of the site.
 [[nodiscard]] bool is_of_command_line(const EffectiveValue& value);
 
 /// A setting with another value, each as text; "not given" without one.

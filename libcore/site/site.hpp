@@ -382,6 +382,26 @@ struct PlaceSettings {
   double half_width = 0.05;  ///< wanted, of the interval of the share of blocks
 };
 
+/// [variant.NAME]: what differs from the site. With a weight it is an alternative of nature,
+/// counted together with the others; without one a measure, whose results stand beside those of the
+/// site.
+struct VariantSettings {
+  std::string name;
+  int line = 0;
+  double weight = not_given;
+  double cost = not_given;           ///< of the measure, in any currency
+  std::vector<std::string> without;  ///< sections that it lacks: "fence.valley"
+  /// A key of a section of the site, or of one that the variant adds.
+  struct Change {
+    std::string group, name, key, value;  ///< value as TOML; name is empty in a single section
+    int line = 0;
+  };
+  std::vector<Change> changes;  ///< in the order of the file
+};
+[[nodiscard]] inline bool is_alternative(const VariantSettings& variant) {
+  return variant.weight > 0;
+}
+
 /// Where the value of a key came from.
 struct ValueSource {
   enum Kind {
@@ -390,11 +410,12 @@ struct ValueSource {
     from_cli,
     from_soil,
     from_draw,
-    from_layer
+    from_layer,
+    from_variant
   } kind = from_default;
   int line = 0;  ///< in the site file
   /// Of a draw: "sample 7 of uncertainty.friction"; of a layer: "site.gpkg, layer fences, feature
-  /// 2".
+  /// 2"; of a variant: "variant net6, line 80".
   std::string words{};
 };
 
@@ -403,7 +424,8 @@ struct Site {
   std::string folder;           ///< of the file; relative paths in it start there
   std::string layers_file;      ///< that sections were taken from, as SiteInfo::layers says it
   std::string quantities_file;  ///< that quantities were taken from, as UncertaintySettings::file
-  std::string inputs;  ///< file of talus-import to read the site's layers from; empty: none
+  std::string inputs;       ///< file of talus-import to read the site's layers from; empty: none
+  std::string alternative;  ///< variant with a weight that was applied; empty: none
   std::map<std::string, std::string> layer_digests;  ///< "fence.valley" -> of its features there
   SiteInfo info;
   TerrainSettings terrain;
@@ -430,6 +452,7 @@ struct Site {
   std::vector<FenceSearchSettings> fence_searches;
   HazardSettings hazard;
   std::vector<HazardClassSettings> hazard_classes;
+  std::vector<VariantSettings> variants;
   std::map<std::string, ValueSource> sources;  ///< "joints.J1.dip_deg" -> where it came from
   std::vector<std::string> sections;           ///< that stand in the file
 };
@@ -453,6 +476,12 @@ struct Site {
 /// Sets "section.key" from the command line, e.g. ("solver.duration_s", "30"). The value is TOML,
 /// or plain text where the key takes text. Throws InputError as read_site does.
 void override_value(Site& site, const std::string& key, const std::string& value);
+
+/// Makes the site what [variant.`name`] makes of it. Throws InputError where there is none, where
+/// it names what is not there, changes what runs draw, or may not be an alternative.
+void apply_variant(Site& site, const std::string& name);
+/// Applies each variant to a copy of the site, and looks at the weights. Throws InputError.
+void check_variants(const Site& site);
 
 /// A value in effect, as TOML, and where it came from: "default", "file, line 7", "cli", "soil
 /// meadow (field test)", "sample 7 of uncertainty.friction".

@@ -429,6 +429,14 @@ template <> const std::vector<SiteKey<PlaceSettings>>& keys_of() {
       {"half_width", &S::half_width, "wanted half of the 95 % interval of the share of blocks that reach the place: make RUNS=auto adds runs until it is so narrow", {0, 0.5, true, false}}};
   return table;
 }
+template <> const std::vector<SiteKey<VariantSettings>>& keys_of() {
+  using S = VariantSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"weight", &S::weight, "what it counts among the alternatives, which are evaluated together; not given: a measure, which is compared with the site", positive},
+      {"cost", &S::cost, "of the measure, in any currency; printed beside its results", not_negative},
+      {"without", &S::without, "sections of the site that it lacks: without = [\"fence.valley\", \"forest.wood\"]"}};
+  return table;
+}
 // clang-format on
 
 namespace {

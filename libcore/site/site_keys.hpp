@@ -71,6 +71,7 @@ template <> const std::vector<SiteKey<ObjectSettings>>& keys_of();
 template <> const std::vector<SiteKey<FenceSearchSettings>>& keys_of();
 template <> const std::vector<SiteKey<HazardSettings>>& keys_of();
 template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of();
+template <> const std::vector<SiteKey<VariantSettings>>& keys_of();
 // clang-format on
 
 /// A field of a section that stands in the site, by its type.
@@ -138,6 +139,7 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("fence_search", site.fence_searches);
   visit("hazard", site.hazard);
   visit("hazard.class", site.hazard_classes);
+  visit("variant", site.variants);
 }
 
 /// A section that stands in the site; the name of a single one is empty.

@@ -2,8 +2,12 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
+#include <sstream>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -15,6 +19,7 @@
 #include "site/site_keys.hpp"
 #include "site/site_layers.hpp"
 #include "site/soils.hpp"
+#include "site/stages.hpp"
 
 namespace talus {
 namespace {
@@ -255,6 +260,7 @@ void read_section(Site& site, const Keys<Field>& keys, const std::string& name,
   for (const auto& [key_text, node] : table) {
     if (stands_beside_named(name) && !has_key(keys, key_text.str())) continue;
     if (is_group_within(name, key_text.str())) continue;
+    if (name.starts_with("variant.") && node.is_table()) continue;
     const Where where{site.file, line_of(node)};
     const auto& key = key_named(keys, key_text.str(), name, where);
     read_value(key, std::string(key_text.str()), node, where);
@@ -299,6 +305,73 @@ void check_name(const std::string& group, const std::string& name, const Where& 
                    "use letters of any alphabet, digits, blanks and signs");
 }
 
+// --- variants: what they change ---
+
+struct Group {
+  std::string name;  // "fence", "hazard.class"
+  bool is_named;
+};
+const std::vector<Group>& all_groups() {
+  static const std::vector<Group> groups = [] {
+    std::vector<Group> list;
+    Site site;
+    for_each_group(site, [&list]<class Of>(const char* name, Of& sections) {
+      list.push_back({name, requires { sections.front(); }});
+});
+return list;
+}
+();
+return groups;
+}
+
+Texts group_names() {
+  Texts names;
+  for (const Group& group : all_groups()) names.push_back(group.name);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+std::string joined(const Texts& parts, std::size_t n) {
+  std::string out;
+  for (std::size_t i = 0; i < n; ++i) out += (i == 0 ? "" : ".") + parts[i];
+  return out;
+}
+
+// `path`: the group, the name where it has names, and the key.
+VariantSettings::Change change_of(const Texts& path, const toml::node& node,
+                                  const VariantSettings& variant, const std::string& file) {
+  std::ostringstream value;
+  value << toml::node_view<const toml::node>(node);
+  const std::size_t n = path.size() - 1;
+  for (const auto& [group, is_named] : all_groups()) {
+    const std::size_t parts = n - (is_named ? 1 : 0);
+    if (parts > 0 && group != "variant" && joined(path, parts) == group)
+      return {group, is_named ? path[n - 1] : "", path[n], value.str(), line_of(node)};
+  }
+  const bool has_no_name = joined(path, n) == "hazard.class" ||
+                           (n == 1 && std::any_of(all_groups().begin(), all_groups().end(),
+                                                  [&](auto& g) { return g.name == path[0]; }));
+  throw InputError({file, line_of(node)},
+                   "unknown section " + joined(path, n) + " in [variant." + variant.name + "]",
+                   has_no_name ? "it has sections of a name: write [variant." + variant.name + "." +
+                                     joined(path, n) + ".NAME]"
+                               : did_you_mean(path[0], group_names()));
+}
+
+void read_changes(VariantSettings& variant, const Texts& path, const toml::table& table,
+                  const std::string& file) {
+  for (const auto& [key, node] : table) {
+    Texts at = path;
+    at.emplace_back(key.str());
+    if (const auto* inner = node.as_table())
+      read_changes(variant, at, *inner, file);
+    else if (!path.empty())
+      variant.changes.push_back(change_of(at, node, variant, file));
+  }
+  std::stable_sort(variant.changes.begin(), variant.changes.end(),
+                   [](const auto& a, const auto& b) { return a.line < b.line; });
+}
+
 // [group.NAME] sections, in the order of the file (tables are kept sorted by name).
 template <class Section>
 void read_named(Site& site, std::vector<Section>& sections, const std::string& group,
@@ -320,16 +393,10 @@ void read_named(Site& site, std::vector<Section>& sections, const std::string& g
     section.name = name;
     line_field(section) = where.line;
     read_section(site, keys_in(section), group + "." + name, *table);
+    if constexpr (std::is_same_v<Section, VariantSettings>)
+      read_changes(section, {}, *table, site.file);
     sections.push_back(std::move(section));
   }
-}
-
-Texts group_names() {
-  Texts names;
-  Site site;
-  for_each_group(site, [&](const char* name, auto&) { names.emplace_back(name); });
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
 }
 
 struct GroupReader {
@@ -461,6 +528,46 @@ toml::array layer_value(const Field& field, const std::string& words) {
                                                  : words);
 }
 
+// Calls take(keys) for a section; a named one is added where it does not stand.
+struct SectionFinder {
+  const std::string &group, &name;
+  const std::function<void(const Keys<Field>&)>& take;
+
+  template <class Section>
+  void operator()(const char* of, Section& fields) const {
+    if (name.empty() && group == of) take(keys_in(fields));
+  }
+  template <class Section>
+  void operator()(const char* of, std::vector<Section>& sections) const {
+    if (name.empty() || group != of) return;
+    const auto is_it = [this](const Section& section) { return section.name == name; };
+    auto at = std::find_if(sections.begin(), sections.end(), is_it);
+    if (at == sections.end()) {
+      at = sections.emplace(sections.end());
+      at->name = name;
+    }
+    take(keys_in(*at));
+  }
+};
+
+void note_section(Site& site, const std::string& group) {
+  if (std::find(site.sections.begin(), site.sections.end(), group) == site.sections.end())
+    site.sections.push_back(group);
+}
+
+bool has_name(const Texts& list, std::string_view name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+// As if it had not been given; of lists and text.
+void clear(const Field& field) {
+  std::visit(
+      [](auto* value) {
+        if constexpr (requires { value->clear(); }) value->clear();
+      },
+      field);
+}
+
 struct SectionTaker {
   Site& site;
   const LayerSection& from;
@@ -481,29 +588,7 @@ struct SectionTaker {
     read_value(row, path + "." + row.name, holder[0], where);
     site.sources[path + "." + row.name] = {ValueSource::from_layer, 0, from.place};
   }
-  template <class Section>
-  void operator()(const char* name, Section& fields) const {
-    if (!from.name.empty() || from.group != name) return;
-    for (const auto& value : from.values) take_value(keys_in(fields), name, value);
-  }
-  template <class Section>
-  void operator()(const char* group, std::vector<Section>& sections) const {
-    if (from.name.empty() || from.group != group) return;
-    check_name(from.group, from.name, {from.place});
-    const auto is_it = [this](const Section& section) { return section.name == from.name; };
-    auto at = std::find_if(sections.begin(), sections.end(), is_it);
-    if (at == sections.end()) {
-      at = sections.emplace(sections.end());
-      at->name = from.name;
-    }
-    for (const auto& value : from.values)
-      take_value(keys_in(*at), group + ("." + from.name), value);
-  }
 };
-
-}  // namespace
-
-namespace {
 
 // What to do about a file that is not TOML.
 std::string way_to_toml(const std::string& finding, const std::string& text,
@@ -590,12 +675,208 @@ void override_value(Site& site, const std::string& key, const std::string& value
   check_names(site);
 }
 
+// --- variants ----------------------------------------------------------------------------------
+
+namespace {
+
+// Keys that stand for one another, as where something is: the one that a variant gives counts.
+const std::vector<Texts>& instead_of_one_another() {
+  static const std::vector<Texts> families = {
+      {"line", "polygon", "position_m", "file"}, {"polygon", "polygon_file"}, {"contours", "dem"}};
+  return families;
+}
+
+// Names of the sections of a group.
+Texts names_in(const Site& site, const std::string& group) {
+  Texts names;
+  for (const auto& [of, name, keys] : sections_in(site))
+    if (of == group && !name.empty()) names.push_back(name);
+  return names;
+}
+
+// Why runs of the site and of the variant would not be comparable, and the way out; empty: they
+// are.
+struct Refusal {
+  std::string why, hint;
+};
+Refusal refusal_of(const VariantSettings& variant, const VariantSettings::Change& change) {
+  const EffectiveValue value{path_of(change.group, change.name), change.key, "", ""};
+  if (change.group == "site") return {"is of the site itself", "write it in [site]"};
+  if (change.key == "n_runs" || (change.group == "solver" && change.key == "seed"))
+    return {"would make other runs, and runs of the same seeds are compared",
+            "write it in [solver], for all variants"};
+  if (is_alternative(variant)) {
+    if (stage_reads("run", value) && !stage_reads("import", value) && change.group != "uncertainty")
+      return {};
+    return {"changes nothing in its runs: alternatives share terrain, blocks and what is evaluated",
+            "take the weight out, so that it is compared, or make another site of it"};
+  }
+  if (change.group == "output" ||
+      (change.group == "terrain" && has_name({"cell_size_m", "window_m"}, change.key)))
+    return {"would record what cannot be laid over the site's",
+            "write it in [" + change.group + "], for all variants"};
+  const bool is_strength = has_name({"friction_deg", "cohesion_pa", "tension_pa"}, change.key);
+  const bool is_frequency = change.key.starts_with("frequency_");
+  if (has_name({"source", "blocks", "uncertainty"}, change.group) ||
+      (change.group == "joints" && !is_strength) || (change.group == "rockfall" && !is_frequency))
+    return {"would draw other rocks, and the difference would be theirs",
+            "a mass that is scaled off is without = [\"SECTION\"]; else make another site of it"};
+  return {};
+}
+
+void check_change(const Site& site, const VariantSettings& variant,
+                  const VariantSettings::Change& change) {
+  const Refusal refusal = refusal_of(variant, change);
+  if (!refusal.why.empty())
+    throw InputError({site.file, change.line},
+                     path_of(change.group, change.name) + "." + change.key + " in [variant." +
+                         variant.name + "] " + refusal.why,
+                     refusal.hint);
+}
+
+void take_out(Site& site, const VariantSettings& variant, const std::string& path) {
+  const Where where = where_of(site, "variant." + variant.name + ".without");
+  Texts known;
+  bool is_done = false;
+  for_each_group(site, [&]<class Of>(const std::string& group, Of& sections) {
+    if constexpr (requires { sections.front(); }) {
+      if (group == "variant" || group == "material" || group == "uncertainty") return;
+      for (const auto& section : sections) known.push_back(path_of(group, section.name));
+      is_done |= std::erase_if(sections, [&](const auto& section) {
+                   return path_of(group, section.name) == path;
+                 }) > 0;
+    }
+  });
+  if (!is_done)
+    throw InputError(
+        where,
+        "[variant." + variant.name + "] is without " + path + ", and the site has no such section",
+        did_you_mean(path, known));
+  std::erase_if(site.sources, [&](const auto& of) { return of.first.starts_with(path + "."); });
+  site.layer_digests.erase(path);
+}
+
+void take_change(Site& site, const VariantSettings& variant,
+                 const VariantSettings::Change& change) {
+  check_change(site, variant, change);
+  const Where where{site.file, change.line};
+  const std::string path = path_of(change.group, change.name);
+  if (!change.name.empty()) check_name(change.group, change.name, where);
+  const std::string words = "variant " + variant.name + ", line ";
+  for_each_group(
+      site,
+      SectionFinder{change.group, change.name, [&](const Keys<Field>& keys) {
+                      const KeyOf<Field>& row = key_named(keys, change.key, path, where);
+                      read_value(row, path + "." + row.name, parsed_value(change.value)[0], where);
+                      site.sources[path + "." + row.name] = {ValueSource::from_variant, change.line,
+                                                             words + std::to_string(change.line)};
+                      for (const Texts& family : instead_of_one_another()) {
+                        if (!has_name(family, row.name)) continue;
+                        for (const KeyOf<Field>& other : keys) {
+                          const auto at = site.sources.find(path + "." + other.name);
+                          if (!has_name(family, other.name) || at == site.sources.end() ||
+                              at->second.words.starts_with(words))
+                            continue;
+                          clear(other.field);
+                          site.sources.erase(at);
+                        }
+                      }
+                    }});
+  note_section(site, change.group);
+}
+
+// A fence that the variant adds, or whose name is mistyped.
+void check_new_section(const Site& site, const VariantSettings& variant,
+                       const VariantSettings::Change& change, const Texts& known) {
+  static const Texts places = {"line",         "polygon", "position_m", "file",
+                               "polygon_file", "fence",   "stems_file", "boulders_file"};
+  const std::string path = path_of(change.group, change.name);
+  bool has_place = false, may_have = false;
+  for (const auto& [group, name, keys] : sections_in(site))
+    for (const auto& key : keys) {
+      if (path_of(group, name) != path || !has_name(places, key.name)) continue;
+      may_have = true;
+      has_place |= site.sources.contains(path + "." + key.name);
+    }
+  if (has_place || !may_have) return;
+  throw InputError(
+      {site.file, change.line},
+      "[variant." + variant.name + "] changes " + path + ", which the site does not have",
+      known.empty() ? "say where it is, and it is added"
+                    : did_you_mean(change.name, known) + "; or say where it is, and it is added");
+}
+
+}  // namespace
+
+void apply_variant(Site& site, const std::string& name) {
+  const auto at = std::find_if(site.variants.begin(), site.variants.end(),
+                               [&name](const auto& one) { return one.name == name; });
+  if (at == site.variants.end())
+    throw InputError({site.file}, "has no section [variant." + name + "]",
+                     did_you_mean(name, names_in(site, "variant")));
+  const VariantSettings variant = *at;
+  if (is_alternative(variant)) {
+    if (!site.alternative.empty())
+      throw InputError({site.file, variant.line},
+                       "variants " + site.alternative + " and " + name +
+                           " both have a weight, and are alternatives of one another",
+                       "give one of them");
+    site.alternative = name;
+  }
+  bool has_others = !variant.without.empty();
+  for (const std::string& path : variant.without) take_out(site, variant, path);
+  const Site before = site;
+  for (const VariantSettings::Change& change : variant.changes) take_change(site, variant, change);
+  for (const VariantSettings::Change& change : variant.changes) {
+    const Texts known = names_in(before, change.group);
+    if (change.name.empty() || has_name(known, change.name)) continue;
+    check_new_section(site, variant, change, known);
+    has_others = true;
+  }
+  if (has_others && is_alternative(variant))
+    throw InputError(
+        {site.file, variant.line},
+        "[variant." + name + "] has a weight and other sections than the site",
+        "write the sections on the site, with active = false where they have that key");
+  fill_from_soils(site);
+  check_names(site);
+}
+
+void check_variants(const Site& site) {
+  const VariantSettings* first = nullptr;
+  int n_weights = 0;
+  for (const VariantSettings& variant : site.variants) {
+    const Where where{site.file, variant.line};
+    if (variant.name.find('/') != std::string::npos || variant.name[0] == '.')
+      throw InputError(where, "the name of [variant." + variant.name + "] begins with . or holds /",
+                       "its results go to a folder of that name");
+    Site copy = site;
+    apply_variant(copy, variant.name);
+    if (!is_alternative(variant)) continue;
+    if (first == nullptr) first = &variant;
+    ++n_weights;
+    if (!std::isnan(variant.cost))
+      throw InputError(where_of(site, "variant." + variant.name + ".cost"),
+                       "[variant." + variant.name + "] has a weight and a cost",
+                       "an alternative of nature has the weight, a measure the cost");
+  }
+  if (n_weights == 1)
+    throw InputError({site.file, first->line}, "[variant." + first->name + "] alone has a weight",
+                     "the site as it is counts too where a variant has its weight alone: "
+                     "[variant.as_it_is] and weight = 1");
+}
+
 void take_sections(Site& site, const std::vector<LayerSection>& sections) {
   for (const LayerSection& section : sections) {
-    for_each_group(site, SectionTaker{site, section});
-    site.layer_digests[path_of(section.group, section.name)] += section.digest;
-    if (std::find(site.sections.begin(), site.sections.end(), section.group) == site.sections.end())
-      site.sections.push_back(section.group);
+    const std::string path = path_of(section.group, section.name);
+    if (!section.name.empty()) check_name(section.group, section.name, {section.place});
+    for_each_group(site,
+                   SectionFinder{section.group, section.name, [&](const Keys<Field>& keys) {
+                                   for (const LayerSection::Value& value : section.values)
+                                     SectionTaker{site, section}.take_value(keys, path, value);
+                                 }});
+    site.layer_digests[path] += section.digest;
+    note_section(site, section.group);
   }
   fill_from_soils(site);
   check_names(site);

@@ -80,8 +80,7 @@ std::string source_of(const Site& site, const Soil* soil, const std::string& pat
   if (soil != nullptr && source.kind == ValueSource::from_soil)
     return std::string("soil ") + soil->name + " (" + soil->mark + ")";
   if (source.kind == ValueSource::from_cli) return "cli";
-  if (source.kind == ValueSource::from_draw || source.kind == ValueSource::from_layer)
-    return source.words;
+  if (!source.words.empty()) return source.words;
   return "file, line " + std::to_string(source.line);
 }
 

@@ -366,7 +366,8 @@ struct Drawing {
   }
   [[nodiscard]] bool is_held(const std::string& key) const {
     const auto found = site.sources.find(key);
-    return found != site.sources.end() && found->second.kind == ValueSource::from_cli;
+    return found != site.sources.end() && (found->second.kind == ValueSource::from_cli ||
+                                           found->second.kind == ValueSource::from_variant);
   }
   void add(const std::string& key, double value, std::vector<DrawnKey>& drawn) const {
     if (!is_held(key)) drawn.push_back({q.name, key, value});

@@ -3,7 +3,7 @@
 // straight down a plane (30 degrees, cells of 2 m), recorded by the recorder itself.
 //   run-probe DIR N_RUNS [site=NAME] [name=NAME] [version=V] [status=running|failed] [standing=1]
 //             [empty=1] [blocks=N] [step=H] [frames=DT] [seed=K] [height=H] [capacity=KJ|none]
-//             [hits=stopped|held|broken|pile] [moving=1] [still=N] [still_runs=N]
+//             [hits=stopped|held|broken|pile] [moving=1] [still=N] [still_runs=N] [seeds=FIRST]
 //             [objects=watched|drawn] [weight=W] [independent=1] [passages=no] [case=NAME]
 //             [share=MAX_FAILED_SHARE] [crs=EPSG:2056]
 // Box b of run r (edge 1 m, 2600 kg) starts at rest at x = 11, y = 10 + 6 b and slides with
@@ -176,6 +176,7 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
   RunFile run;
   run.info.run_id =
       "probe" + std::to_string(100000 + r + 1000 * std::lround(number(words, "seed", 0)));
+  run.info.seed = words.contains("seeds") ? r + std::lround(number(words, "seeds", 0)) : 0;
   run.info.version = word(words, "version", "0.1.0");
   run.info.site = word(words, "site", "probe");
   run.info.case_name = word(words, "case", "");

@@ -26,65 +26,11 @@ std::string in(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).lexically_normal().string();
 }
 
-// NAME=REST
-std::pair<std::string, std::string> parted(const std::string& words, const char* option) {
-  const std::size_t equals = words.find('=');
-  if (equals == std::string::npos || equals == 0)
-    throw UsageError({"", 0, option}, "is " + words + ", expected NAME=...");
-  return {words.substr(0, equals), words.substr(equals + 1)};
-}
-
-// As a shell parts them: quotes hold blanks together, wherever they begin.
-std::vector<std::string> words_of(const std::string& text) {
-  std::vector<std::string> words;
-  char quote = 0;
-  bool is_open = false;
-  for (const char c : text) {
-    const bool is_blank = quote == 0 && (c == ' ' || c == '\t');
-    if (!is_open && !is_blank) words.emplace_back();
-    is_open = !is_blank;
-    if (quote == 0 && (c == '\'' || c == '"'))
-      quote = c;
-    else if (c == quote)
-      quote = 0;
-    else if (!is_blank)
-      words.back() += c;
-  }
-  return words;
-}
-
-std::vector<BatchCase> cases_of(const BatchOptions& options) {
-  std::vector<BatchCase> cases;
-  for (const std::string& words : options.cases) {
-    const auto [name, rest] = parted(words, "--case");
-    if (name.find('/') != std::string::npos || name[0] == '.')
-      throw UsageError({"", 0, "--case"}, "names '" + name + "'",
-                       "its runs go to a folder of that name");
-    cases.push_back({name, words_of(rest)});
-  }
-  if (cases.empty()) cases.push_back({});
-  return cases;
-}
-
-std::vector<CaseWeight> weights_of(const BatchOptions& options,
-                                   const std::vector<BatchCase>& cases) {
-  std::map<std::string, double> weights;
-  for (const std::string& words : options.weights) {
-    const auto [name, number] = parted(words, "--weight");
-    if (!parse_double(number, weights[name]) || !(weights[name] > 0))
-      throw UsageError({"", 0, "--weight"}, "is " + words + ", expected NAME=NUMBER above 0");
-  }
+// Variants with a weight, by name.
+std::vector<CaseWeight> alternatives_of(const Site& site) {
   std::vector<CaseWeight> out;
-  for (const BatchCase& one : cases) {
-    if (options.weights.empty()) break;
-    if (!weights.contains(one.name))
-      throw UsageError({"", 0, "--weight"}, "has none of case " + one.name,
-                       "give a weight to each case");
-    out.push_back({one.name, weights[one.name], 0});
-    weights.erase(one.name);
-  }
-  if (!weights.empty())
-    throw UsageError({"", 0, "--weight"}, "names " + weights.begin()->first + ", which is no case");
+  for (const VariantSettings& variant : site.variants)
+    if (is_alternative(variant)) out.push_back({variant.name, variant.weight, 0});
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return out;
 }
@@ -103,11 +49,6 @@ BatchPart part_of(const std::string& words) {
 }
 
 // --- what runs are made with ---------------------------------------------------------------------
-
-const BatchCase& case_of(const BatchPlan& plan, const EnsembleMember& member) {
-  return *std::find_if(plan.cases.begin(), plan.cases.end(),
-                       [&member](const BatchCase& one) { return one.name == member.case_name; });
-}
 
 // What talus-dda says that a run of the case would be made with.
 RunInfo asked(const BatchPlan& plan, const EnsembleMember& member) {
@@ -144,12 +85,12 @@ void say_what_differs(const BatchPlan& plan, const std::map<std::string, RunInfo
 
 }  // namespace
 
-BatchPlan plan_of(const Site& site, const std::string& site_file, const BatchOptions& options) {
+BatchPlan plan_of(const Site& site, const std::vector<std::string>& site_words,
+                  const BatchOptions& options) {
   BatchPlan plan;
-  plan.site_file = site_file;
+  plan.site_words = site_words;
   plan.results = options.results;
   plan.folder = in(options.results, options.into);
-  plan.cases = cases_of(options);
   plan.first_seed = options.seed < 0 ? site.solver.seed : options.seed;
   plan.draws_samples = !site.quantities.empty() || site.uncertainty.rock_masses > 0;
   plan.rock_masses = site.uncertainty.rock_masses;
@@ -159,7 +100,10 @@ BatchPlan plan_of(const Site& site, const std::string& site_file, const BatchOpt
   plan.ensemble.folder = plan.folder;
   plan.ensemble.is_planned = true;
   plan.ensemble.max_failed_share = site.uncertainty.max_failed_share;
-  plan.ensemble.cases = weights_of(options, plan.cases);
+  plan.ensemble.cases = alternatives_of(site);
+  for (const VariantSettings& variant : site.variants)
+    if (is_alternative(variant)) plan.cases.push_back(variant.name);
+  if (plan.cases.empty()) plan.cases.emplace_back();
   if (plan.draws_samples && plan.first_seed == 0)
     throw UsageError({"", 0, "--seed"}, "is 0: samples of [uncertainty] count from 1");
   return plan;
@@ -170,14 +114,14 @@ void set_runs(BatchPlan& plan, int n_runs) {
   for (const Ensemble& from : {stored_ensemble(plan.folder), plan.ensemble})
     for (const EnsembleMember& member : from.members) known[member.file] = member;
   plan.ensemble.members.clear();
-  for (const BatchCase& one : plan.cases)
+  for (const std::string& name : plan.cases)
     for (int i = 0; i < n_runs; ++i) {
       const std::int64_t seed = plan.first_seed + i;
       const std::string file =
-          (one.name.empty() ? "" : one.name + "/") + "run_" + std::to_string(seed) + ".h5";
+          (name.empty() ? "" : name + "/") + "run_" + std::to_string(seed) + ".h5";
       EnsembleMember member = known[file];
       member.file = file;
-      member.case_name = one.name;
+      member.case_name = name;
       member.seed = seed;
       member.sample = plan.draws_samples ? seed : 0;
       plan.ensemble.members.push_back(std::move(member));
@@ -252,12 +196,12 @@ std::vector<std::string> run_words(const BatchPlan& plan, const EnsembleMember& 
   const auto add = [&words](std::initializer_list<std::string> more) {
     words.insert(words.end(), more);
   };
-  add({plan.site_file, "--trn", rock_file(plan, "bed", ".tif", mass), "--blocks",
+  words.insert(words.end(), plan.site_words.begin(), plan.site_words.end());
+  if (!member.case_name.empty()) add({"--variant", member.case_name});
+  add({"--trn", rock_file(plan, "bed", ".tif", mass), "--blocks",
        rock_file(plan, "blocks", ".h5", mass), "--seed", std::to_string(member.seed)});
   if (member.sample > 0) add({"--sample", std::to_string(member.sample)});
-  if (!member.case_name.empty()) add({"--case", member.case_name});
-  for (const auto* more : {&case_of(plan, member).words, &plan.dda_options})
-    words.insert(words.end(), more->begin(), more->end());
+  words.insert(words.end(), plan.dda_options.begin(), plan.dda_options.end());
   return words;
 }
 
@@ -299,8 +243,8 @@ std::vector<Ensemble> ensembles_of(BatchPlan& plan) {
   bring_up_to_date(plan.ensemble);
   std::vector<Ensemble> list{plan.ensemble};
   if (plan.cases.size() < 2) return list;
-  for (const BatchCase& one : plan.cases) {
-    list.push_back(of_case(plan.ensemble, one.name));
+  for (const std::string& name : plan.cases) {
+    list.push_back(of_case(plan.ensemble, name));
     bring_up_to_date(list.back());
   }
   return list;

@@ -11,16 +11,10 @@
 
 namespace talus {
 
-/// A variant of the settings: what talus-dda is given more.
-struct BatchCase {
-  std::string name;                ///< "": the site as it is
-  std::vector<std::string> words;  ///< options of talus-dda
-};
-
 struct BatchOptions {
   std::string results = "out", into = "runs", runs, part, launcher;
   std::int64_t seed = -1;  ///< -1: that of the site
-  std::vector<std::string> cases, weights, dda_options;
+  std::vector<std::string> dda_options;
   int jobs = 0, most = 1600;
   bool status = false;
 };
@@ -35,10 +29,10 @@ struct BatchPart {
 
 /// The runs of one folder.
 struct BatchPlan {
-  std::string site_file;
-  std::string results;  ///< folder with blocks.h5 and bed.tif, or with rock/blocks_K.h5
-  std::string folder;   ///< of the runs
-  std::vector<BatchCase> cases;
+  std::vector<std::string> site_words;  ///< the site file, and which variant of it
+  std::string results;             ///< folder with blocks.h5 and bed.tif, or with rock/blocks_K.h5
+  std::string folder;              ///< of the runs
+  std::vector<std::string> cases;  ///< variants that are counted together; "": the site as it is
   std::int64_t first_seed = 1;
   bool draws_samples = false;
   int rock_masses = 0;
@@ -50,7 +44,7 @@ struct BatchPlan {
 
 /// Of the site file and the options. Throws InputError and UsageError. Without `n_runs` of each
 /// case.
-[[nodiscard]] BatchPlan plan_of(const Site& site, const std::string& site_file,
+[[nodiscard]] BatchPlan plan_of(const Site& site, const std::vector<std::string>& site_words,
                                 const BatchOptions& options);
 
 /// Wants `n_runs` of each case.

@@ -37,14 +37,12 @@ void declare(Tool& tool, BatchOptions& o) {
               "folder with bed.tif and blocks.h5 (talus-blocks), which the runs go to");
   tool.option("--into", o.into, "folder in it for the runs");
   tool.option("--runs", o.runs,
-              "runs of each case, or auto: as many as [place.*] half_width wants; default: those "
-              "of the site file");
-  tool.option("--most", o.most, "runs of each case that auto makes at most").between(1, 1000000);
+              "runs of each alternative, or auto: as many as [place.*] half_width wants; default: "
+              "those of the site file");
+  tool.option("--most", o.most, "runs of each alternative that auto makes at most")
+      .between(1, 1000000);
   tool.option("--seed", o.seed, "of the first run; -1: that of the site file")
       .between(std::int64_t{-1}, std::int64_t{1} << 53);
-  tool.list("--case", o.cases,
-            "NAME=OPTIONS of talus-dda: a variant, of which as many runs are made");
-  tool.list("--weight", o.weights, "NAME=NUMBER: what a case counts among the others; of each");
   tool.option(
           "--jobs", o.jobs,
           "runs at a time; 0, the default: as make -j says, or as many as the machine has cores")
@@ -320,14 +318,13 @@ RunsThatLack runs_that_lack(const BatchPlan& plan) {
   fs::create_directories(now.folder);
   write_ensemble(now);
   std::vector<std::string> words = tool_words(plan, "talus-places");
-  for (const std::string& word : {plan.site_file, now.folder, std::string("--trn"), ground_of(plan),
-                                  std::string("--json"), std::string("--no-db"), std::string("-q")})
-    words.push_back(word);
+  words.insert(words.end(), plan.site_words.begin(), plan.site_words.end());
+  words.insert(words.end(), {now.folder, "--trn", ground_of(plan), "--json", "--no-db", "-q"});
   const Json places = output_of(words);
   fs::remove_all(now.folder);
   for (const Json& place : places.at("places"))
     if (place.at("half_width").is_null() && !place.at("more_runs_help").get<bool>())
-      throw InputError({plan.site_file}, "--runs auto: more runs give no interval",
+      throw InputError({plan.site_words[0]}, "--runs auto: more runs give no interval",
                        "raise rock_masses to 10 or more");
   return {places.at("runs_to_add").get<int>(), places.at("more_runs_help").get<bool>(),
           places.at("intervals_over").get<std::string>()};
@@ -426,8 +423,9 @@ void make_blocks(Tool& tool, const BatchPlan& plan) {
         fs::last_write_time(blocks) >= fs::last_write_time(of_first))
       continue;
     std::vector<std::string> words = tool_words(plan, "talus-blocks");
-    words.insert(words.end(), {plan.site_file, "--trn", ground_of(plan), "-o", blocks, "--trn-out",
-                               bed, "--sample", std::to_string(mass), "--overwrite", "-q"});
+    words.insert(words.end(), plan.site_words.begin(), plan.site_words.end());
+    words.insert(words.end(), {"--trn", ground_of(plan), "-o", blocks, "--trn-out", bed, "--sample",
+                               std::to_string(mass), "--overwrite", "-q"});
     if (fs::exists(inputs)) words.insert(words.end(), {"--inputs", inputs});
     add_registry(words, tool, plan);
     run_through(tool, words);
@@ -467,10 +465,11 @@ int n_runs_of(const Site& site, const BatchOptions& o) {
   return static_cast<int>(n);
 }
 
-void run_tool(Tool& tool, const Site& site, const std::string& site_file, BatchOptions& o) {
+void run_tool(Tool& tool, const Site& site, const std::vector<std::string>& site_words,
+              BatchOptions& o) {
   if (o.launcher.empty())
     o.launcher = (fs::read_symlink("/proc/self/exe").parent_path() / "").string();
-  BatchPlan plan = plan_of(site, site_file, o);
+  BatchPlan plan = plan_of(site, site_words, o);
   const bool is_auto = o.runs == "auto";
   if (is_auto && (plan.part.n_parts > 1 || site.places.empty()))
     throw UsageError({"", 0, "--runs"}, plan.part.n_parts > 1
@@ -508,5 +507,5 @@ int main(int argc, char** argv) {
   Tool tool("talus-batch", "Makes the runs of a site that are not there yet, several at a time.");
   SiteOptions site(tool);
   declare(tool, options);
-  return tool.run(argc, argv, [&] { run_tool(tool, site.load(), site.file(), options); });
+  return tool.run(argc, argv, [&] { run_tool(tool, site.load(), site.words(), options); });
 }

@@ -37,7 +37,7 @@ RunOptions run_options(const Site& site, const ScenePlan& plan, const DdaOptions
   return options;
 }
 
-RunFile new_file(Tool& tool, const Site& site, const SetUp& setup, const DdaOptions& o) {
+RunFile new_file(Tool& tool, const Site& site, const SetUp& setup) {
   const DdaInputs& inputs = setup.inputs;
   RunFile file;
   RunInfo& info = file.info;
@@ -53,7 +53,7 @@ RunFile new_file(Tool& tool, const Site& site, const SetUp& setup, const DdaOpti
   info.law = site.solver.law;
   info.seed = site.solver.seed;
   info.seed_draws = seed_draws(site);
-  info.case_name = o.case_name;
+  info.case_name = site.alternative;
   info.independent = moves_alone(site);
   info.weights_are_frequencies = !setup.blocks.weight.empty();
   info.config = print_config(site);
@@ -241,7 +241,7 @@ void check_options(Tool& tool, const DdaOptions& o) {
 
 void compute_run(Tool& tool, const Site& site, const SetUp& setup, const DdaOptions& o,
                  double cpu_start_s) {
-  RunFile file = new_file(tool, site, setup, o);
+  RunFile file = new_file(tool, site, setup);
   RunOptions options = run_options(site, setup.plan, o);
   Workers workers(n_threads(setup.scene, o));
   if (workers.n_threads() > 1) options.workers = &workers;

@@ -11,7 +11,7 @@ namespace talus {
 
 struct DdaOptions {
   SetUpRequest request;
-  std::string out, plan, case_name, passages_by = "footprint";
+  std::string out, plan, passages_by = "footprint";
   bool resume = false;
   int threads = 0;  ///< 0: as many as there are
 };

@@ -27,9 +27,6 @@ void declare(Tool& tool, SiteOptions& site, DdaOptions& o) {
       "--settle", o.request.files.settle,
       "lift blocks that start below the ground onto it with what lies on them, and move blocks "
       "apart that overlap a little");
-  tool.option("--case", o.case_name,
-              "name of the variant that the options make of the site: evaluated by itself, or "
-              "weighed against others");
   tool.option("--passages-by", o.passages_by,
               "a cell is passed while the footprint or only the centroid is over it")
       .one_of({"footprint", "centroid"});
@@ -44,8 +41,8 @@ void declare(Tool& tool, SiteOptions& site, DdaOptions& o) {
   // All that was given or read counts for the run's id, but for what a resumed run may differ in.
   // The site file counts by its effective values.
   tool.leave_out_of_run_id(site.names());
-  tool.leave_out_of_run_id({"case", "resume", "threads", "output.checkpoint_interval_s",
-                            "output.frames", "output.whole_share"});
+  tool.leave_out_of_run_id(
+      {"resume", "threads", "output.checkpoint_interval_s", "output.frames", "output.whole_share"});
 }
 
 }  // namespace

@@ -176,15 +176,15 @@ std::vector<double> verified_factors(const std::vector<RunMember>& members,
     if (found == classes.end())
       throw InputError({where_of(member)},
                        "is of case '" + name + "', which is no class of [hazard.class.*]",
-                       "compute runs of class " + classes[0].kind.name + " with talus-dda --case " +
-                           classes[0].kind.name);
+                       "compute runs of class " + classes[0].kind.name +
+                           " with talus-dda --variant " + classes[0].kind.name);
     kind.push_back(static_cast<std::size_t>(found - classes.begin()));
     ++n[kind.back()];
   }
   for (std::size_t c = 0; c < classes.size(); ++c)
     if (n[c] == 0)
       throw InputError({"", 0, "--verified"}, "has no run of class " + classes[c].kind.name,
-                       "give runs of all classes (talus-dda --case)");
+                       "give runs of all classes ([variant.CLASS])");
   const std::vector<double> factors = class_factors(classes, n);
   std::vector<double> out;
   for (const std::size_t c : kind) out.push_back(factors[c]);

@@ -113,7 +113,7 @@ struct RunInputs::Found {
 };
 
 RunInputs::Found RunInputs::look_at(const RunSet& set, const RunParts& parts, bool at_once,
-                                    SettingsCheck& settings) {
+                                    SettingsCheck& settings, bool on_another_ground) {
   Found found;
   RunParts with_words = parts;
   with_words.words = true;
@@ -123,8 +123,14 @@ RunInputs::Found RunInputs::look_at(const RunSet& set, const RunParts& parts, bo
     found.members.push_back(member_of(name, run));
     add_release_cells(found.members.back(), run, trn());
     if (place.part >= 0) found.members.back().part = part_files_[place.part];
-    check_member(found.members.back(), members.empty() ? found.members.front() : members.front(),
-                 set_options_);
+    RunMember first = members.empty() ? found.members.front() : members.front();
+    RunSetOptions options = set_options_;
+    if (on_another_ground) {
+      const RunInfo& info = found.members.front().info;
+      first.info.trn_sha256 = options.trn_sha256 = info.trn_sha256;
+      first.info.terrain_digest = options.trn_digest = info.terrain_digest;
+    }
+    check_member(found.members.back(), first, options);
     if (found.members.size() == 1) {
       const MadeWith made = made_with(run.info.config, "");
       if (made.values.contains(share_key)) found.max_failed_share = number_of(made, share_key);
@@ -154,7 +160,7 @@ RunInputs::Found RunInputs::look_at(const RunSet& set, const RunParts& parts, bo
   }
   if (found.members.empty())
     throw InputError({set.files[0]}, "is of no case " + set.only_case + ", nor is any other run",
-                     "give runs of talus-dda --case " + set.only_case);
+                     "give runs of talus-dda --variant " + set.only_case);
   return found;
 }
 
@@ -215,7 +221,7 @@ void RunInputs::read(const RunSet& set, const std::string& role, const RunParts&
   const bool at_once = parts.only_last_frame && bytes_of(set.files) <= most_at_once;
   SettingsCheck check =
       settings == RunSettings::with_other_fences ? settings_.for_other_fences() : SettingsCheck();
-  Found found = look_at(set, parts, at_once, check);
+  Found found = look_at(set, parts, at_once, check, settings == RunSettings::on_another_ground);
   settings_.merge(check);
   static_cast<void>(order_by_id(found.members));  // the same run twice
   tool_.content_read(role, content_of(found.members));
@@ -363,7 +369,7 @@ std::string RunInputs::remark() const {
                                " cases pooled, each run alike: no probability";
     short_words += (short_words.empty() ? "" : "; ") + pooled;
     tool_.warn(pooled + " (" + text(cases_) +
-               "): give a weight to each (talus-batch --weight), or evaluate the folder of one");
+               "): make them by talus-batch, which weighs them, or evaluate the folder of one");
   }
   if (!few.empty()) tool_.warn(few + ": the intervals of shares count them");
   if (!words.empty()) tool_.warn(words + ": every output says so");

@@ -44,6 +44,7 @@ struct RunSet {
 enum class RunSettings {
   of_their_own,       ///< other cases, or runs to compare with
   with_other_fences,  ///< as before, but for the fences
+  on_another_ground,  ///< of their own, as is the terrain: of the site as it is, or a variant
 };
 
 class RunInputs {
@@ -125,7 +126,7 @@ class RunInputs {
   };
   struct Found;
   [[nodiscard]] Found look_at(const RunSet& set, const RunParts& parts, bool at_once,
-                              SettingsCheck& settings);
+                              SettingsCheck& settings, bool on_another_ground);
   [[nodiscard]] double share_allowed(const RunSet& set, const Found& found) const;
   void leave_out_failed(Found& found, const RunSet& set, bool is_first);
   void weigh(std::vector<RunMember>& found, const RunSet& set, bool is_first);

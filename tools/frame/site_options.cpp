@@ -14,6 +14,7 @@ namespace talus {
 SiteOptions::SiteOptions(Tool& tool, std::optional<DrawScope> draws, bool required)
     : tool_(tool), draws_(draws) {
   tool.input("site", file_, "site file (TOML)").required(required);
+  tool.list("--variant", variants_, "the site as [variant.NAME] makes it; of several in order");
   tool.list("--set", overrides_, "override a key of the site file: section.key=value");
   tool.more_config([this] {
     std::vector<ConfigValue> values;
@@ -58,6 +59,8 @@ const Site& SiteOptions::load() {
   read_site_layers(tool_, site);
   read_quantities(tool_, site);
   keep_files(site);
+  check_variants(site);
+  for (const std::string& name : variants_) apply_variant(site, name);
   for (const std::string& word : overrides_) {
     const std::size_t equals = end_of_key(site, word);
     if (equals == std::string::npos)
@@ -79,6 +82,12 @@ const Site& SiteOptions::load() {
   if (!inputs_.empty()) tool_.read_by_content(inputs_);
   site_ = std::make_unique<Site>(std::move(site));
   return *site_;
+}
+
+std::vector<std::string> SiteOptions::words() const {
+  std::vector<std::string> out{file_};
+  for (const std::string& name : variants_) out.insert(out.end(), {"--variant", name});
+  return out;
 }
 
 // As the layers: its values count, and a run says them as its own.

@@ -1,6 +1,6 @@
 // tools/frame/site_options.hpp
 // The site file as every tool that reads one takes it: the file, layers that stand for its
-// sections, --set, and what --print-config shows.
+// sections, --variant, --set, and what --print-config shows.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,8 @@
 
 namespace talus {
 
-/// Declares SITE.toml and --set on a tool; load() reads the file once, applies the overrides and,
-/// for a tool with `draws`, the sample that --sample names.
+/// Declares SITE.toml, --variant and --set on a tool; load() reads the file once, applies the
+/// variants, the overrides and, for a tool with `draws`, the sample that --sample names.
 class SiteOptions {
  public:
   /// `required`: else the tool has a use without a site file, and load() must not be called for it.
@@ -29,9 +29,13 @@ class SiteOptions {
   /// no other result: what is read of it counts.
   void take_inputs();
 
-  /// Throws InputError (read_site, check_uncertainty, apply_draws), UsageError (--set).
+  /// Throws InputError (read_site, check_variants, check_uncertainty, apply_draws), UsageError
+  /// (--set).
   const Site& load();
   [[nodiscard]] const std::string& file() const { return file_; }
+  /// The site file and its variants, for a tool that is started.
+  [[nodiscard]] std::vector<std::string> words() const;
+  [[nodiscard]] bool has_variant() const { return !variants_.empty(); }
   /// Names of the file and of the options that override it. Where its effective values count, the
   /// words that they were given in do not.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
@@ -43,7 +47,7 @@ class SiteOptions {
 
   Tool& tool_;
   std::string file_, inputs_;
-  std::vector<std::string> overrides_, additions_, names_{"site", "set"};
+  std::vector<std::string> overrides_, variants_, additions_, names_{"site", "set", "variant"};
   std::unique_ptr<Site> site_;
   std::optional<DrawScope> draws_;
 };

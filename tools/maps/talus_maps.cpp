@@ -124,20 +124,23 @@ Gathered gather(talus::RunInputs& runs, const talus::RunSet& set, const std::str
     else
       add_rows(out.rows, std::move(rows), member);
   };
-  runs.read(set, role, parts, [&](RunFile& run, int index) {
-    if (run.grid.n_rows == 0)
-      throw talus::InputError({runs.members[index].file}, "holds no passages",
-                              "set [output] passages = true and run talus-dda again");
-    if (index == range.first) {
-      out.map = talus::map_grid(run.grid, o.cell_size_m, "--cell-size-m");
-      out.rows_of_cell.assign(static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols,
-                              0);
-    }
-    count(talus::map_rows(run.passages, run.grid, out.map, talus::weights_of(run)),
-          index - range.first);
-    out.weight.push_back(talus::weights_of(run));
-    talus::add_deposit(out.deposit, out.map.grid, run, runs.rest_speed_m_s, talus::moved_m);
-  });
+  runs.read(
+      set, role, parts,
+      [&](RunFile& run, int index) {
+        if (run.grid.n_rows == 0)
+          throw talus::InputError({runs.members[index].file}, "holds no passages",
+                                  "set [output] passages = true and run talus-dda again");
+        if (index == range.first) {
+          out.map = talus::map_grid(run.grid, o.cell_size_m, "--cell-size-m");
+          out.rows_of_cell.assign(
+              static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols, 0);
+        }
+        count(talus::map_rows(run.passages, run.grid, out.map, talus::weights_of(run)),
+              index - range.first);
+        out.weight.push_back(talus::weights_of(run));
+        talus::add_deposit(out.deposit, out.map.grid, run, runs.rest_speed_m_s, talus::moved_m);
+      },
+      range.first == 0 ? talus::RunSettings::of_their_own : talus::RunSettings::on_another_ground);
   take_rows_of_parts(runs, range, out.map, out.weight, {}, o.most_rows(),
                      [&](auto rows, int run) { count(std::move(rows), run); });
   out.basis = talus::share_basis(

@@ -19,6 +19,12 @@
 
 namespace talus {
 
+/// What the tools wrote of a measure of the site; JSON is null where a file is missing.
+struct MeasureResults {
+  std::string name;
+  Json fence, hazard, trace;
+};
+
 /// Everything that the sections show; JSON is null and text empty where a file is missing.
 struct ReportData {
   ReportData(const Site& of_site, Texts of_page) : site(of_site), texts(std::move(of_page)) {}
@@ -26,7 +32,8 @@ struct ReportData {
   const Site& site;
   Texts texts;  ///< the words of the page
   Json tin, trn, blocks, runout, fence, places, calibrate, hazard, trace, search,
-      stability;              ///< of tools
+      stability;                         ///< of tools
+  std::vector<MeasureResults> measures;  ///< compared
   std::vector<Doubt> doubts;  ///< of the stages, from the import to the look before the runs
   Trn terrain, bed;           ///< before the slide; what the blocks slide on
   std::string mobility_svg, stereonet_svg, sizes_svg, curves_csv;

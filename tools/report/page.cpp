@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/grouped_text.hpp"
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
@@ -376,6 +377,56 @@ Json observed_of(const ReportData& data) {
   return calibrate;
 }
 
+Json measure_row(const std::string& variant, double cost, const Json& fence, const Json& hazard) {
+  return {{"variant", variant},
+          {"cost", number_or_null(cost)},
+          {"fences", list_or_none(value_at(fence, {"fences"}))},
+          {"classes", list_or_none(value_at(hazard, {"classes"}))}};
+}
+
+// The site as it is and its measures.
+Json measures_of(const ReportData& data) {
+  Json rows = Json::array();
+  if (data.measures.empty()) return rows;
+  rows.push_back(measure_row("", no_value, data.fence, data.hazard));
+  for (const MeasureResults& measure : data.measures)
+    for (const VariantSettings& variant : data.site.variants)
+      if (variant.name == measure.name)
+        rows.push_back(measure_row(measure.name, variant.cost, measure.fence, measure.hazard));
+  return rows;
+}
+
+// The same object by object, which any of them may lack.
+Json measured_objects(const ReportData& data) {
+  Json objects = Json::array();
+  const auto object_in = [](const Json& trace, const std::string& name) {
+    for (const Json& object : list_or_none(value_at(trace, {"objects"})))
+      if (object.at("name") == name) return object;
+    return Json();
+  };
+  const auto add = [](Json& rows, const std::string& variant, Json object, const Json& energy) {
+    if (object.is_null()) return;
+    object["variant"] = variant;
+    object["energy_a_run_kj"] = energy;
+    rows.push_back(std::move(object));
+  };
+  for (const ObjectSettings& settings : data.site.objects) {
+    Json rows = Json::array(), energy_of_site;
+    for (const MeasureResults& measure : data.measures) {
+      const Json object = object_in(measure.trace, settings.name);
+      const Json energy = value_at(object, {"compared", "energy_a_run_kj"});
+      if (energy_of_site.is_null()) energy_of_site = value_at(energy, {"site"});
+      add(rows, measure.name, object, value_at(energy, {"variant"}));
+    }
+    if (rows.empty()) continue;
+    Json all = Json::array();
+    add(all, "", object_in(data.trace, settings.name), energy_of_site);
+    for (Json& row : rows) all.push_back(std::move(row));
+    objects.push_back({{"object", settings.name}, {"rows", std::move(all)}});
+  }
+  return objects;
+}
+
 bool any_by_cells(const Json& trace) {
   const Json objects = list_or_none(value_at(trace, {"objects"}));
   return std::any_of(objects.begin(), objects.end(),
@@ -654,6 +705,8 @@ Json data_of(const ReportData& data, const PageFiles& files) {
       {"calibrate", observed_of(data)},
       {"trace", data.trace},
       {"stability", data.stability},
+      {"measures", measures_of(data)},
+      {"measured_objects", measured_objects(data)},
       {"places", data.places},
       {"searches", searches_of(data)},
       {"objects_by_cells", any_by_cells(data.trace)},

@@ -467,6 +467,12 @@ ReportData read_data(Tool& tool, const Site& site, const std::string& texts, Res
   data.hazard = folder.json("hazard.json");
   data.trace = folder.json("trace.json");
   data.stability = folder.json("stability/stability.json");
+  for (const VariantSettings& variant : site.variants) {
+    const std::string of = "variant/" + variant.name + "/";
+    if (!is_alternative(variant) && folder.has(of + "runout.json"))
+      data.measures.push_back({variant.name, folder.json(of + "fence.json"),
+                               folder.json(of + "hazard.json"), folder.json(of + "trace.json")});
+  }
   data.search = folder.json("fence_search.json");
   if (data.search.is_object() && data.search.contains("searches"))
     for (const Json& search : data.search["searches"]) {

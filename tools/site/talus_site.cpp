@@ -228,6 +228,11 @@ std::string make_variables(const Site& site) {
   line("SITE_HAZARD_CLASSES", words_of("hazard.class", site.hazard_classes));
   line("SITE_OBJECTS", site.objects.empty() ? "" : "yes");
   line("SITE_FENCE_SEARCHES", words_of("fence_search", site.fence_searches));
+  std::vector<VariantSettings> alternatives, measures;
+  for (const VariantSettings& variant : site.variants)
+    (is_alternative(variant) ? alternatives : measures).push_back(variant);
+  line("SITE_ALTERNATIVES", words_of("variant", alternatives));
+  line("SITE_MEASURES", words_of("variant", measures));
   return out;
 }
 
@@ -293,6 +298,13 @@ int main(int argc, char** argv) {
     check_files(site);
     if (!results.empty()) check_results_folder(site, results, given);
     check_object_files(site);
+    for (const VariantSettings& variant : site.variants) {
+      if (site_options.has_variant()) break;  // the others are not of the site as it is now
+      Site with = site;
+      apply_variant(with, variant.name);
+      check_files(with);
+      check_object_files(with);
+    }
     const fs::path stages = folder, memory = stages / ".digests";
     FileDigests digests(fs::is_regular_file(memory) ? read_file(memory.string()) : "");
     write_if_changed(tool, stages / "site.mk", variables);

@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "post/hazard/hazard_rates.hpp"
+#include "post/paired.hpp"
 #include "post/reduce.hpp"
 #include "setup/section_state_gdal.hpp"
 #include "setup/site_places_gdal.hpp"
@@ -29,6 +30,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string out, csv, json, rasters;
+  std::vector<std::string> compared;
   double source_cell_m = no_value;
   bool by_cells = false;
   PageOptions pages;
@@ -44,6 +46,8 @@ void declare(Tool& tool, Options& o) {
               "cells that blocks are put together by where they were released [m]; nan: the "
               "terrain's")
       .check(number_between(1e-3, 1e6, true));
+  tool.inputs("--compare", o.compared,
+              "runs of the same seeds, or their folder: what the others have more at each object");
   tool.flag("--by-cells", o.by_cells,
             "count passages of cells also where runs watched the objects themselves");
   tool.footer(
@@ -78,9 +82,10 @@ bool needs_cells(const RunFile& run, const TraceSums& sums, const Options& o,
   return false;
 }
 
-// Hits by cells of the runs of parts from `first_part` on.
-void add_hits_of_parts(const RunInputs& runs, std::size_t first_part, const ObjectCells& cells,
-                       const Options& o, TraceSums& sums) {
+// Hits by cells of the runs of parts from `first_part` on; `first_run`: the member that sums begin
+// with.
+void add_hits_of_parts(const RunInputs& runs, std::size_t first_part, int first_run,
+                       const ObjectCells& cells, const Options& o, TraceSums& sums) {
   constexpr std::uint64_t most_rows = 1'000'000;
   for (std::size_t p = first_part; p < runs.parts().size(); ++p) {
     const PartInput& part = runs.parts()[p];
@@ -91,9 +96,34 @@ void add_hits_of_parts(const RunInputs& runs, std::size_t first_part, const Obje
     });
     for (std::size_t r = 0; r < hits.size(); ++r)
       if (part.member[r] >= 0)
-        add_hits(sums, run_of(part.file.part, static_cast<int>(r)), part.member[r], hits[r],
-                 o.by_cells);
+        add_hits(sums, run_of(part.file.part, static_cast<int>(r)), part.member[r] - first_run,
+                 hits[r], o.by_cells);
   }
+}
+
+// Adds the runs of a set to sums that begin with the member `first_run`. Returns whether cells were
+// asked that centroids alone had passed.
+bool add_set(RunInputs& runs, const RunSet& set, const std::string& role, RunSettings settings,
+             int first_run, const Options& o, TraceSums& sums) {
+  const std::size_t first_part = runs.parts().size();
+  ObjectCells cells;
+  bool by_centroid = false;
+  runs.read(
+      set, role, wanted,
+      [&](RunFile& run, int index) {
+        const bool needs = needs_cells(run, sums, o, runs.members[static_cast<std::size_t>(index)]);
+        if (needs && cells.empty()) cells = object_cells(run.grid, sums.objects);
+        by_centroid = by_centroid || (needs && run.passages_by_centroid);
+        add_run(sums, run, runs.rest_speed_m_s, o.by_cells);
+        if (needs) {
+          CellHits hits;
+          add_cell_hits(hits, cells, run.passages, run.grid);
+          add_hits(sums, run, index - first_run, hits, o.by_cells);
+        }
+      },
+      settings);
+  if (!cells.empty()) add_hits_of_parts(runs, first_part, first_run, cells, o, sums);
+  return by_centroid;
 }
 
 Traced trace(Tool& tool, const Site& site, RunInputs& runs, const Options& o,
@@ -105,27 +135,12 @@ Traced trace(Tool& tool, const Site& site, RunInputs& runs, const Options& o,
     throw InputError({site.file}, "has no section [object.*]",
                      "add one with its polygon, line or position_m, or a file with them");
   out.sums.sources = passage_grid(trn, o.source_cell_m);
-  ObjectCells cells;
   bool by_centroid = false;
   for (const RunSet& set : runs.of_classes(classes)) {
     const HazardClass kind = class_at(classes, out.classes.size());
     const int first = static_cast<int>(runs.members.size());
-    const std::size_t first_part = runs.parts().size();
-    bool any_cells = false;
-    runs.read(set, "class." + kind.name, wanted, [&](RunFile& run, int index) {
-      const RunMember& member = runs.members[static_cast<std::size_t>(index)];
-      const bool needs = needs_cells(run, out.sums, o, member);
-      if (needs && cells.empty()) cells = object_cells(run.grid, out.sums.objects);
-      any_cells = any_cells || needs;
-      by_centroid = by_centroid || (needs && run.passages_by_centroid);
-      add_run(out.sums, run, runs.rest_speed_m_s, o.by_cells);
-      if (needs) {
-        CellHits hits;
-        add_cell_hits(hits, cells, run.passages, run.grid);
-        add_hits(out.sums, run, index, hits, o.by_cells);
-      }
-    });
-    if (any_cells) add_hits_of_parts(runs, first_part, cells, o, out.sums);
+    by_centroid |=
+        add_set(runs, set, "class." + kind.name, RunSettings::of_their_own, 0, o, out.sums);
     out.classes.push_back(hazard_runs(kind, runs.members, first, runs.last_failed_share()));
   }
   finish(out.sums);
@@ -134,6 +149,55 @@ Traced trace(Tool& tool, const Site& site, RunInputs& runs, const Options& o,
         "cells were passed by centroids alone (--passages-by centroid): blocks that touch an "
         "object with their side may be missed");
   return out;
+}
+
+// --- compared with the site as it is -----------------------------------------------------------
+
+struct Compared {
+  TraceSums sums;
+  RunPairs pairs;
+};
+
+// The runs of --compare, which are of the same seeds.
+Compared compared_with(RunInputs& runs, const TraceSums& sums, const Options& o) {
+  Compared out;
+  out.sums.objects = sums.objects;
+  out.sums.sources = sums.sources;
+  RunSet set = runs.set_of(o.compared, "compare");
+  set.weights.clear();  // as of_classes()
+  const std::vector<RunMember> variant = runs.members;
+  const auto n = static_cast<int>(variant.size());
+  static_cast<void>(
+      add_set(runs, set, "runs_compared", RunSettings::on_another_ground, n, o, out.sums));
+  out.pairs = pairs_of(std::span(runs.members).subspan(variant.size()), variant);
+  if (out.pairs.n_runs == 0)
+    throw InputError({o.compared[0]}, "has no run of the same seed as " + where_of(variant[0]),
+                     "compute both with the same RUNS and SEED");
+  return out;
+}
+
+Json json_of(const PairedDifference& d) {
+  return {{"site", d.site},
+          {"variant", d.variant},
+          {"difference", d.value},
+          {"interval", {number_or_null(d.interval.low), number_or_null(d.interval.high)}}};
+}
+
+Json compared_json(const Compared& compared, const TraceSums& sums, int object) {
+  const auto amounts = [object](const TraceSums& of, bool energy) {
+    std::vector<BlockWeight> out;
+    for (const TraceHit& hit : of.hits)
+      if (hit.object == object) out.push_back({hit.run, hit.block, energy ? hit.energy / 1e3 : 1});
+    return out;
+  };
+  const auto difference = [&](bool energy) {
+    return json_of(
+        paired_difference(compared.pairs, amounts(compared.sums, energy), amounts(sums, energy)));
+  };
+  return {{"n_runs", compared.pairs.n_runs},
+          {"n_pairs", compared.pairs.n_pairs},
+          {"hits_a_run", difference(false)},
+          {"energy_a_run_kj", difference(true)}};
 }
 
 // Events a year at an object, as talus-hazard counts them; by a recipe of risk what they bring to
@@ -325,6 +389,12 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
                 source_style(sums.objects[static_cast<std::size_t>(i)].name, remark), tags);
     }
   }
+  const RunFaults faults = faults_of(runs.members, runs.left_out);
+  if (!o.compared.empty()) {
+    const Compared compared = compared_with(runs, sums, o);
+    for (int i = 0; i < static_cast<int>(list.size()); ++i)
+      list[static_cast<std::size_t>(i)]["compared"] = compared_json(compared, sums, i);
+  }
   Json result = {{"run_id", tool.run_id()},
                  {"tags", Json::object()},
                  {"sections", section_state(site, {"object", "hazard"})},
@@ -334,7 +404,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
                  {"objects", list},
                  {"conservation", conservation(traced, links)}};
   for (const auto& [key, value] : tags) result["tags"][key] = value;
-  add_faults(result, faults_of(runs.members, runs.left_out));
+  add_faults(result, faults);
   tool.result(result, summary);
 }
 

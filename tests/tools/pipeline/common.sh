@@ -8,6 +8,11 @@ site() {
   sed 's/^duration_s = .*/duration_s = 0.5/' "$source_dir/sample_sites/designed/site.toml" >"$1/site.toml"
   echo "include $source_dir/pipelines/site.mk" >"$1/Makefile"
 }
+# variants FOLDER LINES: [variant.*] of its site file, in the place of those before; \n parts lines
+variants() {
+  sed -i '/^\[variant\./,$d' "$1/site.toml"
+  printf "$2\n" >>"$1/site.toml"
+}
 # made FOLDER ARGUMENTS...: make with the tools on the search path
 made() {
   folder=$1

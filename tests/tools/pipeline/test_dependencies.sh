@@ -41,8 +41,10 @@ would_be "" "blocks that break no longer"
 
 would RUNS=3
 would_be "batch*2 fence*1 maps*1 report*1 runout*1" "two more seeds"
-would RUNS=2 CASES='low high' CASE_low='--set ground.slope.friction_deg=20'
+variants slope '[variant.low]\nweight = 1\nground.slope.friction_deg = 20\n[variant.high]\nweight = 1'
+would RUNS=2
 would_be "batch*2 fence*3 maps*3 report*1 runout*1" "two cases of two seeds"
+sed -i '/^\[variant/,$d' slope/site.toml
 would
 would_be "" "nothing changed"
 

@@ -7,7 +7,8 @@ n_runs() { grep -c '"run_id"' slope/out/runout.json; }
 site slope
 
 # one case breaks a limit: its result is there and used
-set -- -j2 RUNS=2 CASES='good bad' CASE_bad='--set solver.max_penetration_m=1e-9'
+variants slope '[variant.good]\nweight = 1\n[variant.bad]\nweight = 1\nsolver.max_penetration_m = 1e-9'
+set -- -j2 RUNS=2
 failing "$@"
 says "2 of 4 runs failed:"
 says "  bad/run_1: largest penetration, m is"
@@ -21,7 +22,8 @@ done
 failing "$@" V=1
 says "  bad/run_1: largest penetration, m is"
 if grep -q '^talus-' out; then fail "a run that failed was computed again, or evaluated: $(grep '^talus-' out)"; fi
-made slope -j2 RUNS=2 WITHOUT=no CASES=good
+variants slope ""
+made slope -j2 RUNS=2 WITHOUT=no
 rm -r slope/out
 
 # one is killed, another one dies of an input: their places are said to be empty

@@ -38,13 +38,17 @@ begun_again 0 "the settings are those of the runs"
 runs RUNS=3
 begun_again 1 "a third one"
 
-# options, those of cases, and what is made before the runs
+# options, those of alternatives, and what is made before the runs
 runs RUNS=2 DDA_FLAGS='--set ground.slope.friction_deg=31'
 begun_again 2 "another option"
-runs RUNS=2 CASES='a b' CASE_a='--set solver.accuracy=0.02' CASE_b=
-begun_again 4 "cases"
-runs RUNS=2 CASES='a b' CASE_a='--set solver.accuracy=0.03' CASE_b=
-begun_again 2 "an option of one case"
+two='[variant.b]\nweight = 1\n[variant.a]\nweight = 1\nsolver.accuracy'
+variants slope "$two = 0.02"
+runs RUNS=2
+begun_again 4 "alternatives"
+variants slope "$two = 0.03"
+runs RUNS=2
+begun_again 2 "a key of one alternative"
+variants slope ""
 made slope WITHOUT=no RUNS=1 runs
 begun_again 1 "without the option"
 

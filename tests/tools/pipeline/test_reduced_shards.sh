@@ -15,6 +15,8 @@ frequency_per_a = 0.01
 [hazard.class.high]
 frequency_per_a = 0.001
 TOML
+variants slope '[variant.low]\nweight = 3\nground.slope.friction_deg = 24
+[variant.high]\nweight = 1\nground.slope.friction_deg = 32'
 site whole
 cp slope/site.toml whole
 # both_ways VARIABLES...
@@ -27,9 +29,7 @@ both_ways() {
   made slope "$@"
   prints "Nothing to be done for 'all'"
 }
-set -- RUNS=2 CASES='low high' WEIGHTS='low=3 high=1' CASE_low='--set ground.slope.friction_deg=24' \
-  CASE_high='--set ground.slope.friction_deg=32'
-both_ways "$@"
+both_ways RUNS=2
 for kind in runs without; do
   [ "$(grep -c -- '-of-2.h5"' slope/out/$kind/ensemble.json)" -eq 2 ] || fail "the results are not made from parts"
 done

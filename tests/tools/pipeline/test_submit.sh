@@ -23,10 +23,11 @@ carry_out() {
   sed -n '/^--wrap$/,$p' "stand_in/$1" | sed 1d >job.sh
   SLURM_ARRAY_TASK_ID=${2:-} SLURM_CPUS_PER_TASK=2 expect 0 sh job.sh
 }
-set -- RUNS=5 SHARDS=2 WITHOUT=no FINAL='maps runout' CASES="low" \
-  CASE_low="--set site.description='a \$\$5 slope; or two'"
+set -- RUNS=5 SHARDS=2 WITHOUT=no FINAL='maps runout' \
+  DDA_FLAGS="--set site.description='a \$\$5 slope; or two'"
 mkdir "a slope"
 site "a slope"
+variants "a slope" '[variant.low]\nweight = 1\nsolver.accuracy = 0.006\n[variant.as_it_is]\nweight = 1'
 
 # what would be sent, and nothing is
 expect 0 make -C "a slope" BIN= -n "$@" SBATCH_FLAGS='-A acc -t 240' submit

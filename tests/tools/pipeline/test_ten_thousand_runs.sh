@@ -8,6 +8,7 @@ prints "runs: 10000 to make"
 # shellcheck disable=SC2086
 made slope -n $many SHARDS=300 submit
 prints "--array=1-300 "
+variants slope '[variant.V1]\nweight = 1\n[variant.V2]\nweight = 1'
 # shellcheck disable=SC2086
-made slope -n $many CASES="V1 V2" SHARDS=300 submit
+made slope -n $many SHARDS=300 submit
 prints "--array=1-300 "

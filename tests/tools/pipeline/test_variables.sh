@@ -24,9 +24,18 @@ wrong() {
 }
 for runs in abc 0 -2 1.5 "1 2"; do wrong RUNS="$runs" && says "is $runs, expected a whole number"; done
 for seed in abc -2; do wrong SEED="$seed"; done
-wrong CASES=a/b
+# what took the place of cases
+expect 2 make -C "a slope" BIN= CASES='low high' WEIGHTS='low=1 high=3' CASE_low='--set ground.slope.friction_deg=24' \
+  CASE_high='--set solver.friction=weakening'
+prints '[variant.low]
+weight = 1
+ground.slope.friction_deg = 24
+[variant.high]
+weight = 3
+solver.friction = "weakening"'
+says "CASES, CASE_* and WEIGHTS are gone: write the lines above in site.toml"
 
-made "a slope" -n RUNS=10 SEED=0 WITHOUT=no CASES=a
+made "a slope" -n RUNS=10 SEED=0 WITHOUT=no
 prints "--into runs --runs '10' --seed '0'"
 made "a slope" terrain
 made "a slope" clean

@@ -40,7 +40,8 @@ assert a == b
 PY
 
 # pieces would count beside the block that they are part of
-runs run_broken 13 14 --case broken --set fragmentation.enabled=true --set fragmentation.energy_j_m2=1e4
+printf '[variant.broken]\nweight = 1\n[variant.rare]\nweight = 1\n[variant.often]\nweight = 1\n' >>site.toml
+runs run_broken 13 14 --variant broken --set fragmentation.enabled=true --set fragmentation.energy_j_m2=1e4
 expect 0 search run_*.h5 -o broken.gpkg --json broken.json
 says 'blocks broke in some runs: fences are not refined'
 rm run_broken_*.h5
@@ -59,8 +60,8 @@ expect 0 talus-fence site.toml --add proposals/house-1.toml other_*.h5 --trn slo
 prints 'fence house-1'
 
 # runs of two classes count by how often these happen: 0.01 and 0.04 a year, only the rare one hits
-runs rare 1 12 --case rare
-runs often 1 6 --case often --set solver.duration_s=1
+runs rare 1 12 --variant rare
+runs often 1 6 --variant often --set solver.duration_s=1
 sed 's/^\[fence_search/[hazard]\n[hazard.class.rare]\nfrequency_per_a = 0.01\n[hazard.class.often]\nfrequency_per_a = 0.04\n&/' \
   site.toml >classes.toml
 expect 0 talus-fence-search classes.toml rare_*.h5 often_*.h5 --trn slope.tif --no-db \

@@ -68,15 +68,20 @@ refused "ground.ground.friction_deg: 10, there 20" part.h5 part_3.h5
 # The ways out: each by itself, or as cases, which differ in what the command line gave and in nothing else.
 expect 0 talus-maps x/run_3.h5 --trn slope.tif -o alone --no-db
 mkdir -p cases/hard cases/soft
-dda cases/hard/run_1.h5 $same --seed 1 --case hard
-dda cases/soft/run_3.h5 $same --seed 3 --case soft --set ground.ground.friction_deg=10
+cp site.toml plain.toml
+printf '[variant.hard]\nweight = 1\n[variant.soft]\nweight = 1\nground.ground.friction_deg = 10\n' >>site.toml
+dda cases/hard/run_1.h5 $same --seed 1 --variant hard
+dda cases/soft/run_3.h5 $same --seed 3 --variant soft
 expect 0 talus-maps cases --trn slope.tif -o cases_maps --no-db
 says "runs of 2 cases pooled, each run alike: no probability"
 sed 's/^friction_deg = 20/friction_deg = 10/' site.toml >soft.toml
-talus-dda soft.toml --trn slope.tif --blocks blocks.h5 --no-db -q --set solver.duration_s=1 $same --seed 4 --case soft -o soft_4.h5
+talus-dda soft.toml --trn slope.tif --blocks blocks.h5 --no-db -q --set solver.duration_s=1 $same --seed 4 --variant soft -o soft_4.h5
 expect 0 talus-maps cases/soft/run_3.h5 soft_4.h5 --trn slope.tif -o soft --no-db
-expect 1 talus-maps cases/hard/run_1.h5 soft_4.h5 --trn slope.tif -o m --no-db
+sed '/^ground.ground/d' soft.toml >softer.toml
+talus-dda softer.toml --trn slope.tif --blocks blocks.h5 --no-db -q --set solver.duration_s=1 $same --seed 4 --variant soft -o soft_5.h5
+expect 1 talus-maps cases/hard/run_1.h5 soft_5.h5 --trn slope.tif -o m --no-db
 says "ground.ground.friction_deg: 10, there 20"
+cp plain.toml site.toml
 
 # Samples differ in what they draw. A run without a sample is of another distribution.
 printf '[uncertainty.f]\nkeys = ["ground.ground.friction_deg"]\ndistribution = "uniform"\nmin = 15\nmax = 25\n' >>site.toml

@@ -1,0 +1,103 @@
+#include "post/paired.hpp"
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "base/numbers.hpp"
+
+namespace talus {
+namespace {
+
+using RunKey = std::pair<std::string, std::int64_t>;  // case, seed
+
+std::map<RunKey, int> by_seed(std::span<const RunMember> runs) {
+  std::map<RunKey, int> out;
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    out.try_emplace({runs[r].info.case_name, runs[r].info.seed}, static_cast<int>(r));
+  return out;
+}
+
+// Pairs by release cell, of the runs that both have.
+void pair_cells(RunPairs& pairs, std::span<const RunMember> site,
+                std::span<const RunMember> variant) {
+  std::map<int, int> number;  // of a cell
+  const auto number_of = [&number](int cell) {
+    return number.try_emplace(cell, static_cast<int>(number.size())).first->second;
+  };
+  const auto add = [&](RunPairs::Side& side, std::span<const RunMember> runs) {
+    side.of_block.resize(runs.size());
+    for (std::size_t r = 0; r < runs.size(); ++r)
+      if (side.of_run[r] >= 0)
+        for (const int cell : runs[r].release_cell) side.of_block[r].push_back(number_of(cell));
+  };
+  add(pairs.site, site);
+  add(pairs.variant, variant);
+  pairs.n_pairs = static_cast<int>(number.size());
+}
+
+int pair_of(const RunPairs::Side& side, const BlockWeight& block) {
+  const auto run = static_cast<std::size_t>(block.run);
+  if (side.of_run[run] < 0 || side.of_block.empty()) return side.of_run[run];
+  return side.of_block[run][static_cast<std::size_t>(block.block)];
+}
+
+}  // namespace
+
+RunPairs pairs_of(std::span<const RunMember> site, std::span<const RunMember> variant) {
+  RunPairs pairs;
+  pairs.site.of_run.assign(site.size(), -1);
+  pairs.variant.of_run.assign(variant.size(), -1);
+  const Clusters of_site = clusters_of(site), of_variant = clusters_of(variant);
+  const std::map<RunKey, int> there = by_seed(variant);
+  std::map<int, int> number;  // of a cluster of runs
+  for (const auto& [key, run] : by_seed(site)) {
+    const auto at = there.find(key);
+    if (at == there.end()) continue;
+    ++pairs.n_runs;
+    const int cluster = of_site.of_run.empty() ? run : of_site.of_run[run];
+    pairs.site.of_run[run] = pairs.variant.of_run[at->second] =
+        number.try_emplace(cluster, static_cast<int>(number.size())).first->second;
+  }
+  pairs.n_pairs = static_cast<int>(number.size());
+  if (of_site.kind == Clusters::Kind::release_cell && of_variant.kind == of_site.kind)
+    pair_cells(pairs, site, variant);
+  return pairs;
+}
+
+PairedDifference paired_difference(const RunPairs& pairs, std::span<const BlockWeight> site,
+                                   std::span<const BlockWeight> variant) {
+  PairedDifference out;
+  std::vector<double> difference(static_cast<std::size_t>(pairs.n_pairs), 0);
+  const auto add = [&](const RunPairs::Side& side, std::span<const BlockWeight> blocks, double sign,
+                       double& sum) {
+    for (const BlockWeight& block : blocks) {
+      const int pair = pair_of(side, block);
+      if (pair < 0) continue;
+      sum += block.weight;
+      difference[static_cast<std::size_t>(pair)] += sign * block.weight;
+    }
+  };
+  add(pairs.site, site, -1, out.site);
+  add(pairs.variant, variant, 1, out.variant);
+  const double n_runs = pairs.n_runs, n = pairs.n_pairs;
+  out.site /= n_runs;
+  out.variant /= n_runs;
+  out.value = out.variant - out.site;
+  double mean = 0, squares = 0;
+  int n_differ = 0;
+  for (const double d : difference) {
+    mean += d / n;
+    n_differ += d != 0;
+  }
+  for (const double d : difference) squares += (d - mean) * (d - mean);
+  out.interval = {no_value, no_value};
+  if (pairs.n_pairs < least_clusters || n_differ < 2) return out;
+  const double half =
+      student_quantile(n_differ - 1, 0.975) * std::sqrt(squares / (n - 1) * n) / n_runs;
+  out.interval = {out.value - half, out.value + half};
+  return out;
+}
+
+}  // namespace talus

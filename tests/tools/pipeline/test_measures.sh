@@ -1,0 +1,69 @@
+# A measure is computed with the seeds of the site, takes over what it shares, and is compared.
+. "$source_dir/tests/tools/pipeline/common.sh"
+command -v python3 >/dev/null || skip "needs python3"
+site slope
+sed -i 's/^duration_s = .*/duration_s = 3/' slope/site.toml
+cat >>slope/site.toml <<'TOML'
+[object.foot]
+polygon = [[500090, 5200230], [500150, 5200230], [500150, 5200246], [500090, 5200246]]
+[hazard.class.all]
+frequency_per_a = 0.01
+TOML
+cat >measures <<'TOML'
+[variant.near]
+cost = 123456
+fence.valley.line = [[500060, 5200240], [500164, 5200240]]
+[variant.bare]
+without = ["fence.valley"]
+terrain.flat = "keep"
+TOML
+
+# refused before anything is made
+variants slope '[variant.near]\nfence.vally.height_m = 3'
+expect 2 make -C slope BIN=
+says "changes fence.vally, which the site does not have"
+says "did you mean valley?"
+variants slope '[variant.near]\nground.slope.polygon_file = "absent.gpkg"'
+expect 2 make -C slope BIN=
+says "there is no file"
+nothing_left slope/out/trn.tif
+variants slope ''
+cat measures >>slope/site.toml
+
+made slope -j2 RUNS=2
+tools_of() { talus-runs --db "slope/out/$1/runs.sqlite" list | grep -o 'talus-[a-z]*' | sort -u | tr '\n' ' '; }
+for tool in import tin trn blocks; do
+  case $(tools_of variant/near) in *talus-$tool*) [ $tool = import ] || fail "talus-$tool was started for another fence" ;; esac
+done
+cmp slope/out/bed.tif slope/out/variant/near/bed.tif && cmp slope/out/blocks.h5 slope/out/variant/near/blocks.h5 ||
+  fail "a fence changed the terrain or the blocks"
+case $(tools_of variant/bare) in *talus-tin*) ;; *) fail "the terrain was not made again" ;; esac
+[ ! -e slope/out/variant/bare/fence.json ] || fail "a fence stands that is taken out"
+python3 - <<'PY' || fail "the comparison is another one"
+import json
+def foot(folder): return json.load(open(f'slope/out/{folder}trace.json'))['objects'][0]
+site, near, bare = foot(''), foot('variant/near/'), foot('variant/bare/')
+assert site['hits_a_run'] > 0
+for of in near, bare:
+    hits = of['compared']['hits_a_run']
+    assert (hits['site'], hits['variant']) == (site['hits_a_run'], of['hits_a_run']), hits
+    assert hits['difference'] == of['hits_a_run'] - site['hits_a_run']
+page = open('slope/out/report.html').read()
+for words in 'Measures compared', '123456', 'variant/near/report.html', 'the site as it is':
+    assert words.replace('123456', '123') in page, words
+PY
+gdalinfo slope/out/variant/near/maps/compare.tif | grep -q reach_probability_difference || fail "no map of differences"
+
+# again: nothing; another key of one measure: that one alone
+n_runs() { talus-runs --db "slope/out/$1/runs.sqlite" list | grep -c 'talus-dda ' || true; }
+made slope -j2 RUNS=2 V=1
+if grep -q '^ *talus-[a-z]* ' out; then fail "made again: $(grep '^ *talus-' out)"; fi
+before="$(n_runs .) $(n_runs variant/bare)"
+near=$(n_runs variant/near)
+sed -i 's/^fence.valley.line = .*/&\nfence.valley.height_m = 3/' slope/site.toml
+made slope -j2 RUNS=2
+[ "$(n_runs .) $(n_runs variant/bare)" = "$before" ] || fail "runs of others were made again"
+[ "$(n_runs variant/near)" -gt "$near" ] || fail "the runs of the measure were not made again"
+
+made slope clean
+nothing_left slope/out

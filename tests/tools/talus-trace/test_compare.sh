@@ -1,0 +1,39 @@
+# Two sets of runs of the same seeds: hits and energies of both, and differences over pairs of runs.
+mkdir site variant
+run-probe site 20 blocks=3 objects=watched seeds=1
+run-probe variant 20 blocks=3 objects=watched still_runs=8 seed=1 seeds=1
+expect 0 talus-trace site/site.toml variant/run_*.h5 --compare site/run_*.h5 --trn site/slope.tif -o trace.gpkg --json trace.json
+expect 0 talus-trace site/site.toml variant/run_*.h5 --trn site/slope.tif -o alone.gpkg --json alone.json
+expect 0 talus-trace site/site.toml site/run_*.h5 --trn site/slope.tif -o site.gpkg --json site.json
+cat >check.py <<'PY'
+import json, math
+t, alone, site = (json.load(open(name + '.json'))['objects'] for name in ('trace', 'alone', 'site'))
+for o, a, s in zip(t, alone, site):
+    compared = o.pop('compared')
+    assert o == a, 'the comparison changed the rest'
+    hits = compared['hits_a_run']
+    assert compared['n_runs'] == compared['n_pairs'] == 20
+    assert abs(hits['site'] - s['hits_a_run']) < 1e-12 and abs(hits['variant'] - a['hits_a_run']) < 1e-12, hits
+    if o['name'] == 'shed':
+        assert hits['difference'] == 0 and hits['interval'] == [None, None], hits
+        continue
+    # 8 of 20 pairs differ by one hit: Student's quantile of 7 degrees of freedom
+    assert abs(hits['difference'] + 0.4) < 1e-12, hits
+    half = 2.364624 * math.sqrt(0.4 * 0.6 * 20 / 19 / 20)
+    assert abs(hits['interval'][0] + 0.4 + half) < 1e-6 and abs(hits['interval'][1] + 0.4 - half) < 1e-6, hits
+    energy = compared['energy_a_run_kj']
+    assert energy['difference'] < 0 and energy['interval'][1] < 0, energy
+PY
+python3 check.py || fail 'the differences are other ones'
+expect 0 talus-reduce site/run_*.h5 --trn site/slope.tif -o part.h5
+expect 0 talus-trace site/site.toml variant/run_*.h5 --compare part.h5 --trn site/slope.tif -o part.gpkg --json part.json
+python3 - <<'PY' || fail 'a part gives other differences'
+import json
+a, b = (json.load(open(name))['objects'] for name in ('trace.json', 'part.json'))
+assert a == b
+PY
+mkdir other
+run-probe other 3 blocks=3 objects=watched seed=2 seeds=100
+expect 1 talus-trace site/site.toml variant/run_*.h5 --compare other/run_*.h5 --trn site/slope.tif -o x.gpkg
+says 'has no run of the same seed as'
+nothing_left x.gpkg

@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.hpp"
+#include "post/paired.hpp"
+#include "sampling/normal.hpp"
+
+using namespace talus;
+
+namespace {
+
+// Runs of the seeds 1 to n, last first where `reversed`.
+std::vector<RunMember> runs_of(int n, bool reversed = false) {
+  std::vector<RunMember> runs(static_cast<std::size_t>(n));
+  for (int r = 0; r < n; ++r) {
+    RunMember& run = runs[static_cast<std::size_t>(r)];
+    run.info.seed = reversed ? n - r : r + 1;
+    run.info.seed_draws = true;
+    run.n_blocks = 1;
+    run.weight = 1;
+  }
+  return runs;
+}
+
+}  // namespace
+
+// 1 to 10 more hits: mean 5.5, standard error sqrt(9.16667 / 10), Student's with 9
+// degrees 2.262157.
+TEST(Paired, IsStudentsIntervalOfTheMeanDifference) {
+  std::vector<BlockWeight> site, variant;
+  for (int r = 0; r < 10; ++r) {
+    site.push_back({r, 0, 100.0 * r});
+    variant.push_back({9 - r, 0, 100.0 * r + r + 1});
+  }
+  const RunPairs pairs = pairs_of(runs_of(10), runs_of(10, true));
+  EXPECT_EQ(pairs.n_runs, 10);
+  const PairedDifference d = paired_difference(pairs, site, variant);
+  EXPECT_NEAR(d.value, 5.5, 1e-12);
+  EXPECT_NEAR(d.site, 450, 1e-12);
+  EXPECT_NEAR(d.interval.high - d.value, 2.262157 * std::sqrt(55.0 / 6 / 10), 1e-5);
+  EXPECT_NEAR(d.interval.high + d.interval.low, 11, 1e-12);
+}
+
+TEST(Paired, RunsThatOneSideLacksDoNotCount) {
+  const RunPairs pairs = pairs_of(runs_of(12), runs_of(10));
+  EXPECT_EQ(pairs.n_runs, 10);
+  const PairedDifference d = paired_difference(pairs, std::vector<BlockWeight>{{11, 0, 5}}, {});
+  EXPECT_EQ(d.value, 0);
+  EXPECT_TRUE(std::isnan(d.interval.low));
+  EXPECT_TRUE(std::isnan(paired_difference(pairs_of(runs_of(9), runs_of(9)),
+                                           std::vector<BlockWeight>{{1, 0, 5}, {2, 0, 1}}, {})
+                             .interval.low));
+}
+
+// Rocks of twelve release cells in two runs: the cells are the pairs, and one may have gone.
+TEST(Paired, PairsReleaseCellsOverAllRuns) {
+  std::vector<RunMember> site = runs_of(2), variant = runs_of(2);
+  for (auto* runs : {&site, &variant})
+    for (RunMember& run : *runs) {
+      run.info.independent = true;
+      for (int cell = runs == &variant ? 1 : 0; cell < 13; ++cell)
+        run.release_cell.push_back(7 * cell);
+      run.n_blocks = static_cast<int>(run.release_cell.size());
+    }
+  const RunPairs pairs = pairs_of(site, variant);
+  EXPECT_EQ(pairs.n_pairs, 13);
+  // the rocks of the cell 0 alone hit in both runs, and that of the cell 7 in one
+  const PairedDifference d = paired_difference(
+      pairs, std::vector<BlockWeight>{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, std::vector<BlockWeight>{});
+  EXPECT_EQ(d.value, -1.5);
+  // by hand: differences of -2, -1 and eleven 0; two of them say something
+  const double mean = -3.0 / 13,
+               squares = std::pow(-2 - mean, 2) + std::pow(-1 - mean, 2) + 11 * mean * mean;
+  EXPECT_NEAR(d.value - d.interval.low, 12.7062047 * std::sqrt(squares / 12 * 13) / 2, 1e-5);
+}
+
+// What both sides share is not in the interval: it holds the true difference in 95 of 100 cases.
+TEST(Paired, TheIntervalHoldsTheDifferenceAsOftenAsItSays) {
+  Random random(7);
+  const RunPairs pairs = pairs_of(runs_of(20), runs_of(20));
+  int n_held = 0;
+  double width = 0;
+  constexpr int n = 4000;
+  for (int trial = 0; trial < n; ++trial) {
+    std::vector<BlockWeight> site, variant;
+    for (int r = 0; r < 20; ++r) {
+      const double shared = 100 * random.uniform();
+      site.push_back({r, 0, shared});
+      variant.push_back({r, 0, shared + 2 + random.uniform() + random.uniform() - 1});
+    }
+    const PairedDifference d = paired_difference(pairs, site, variant);
+    n_held += d.interval.low <= 2 && 2 <= d.interval.high;
+    width += (d.interval.high - d.interval.low) / n;
+  }
+  EXPECT_NEAR(static_cast<double>(n_held) / n, 0.95, 0.01);
+  EXPECT_LT(width, 0.5);
+}
