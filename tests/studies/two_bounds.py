@@ -20,13 +20,14 @@ def spread(values, digits=0):
 @STUDY.part("all", 400)
 def compute(study):
     study.need_data("dem/gschnitz_gar_full_5m.tif")
-    study.make(SOURCE / "sample_sites/gschnitz_gar", f"OUT={study.out / 'site'}", "CONTOURS=",
-               f"DEM={study.data / 'dem/gschnitz_gar_full_5m.tif'}", "IMPORT_FLAGS=", "TRN_FLAGS=",
-               "BLOCKS_FLAGS=--set source.failure_surface=daylighting", "RUNS=3", "WITHOUT=no", "CASES=constant weakening",
-               "DDA_FLAGS=--set fence.valley.active=false --set solver.friction_scatter_deg=2", "runs", keep_going=True)
-    for case in ("constant", "weakening"):
-        runs = sorted((study.out / f"site/runs/{case}").glob("run_*.h5"))
-        said = json.loads(study.run("talus-runout", *runs, "--trn", "site/bed.tif", "-o", f"{case}.gpkg", "--overwrite",
+    for case, flags in {"constant": "", "weakening": " --set solver.friction=weakening"}.items():
+        study.make(SOURCE / "sample_sites/gschnitz_gar", f"OUT={study.out / case}", "CONTOURS=",
+                   f"DEM={study.data / 'dem/gschnitz_gar_full_5m.tif'}", "IMPORT_FLAGS=", "TRN_FLAGS=",
+                   "BLOCKS_FLAGS=--set source.failure_surface=daylighting", "RUNS=3", "WITHOUT=no",
+                   "DDA_FLAGS=--set fence.valley.active=false --set solver.friction_scatter_deg=2" + flags, "runs",
+                   keep_going=True)
+        runs = sorted((study.out / f"{case}/runs").glob("run_*.h5"))
+        said = json.loads(study.run("talus-runout", *runs, "--trn", f"{case}/bed.tif", "-o", f"{case}.gpkg", "--overwrite",
                                     "--json", "--no-db", "-q"))
         balance = said["balance"]
         percentiles = {title: [run["percentile"] for relation in said["mobility"] if relation["relation"] == name
