@@ -249,6 +249,7 @@ DdaInputs read_dda_inputs(InputLog& log, const Site& site, const DdaFiles& files
   parts.blocks = read_checked_blocks(log, parts.trn, inputs.trn_digest, files, inputs.warnings);
   parts.cell_class = ground_classes(log, site, parts.trn);
   parts.water = joint_water(log, site, parts.trn, parts.blocks.joint_set_names);
+  if (parts.water) check_water_cover(log, site, parts.trn, *parts.water, parts.blocks);
   std::vector<FenceLine> lines;
   for (const FenceSettings& fence : site.fences) add_lines(log, site, fence, inputs, lines);
   check_fences_apart(log, site, parts.trn, lines);

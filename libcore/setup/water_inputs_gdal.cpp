@@ -98,27 +98,6 @@ std::vector<double> plane_at_nodes(const Site& site, const std::vector<Vec3>& po
   return z;
 }
 
-// Where a raster says nothing there is no water: a part of the mass may be meant, all of it is not.
-void check_cover(InputLog& log, const Site& site, const Trn& ground,
-                 const std::vector<double>& surface, const BlockSet& blocks) {
-  Trn known = ground;
-  known.elevation = surface;
-  const auto n_unknown = std::ranges::count_if(blocks.vertices, [&](const Vec3& at) {
-    return !contains(known, at.x(), at.y()) || std::isnan(elevation_at(known, at.x(), at.y()));
-  });
-  const auto n = std::ssize(blocks.vertices);
-  if (n_unknown == 0) return;
-  const Where where{resolved(site, site.water.raster), 0, "water.raster"};
-  if (n_unknown == n)
-    throw InputError(where, "is unknown over the whole mass",
-                     "give a raster that covers the source, or leave [water] out");
-  log.doubts({doubt_on(where,
-                       "is unknown at " +
-                           percent(static_cast<double>(n_unknown) / static_cast<double>(n)) +
-                           " of the corners of the mass: no water there",
-                       "give a raster that covers the source, unless it is dry there")});
-}
-
 }  // namespace
 
 std::optional<JointWater> joint_water(InputLog& log, const Site& site, const Trn& ground,
@@ -142,10 +121,30 @@ std::optional<JointWater> joint_water(InputLog& log, const Site& site, const Trn
   if (!water.raster.empty()) {
     made.surface = read_at_nodes(log, site, ground, "water.raster", water.raster, true);
     for (double& z : made.surface) z -= ground.origin.z();
-    check_cover(log, site, ground, made.surface, blocks);
   }
   made.depth = water.depth_m;
   return made;
+}
+
+void check_water_cover(InputLog& log, const Site& site, const Trn& ground, const JointWater& water,
+                       const BlockSet& blocks) {
+  if (site.water.raster.empty()) return;
+  Trn known = ground;
+  known.elevation = water.surface;
+  const auto n_unknown = std::ranges::count_if(blocks.vertices, [&](const Vec3& at) {
+    return !contains(known, at.x(), at.y()) || std::isnan(elevation_at(known, at.x(), at.y()));
+  });
+  const auto n = std::ssize(blocks.vertices);
+  if (n_unknown == 0) return;
+  const Where where{resolved(site, site.water.raster), 0, "water.raster"};
+  if (n_unknown == n)
+    throw InputError(where, "is unknown over the whole mass",
+                     "give a raster that covers the source, or leave [water] out");
+  log.doubts({doubt_on(where,
+                       "is unknown at " +
+                           percent(static_cast<double>(n_unknown) / static_cast<double>(n)) +
+                           " of the corners of the mass: no water there",
+                       "give a raster that covers the source, unless it is dry there")});
 }
 
 }  // namespace talus

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/input_log.hpp"
+#include "blocks/block_set.hpp"
 #include "scene/joint_water.hpp"
 #include "site/site.hpp"
 
@@ -17,5 +18,10 @@ namespace talus {
 [[nodiscard]] std::optional<JointWater> joint_water(InputLog& log, const Site& site,
                                                     const Trn& ground,
                                                     const std::vector<std::string>& sets);
+
+/// Where a raster of the water is unknown there is none. For a part of the mass that is a doubt,
+/// for all of it an InputError.
+void check_water_cover(InputLog& log, const Site& site, const Trn& ground, const JointWater& water,
+                       const BlockSet& blocks);
 
 }  // namespace talus

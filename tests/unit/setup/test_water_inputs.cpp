@@ -12,12 +12,15 @@ struct WaterInputs : testing::Test {
   ScratchFolder folder;
   CollectedLog log;
   Trn ground = slope_trn();
+  BlockSet blocks = three_boxes();
   std::vector<std::string> sets = {"bed", "rear_1", "rear_2"};
 
   std::optional<JointWater> made(const std::string& keys) {
     Site site = site_of(folder, keys);
     site.solver.blocks = "together";
-    return joint_water(log, site, ground, sets);
+    const std::optional<JointWater> water = joint_water(log, site, ground, sets);
+    if (water) check_water_cover(log, site, ground, *water, blocks);
+    return water;
   }
   std::string refusal(const std::string& keys) {
     return refusal_of([&] { static_cast<void>(made("[water]\n" + keys)); });
