@@ -38,6 +38,7 @@ define runs_of
 $(OUT)/$1/ensemble.json: $(before_runs) $(if $(filter stale,$(status_$1)),stale-runs) | \
   $(OUT)/check.html $(if $(filter without,$1),$(OUT)/runs/ensemble.json)
 	$$(call say,batch: $1)
+	$$(call taken_runs,$1)
 	$$(Q)$$(call batch_of,$1,$$(DB)) $$(some_failed)
 	@[ $$@ -nt $(OUT)/blocks.h5 ] || touch -c $$@
 endef

@@ -13,6 +13,8 @@ cat >measures <<'TOML'
 [variant.near]
 cost = 123456
 fence.valley.line = [[500060, 5200240], [500164, 5200240]]
+[variant.seldom]
+hazard.class.all.frequency_per_a = 0.001
 [variant.bare]
 without = ["fence.valley"]
 terrain.flat = "keep"
@@ -27,6 +29,10 @@ variants slope '[variant.near]\nground.slope.polygon_file = "absent.gpkg"'
 expect 2 make -C slope BIN=
 says "there is no file"
 nothing_left slope/out/trn.tif
+variants slope '[variant.near]\nfence.valley.line = [[500060, 5200150], [500964, 5200150]]'
+expect 2 make -C slope BIN=
+says "leaves the known terrain"
+nothing_left slope/out/runs/run_1.h5
 variants slope ''
 cat measures >>slope/site.toml
 
@@ -37,12 +43,15 @@ for tool in import tin trn blocks; do
 done
 cmp slope/out/bed.tif slope/out/variant/near/bed.tif && cmp slope/out/blocks.h5 slope/out/variant/near/blocks.h5 ||
   fail "a fence changed the terrain or the blocks"
+case $(tools_of variant/seldom) in *talus-dda*) fail "runs were made anew for another frequency" ;; esac
 case $(tools_of variant/bare) in *talus-tin*) ;; *) fail "the terrain was not made again" ;; esac
 [ ! -e slope/out/variant/bare/fence.json ] || fail "a fence stands that is taken out"
 python3 - <<'PY' || fail "the comparison is another one"
 import json
 def foot(folder): return json.load(open(f'slope/out/{folder}trace.json'))['objects'][0]
-site, near, bare = foot(''), foot('variant/near/'), foot('variant/bare/')
+site, near, bare, seldom = (foot(f) for f in ('', 'variant/near/', 'variant/bare/', 'variant/seldom/'))
+assert seldom['hits_a_run'] == site['hits_a_run'] and seldom['compared']['hits_a_run']['difference'] == 0
+assert abs(seldom['frequency_per_a'][0] - site['frequency_per_a'][0] / 10) < 1e-9
 assert site['hits_a_run'] > 0
 for of in near, bare:
     hits = of['compared']['hits_a_run']
