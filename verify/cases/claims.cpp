@@ -43,26 +43,6 @@ bool has_paper(const MeasuredCase& measured) {
 
 bool has_peers(const MeasuredCase& measured) { return !measured.peers.empty(); }
 
-// Smallest error of the other engines and its cost.
-std::string best_peer(const std::vector<PeerPoint>& peers) {
-  const auto best =
-      std::min_element(peers.begin(), peers.end(),
-                       [](const PeerPoint& a, const PeerPoint& b) { return a.error < b.error; });
-  return best->name + ": " + text(best->error, 2) + " (" + text(1e3 * best->cpu, 3) + ")";
-}
-
-std::string line_of(const MeasuredCase& measured) {
-  const LawComparison laws = laws_of(measured);
-  std::string line = "| `" + measured.about->name + "` | " + (laws.is_on_front ? "yes" : "no");
-  line += laws.is_compared
-              ? " | " + ratio_text(laws.ratio_at_best) + " | " + ratio_text(laws.least_ratio)
-              : " | - | -";
-  if (!has_peers(measured)) return line + " | - | - | - |\n";
-  return line + " | " + best_peer(measured.peers) + " | " +
-         ratio_text(peer_ratio(measured, false)) + " | " + ratio_text(peer_ratio(measured, true)) +
-         " |\n";
-}
-
 // The smallest of several ratios, and of which case.
 struct Least {
   double ratio = std::numeric_limits<double>::infinity();
@@ -130,16 +110,6 @@ FrontCount front_count(const std::vector<MeasuredCase>& cases) {
       count.n_on_front += laws_of(measured).is_on_front ? 1 : 0;
     }
   return count;
-}
-
-std::string claims_table(const std::vector<MeasuredCase>& cases) {
-  std::string table =
-      "| Case | on the front of both laws | paper / talus at paper's smallest error | least over "
-      "paper's front | other engines: smallest error (CPU ms) | other engines / talus, least | at "
-      "the default step |\n|---|---|---|---|---|---|---|\n";
-  for (const MeasuredCase& measured : cases)
-    if (has_paper(measured) || has_peers(measured)) table += line_of(measured);
-  return table;
 }
 
 std::string claims_by_group(const std::vector<MeasuredCase>& cases) {

@@ -20,9 +20,6 @@ namespace talus {
 /// close. Of law talus with its default settings and any step, or with the default step alone.
 [[nodiscard]] double peer_ratio(const MeasuredCase& measured, bool default_step_only);
 
-/// A line a case that another law or engine was measured on.
-[[nodiscard]] std::string claims_table(const std::vector<MeasuredCase>& cases);
-
 /// The least of each ratio over cases that belong together, and of which case it is.
 [[nodiscard]] std::string claims_by_group(const std::vector<MeasuredCase>& cases);
 

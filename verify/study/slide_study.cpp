@@ -112,26 +112,13 @@ std::vector<MeasuredCase> measured_of(const SlideStudy& study,
   return out;
 }
 
-std::string slide_table(const SlideStudy& study) {
-  std::string table =
-      "| Settings | dt [s] | centre [m] | nine tenths stay before [m] | spread [m] | CPU s a run | "
-      "deepest contact [m] | steps accepted unconverged, of all "
-      "|\n|---|---|---|---|---|---|---|---|\n";
-  for (const EnsembleResult& result : study.results) {
-    table += "| " + result.method + " | " + text(result.settings.dt);
-    for (std::size_t q = 0; q < result.mean.size(); ++q)
-      table += " | " + text(result.mean[q], 5) +
-               (result.n_runs > 1 ? " ± " + text(result.standard_error[q], 2) : "");
-    table += " | " + text(result.cpu, 3) + " | " + text(result.sums.largest_penetration, 2) +
-             " | " + std::to_string(result.sums.unconverged) + " of " +
-             std::to_string(result.sums.steps) + " |\n";
-  }
+std::string slide_reference(const SlideStudy& study) {
   const char* names[] = {"centre", "nine tenths", "spread"};
-  std::string reference;
+  std::string words;
   for (std::size_t q = 0; q < quantity_names.size(); ++q)
-    reference += (q ? ",\n" : "\n") + std::string(names[q]) + " " +
-                 text(study.reference.mean[q], 5) + " ± " + text(study.reference.band[q], 2) + " m";
-  return table + "\nReference, the shortest steps extrapolated to none:" + reference + ".\n";
+    words += (q ? ",\n" : "") + std::string(names[q]) + " " + text(study.reference.mean[q], 5) +
+             " ± " + text(study.reference.band[q], 2) + " m";
+  return words + ".";
 }
 
 }  // namespace talus

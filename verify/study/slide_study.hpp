@@ -33,7 +33,7 @@ struct SlideStudy {
 [[nodiscard]] std::vector<MeasuredCase> measured_of(const SlideStudy& study,
                                                     const std::vector<PeerSlide>& peers);
 
-/// Markdown: means, standard errors and CPU time, a line a setting, and the reference.
-[[nodiscard]] std::string slide_table(const SlideStudy& study);
+/// The reference and its uncertainty, a line a quantity.
+[[nodiscard]] std::string slide_reference(const SlideStudy& study);
 
 }  // namespace talus

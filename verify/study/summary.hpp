@@ -1,8 +1,8 @@
 // verify/study/summary.hpp
-// Tables of all cases, as Markdown: claim, reference, error, bound, CPU time, test; and errors at
-// several time steps and settings.
+// The table of all cases, as Markdown: claim, reference, error, bound, CPU time, test.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,15 +17,10 @@ namespace talus {
 /// Whether the default row's error is below the case's bound.
 [[nodiscard]] bool holds(const MeasuredCase& measured);
 
-/// A line a case: at the defaults, and law paper where it errs least.
-[[nodiscard]] std::string summary_table(const std::vector<MeasuredCase>& cases);
-
-/// A line a case: error and CPU time of both laws at several time steps each, law talus with its
-/// defaults, law paper with the stiffness of the paper.
-[[nodiscard]] std::string steps_table(const std::vector<MeasuredCase>& cases);
-
-/// The same of law talus at the default step, one setting changed: stiffness, tolerance of the
-/// solver, strains.
-[[nodiscard]] std::string settings_table(const std::vector<MeasuredCase>& cases);
+/// A line a case: at the defaults, law paper's smallest error, and its CPU time there over that of
+/// the cheapest step of law talus with no larger error. With the folder of the diagrams each case
+/// is a link to its own.
+[[nodiscard]] std::string summary_table(const std::vector<MeasuredCase>& cases,
+                                        const std::optional<std::string>& pictures = {});
 
 }  // namespace talus
