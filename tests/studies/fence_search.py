@@ -106,7 +106,7 @@ def compute(study, site):
     both = [found for found in searches if found['proposals']]
     hit = {'hit without a fence [%]': f"{100 * searches[0]['run_share']:.0f}"}
     if not both:
-        study.row('sites', site, hit | {'answer': searches[0]['answer']})
+        study.row('sites', site, hit | {'fence': searches[0]['answer'].partition(': ')[2]})
         return
     found = min(both, key=lambda one: one['proposals'][0]['cost'])
     fence = found['proposals'][0]
@@ -121,7 +121,7 @@ def compute(study, site):
     together = sum(h > 0 for h in hits) / len(hits)
     percent = lambda *values: tuple(f'{100 * value:.3g}' for value in values)
     study.row('sites', site, hit | {
-        'answer': found['answer'], 'still hit, predicted [%]': percent(predicted, *interval),
+        'fence': f"{fence['length_m']:.0f} m, {fence['height_m']:.0f} m high, {fence['capacity_kj']:,.0f} kJ", 'still hit, predicted [%]': percent(predicted, *interval),
         'verified [%]': percent(together, *wilson(together, len(hits))), 'groups': len(groups), 'groups that agree': inside,
         'runs left out': len(counted) - len(hits)})
 

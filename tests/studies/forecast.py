@@ -49,7 +49,7 @@ def looked_at(study, folder):
     if not (out / 'check.json').exists() and make(study, folder, out, ['check'], log) != 0:
         return {**row, 'why_not': first_message(log)}
     check = json.loads((out / 'check.json').read_text())
-    if any(doubt['refused'] for doubt in check['doubts']) or 'probe' not in check:
+    if any(doubt['state'] == 'refused' for doubt in check['doubts']) or 'probe' not in check:
         return {**row, 'why_not': first_message(log)}
     return {**row, 'blocks': check['n_blocks'], 'forecast': check['probe']['moved_share'], 'said_s': seconds_said(log.read_text())}
 

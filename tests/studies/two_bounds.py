@@ -28,7 +28,7 @@ def compute(study):
                    keep_going=True)
         runs = sorted((study.out / f"{case}/runs").glob("run_*.h5"))
         said = json.loads(study.run("talus-runout", *runs, "--trn", f"{case}/bed.tif", "-o", f"{case}.gpkg", "--overwrite",
-                                    "--json", "--no-db", "-q"))
+                                    "--json", "--no-db", "-q", codes=(0, 3)))
         balance = said["balance"]
         percentiles = {title: [run["percentile"] for relation in said["mobility"] if relation["relation"] == name
                                for run in relation["runs"] if run["percentile"] is not None] for title, name in RELATIONS.items()}
