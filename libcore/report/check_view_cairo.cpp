@@ -353,6 +353,7 @@ Chart section_chart(const CheckView& view, const Trn& ground, const Trn& bed) {
   chart.is_true_scale = true;
   ChartSeries mass{"between the ground and the failure surface", "#f09628", {}, {}, 0},
       surface{"ground", "#222222", {}, {}, 1.6};
+  bool has_mass = false;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   const double zero = ground.origin.z();
   for (const SectionPoint& p : points_along(view.section, ground, bed)) {
@@ -362,12 +363,13 @@ Chart section_chart(const CheckView& view, const Trn& ground, const Trn& bed) {
     surface.x.push_back(p.along);
     surface.y.push_back(p.ground + zero);
     if (!std::isfinite(p.bed)) continue;
+    has_mass |= p.bed < p.ground;
     mass.x.push_back(p.along);
     mass.y.push_back(std::min(p.bed, p.ground) + zero);
     mass.y_high.push_back(p.ground + zero);
   }
   if (!(low < high) || surface.x.back() <= surface.x.front()) return chart;
-  if (!mass.x.empty()) chart.series.push_back(std::move(mass));
+  if (has_mass) chart.series.push_back(std::move(mass));
   chart.series.push_back(std::move(surface));
   for (size_t k = 0; k < view.fences.size(); ++k)
     for (const auto& [along, z] : fences_across(view, ground, k))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "base/grouped_text.hpp"
@@ -32,10 +33,11 @@ std::string motion_section(const Look& look) {
   std::string facts;
   if (look.is_probed) {
     const double share = look.probe.moved_share;
-    facts += html_fact(percent(share),
-                       "of the mass is on its way after " + text(look.probe.time, 3) +
-                           " s of the engine: it " + text(outlook_of(share)),
-                       share < 0.1 ? "two bad" : "two");
+    facts += html_fact(
+        percent(share),
+        (moves_alone(look.work.site) ? "of the rocks move after " : "of the mass moves after ") +
+            text(look.probe.time, 3) + " s of the engine: it " + text(outlook_of(share)),
+        share < 0.1 ? "two bad" : "two");
   }
   if (look.is_cut) {
     facts += html_fact(percent(look.peel.share),
@@ -48,7 +50,9 @@ std::string motion_section(const Look& look) {
     facts += html_fact(text(look.equilibrium.factor, 2),
                        "factor of safety of the mass as one; says little of the share that goes");
   }
-  std::string out = "<div class=\"facts\">\n" + facts + "</div>\n" + lines_of(motion_text(look));
+  std::string out = "<div class=\"facts\">\n" + facts + "</div>\n";
+  if (moves_alone(look.work.site)) return html_section("motion", "Will it move?", out);
+  out += lines_of(motion_text(look));
   if (!look.is_cut) return html_section("motion", "Will it move?", out);
   const std::string planes =
       planes_text(look.work.planes, look.inputs.origin) +
@@ -160,17 +164,35 @@ CheckView view_of(const Look& look, const std::vector<Doubt>& doubts) {
   return view;
 }
 
-constexpr const char* map_key =
-    "<span class=\"key\"><i class=\"goes\"></i>block that goes <i class=\"stays\"></i>block that "
-    "stays <i class=\"holds\"></i>block that holds others <i class=\"source-key\"></i>source "
-    "<i class=\"fall-key\"></i>fall lines <i class=\"section-key\"></i>section <i "
-    "class=\"fence\"></i>fence. Dots along the foot: green where the failure surface comes out, "
-    "red where the mass leans on a step that is not low for its blocks; dashed: border of ground "
-    "classes.</span>";
+// What the map shows, and no more.
+std::string map_key(const CheckView& view) {
+  const auto has = [&](BlockOutlook outlook) {
+    return std::ranges::any_of(view.blocks, [&](const auto& b) { return b.outlook == outlook; });
+  };
+  const auto& classes = view.cell_class;
+  const std::pair<bool, std::string> keys[] = {
+      {has(BlockOutlook::goes), "<i class=\"goes\"></i>block that moves"},
+      {has(BlockOutlook::stays), "<i class=\"stays\"></i>block that stays"},
+      {has(BlockOutlook::holds_others), "<i class=\"holds\"></i>block that holds others"},
+      {!view.source.empty(), "<i class=\"source-key\"></i>source"},
+      {!view.fall_lines.empty(), "<i class=\"fall-key\"></i>fall lines"},
+      {!view.section.empty(), "<i class=\"section-key\"></i>section"},
+      {!view.fences.empty(), "<i class=\"fence\"></i>fence"},
+      {!view.foot.empty(),
+       "dots along the foot: green where the failure surface comes out, red where the mass leans "
+       "on "
+       "a step that is not low for its blocks"},
+      {std::ranges::adjacent_find(classes, std::not_equal_to()) != classes.end(),
+       "dashed: border of ground classes"}};
+  std::string words;
+  for (const auto& [is_there, key] : keys)
+    if (is_there) words += (words.empty() ? "" : "; ") + key;
+  return "<span class=\"key\">" + words + ".</span>";
+}
 
 // The interval is that of the map; each fifth contour is bold.
 std::string caption_of_map(const CheckView& view, const MapGround& part) {
-  std::string words = map_key;
+  std::string words = map_key(view);
   if (!view.surfaces.empty())
     words +=
         " <span class=\"key\"><i class=\"proposed-key\"></i>mass that could leave on a plane or "
@@ -193,12 +215,14 @@ std::string section_figures(const Look& look, CheckView view) {
   const Trn &ground = look.work.ground, &bed = look.inputs.parts.trn;
   const Chart along = section_chart(view, ground, bed);
   if (along.series.empty()) return "";
-  std::string out =
-      html_figure(chart_svg(along),
-                  "Section along the motion, heights and lengths at one scale: what lies between "
-                  "the ground and the failure surface is the mass.");
+  std::string out = html_figure(
+      chart_svg(along),
+      std::string("Section along the motion, heights and lengths at one scale") +
+          (look.is_cut ? ": what lies between the ground and the failure surface is the "
+                         "mass."
+                       : "."));
   const std::vector<Vec2> near = section_of_source(look);
-  if (length_of(view.section) < 3 * length_of(near)) return out;
+  if (!look.is_cut || length_of(view.section) < 3 * length_of(near)) return out;
   view.section = near;
   return out + html_figure(chart_svg(section_chart(view, ground, bed)), "The same at the source.");
 }

@@ -147,9 +147,11 @@ std::string seconds_text(double seconds) {
 std::string motion_text(const Look& look) {
   std::string words;
   if (look.is_probed)
-    words = "will it move: " + percent(look.probe.moved_share) +
-            " of the mass is on its way after " + text(look.probe.time, 3) +
-            " s of the engine: it " + text(outlook_of(look.probe.moved_share));
+    words =
+        "will it move: " + percent(look.probe.moved_share) +
+        (moves_alone(look.work.site) ? " of the rocks move after " : " of the mass moves after ") +
+        text(look.probe.time, 3) + " s of the engine: it " +
+        text(outlook_of(look.probe.moved_share));
   else
     words = "will it move: no probe of the engine was made";
   words += stability_text(look);
