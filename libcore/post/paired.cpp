@@ -1,5 +1,6 @@
 #include "post/paired.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -69,33 +70,38 @@ RunPairs pairs_of(std::span<const RunMember> site, std::span<const RunMember> va
 PairedDifference paired_difference(const RunPairs& pairs, std::span<const BlockWeight> site,
                                    std::span<const BlockWeight> variant) {
   PairedDifference out;
-  std::vector<double> difference(static_cast<std::size_t>(pairs.n_pairs), 0);
+  std::vector<std::pair<int, double>> amounts;  // of a pair, with the sign of its side
   const auto add = [&](const RunPairs::Side& side, std::span<const BlockWeight> blocks, double sign,
                        double& sum) {
     for (const BlockWeight& block : blocks) {
       const int pair = pair_of(side, block);
       if (pair < 0) continue;
       sum += block.weight;
-      difference[static_cast<std::size_t>(pair)] += sign * block.weight;
+      amounts.emplace_back(pair, sign * block.weight);
     }
   };
   add(pairs.site, site, -1, out.site);
   add(pairs.variant, variant, 1, out.variant);
+  std::sort(amounts.begin(), amounts.end());
+  std::vector<double> difference;  // of pairs with any amount
+  for (std::size_t i = 0; i < amounts.size(); ++i) {
+    if (i == 0 || amounts[i].first != amounts[i - 1].first) difference.push_back(0);
+    difference.back() += amounts[i].second;
+  }
   const double n_runs = pairs.n_runs, n = pairs.n_pairs;
+  const double mean = (out.variant - out.site) / n;
+  double squares = (n - static_cast<double>(difference.size())) * mean * mean;
+  for (const double d : difference) {
+    squares += (d - mean) * (d - mean);
+    out.n_differ += d != 0;
+  }
   out.site /= n_runs;
   out.variant /= n_runs;
   out.value = out.variant - out.site;
-  double mean = 0, squares = 0;
-  int n_differ = 0;
-  for (const double d : difference) {
-    mean += d / n;
-    n_differ += d != 0;
-  }
-  for (const double d : difference) squares += (d - mean) * (d - mean);
   out.interval = {no_value, no_value};
-  if (pairs.n_pairs < least_clusters || n_differ < 2) return out;
+  if (pairs.n_pairs < least_clusters || out.n_differ < 2) return out;
   const double half =
-      student_quantile(n_differ - 1, 0.975) * std::sqrt(squares / (n - 1) * n) / n_runs;
+      student_quantile(out.n_differ - 1, 0.975) * std::sqrt(squares / (n - 1) * n) / n_runs;
   out.interval = {out.value - half, out.value + half};
   return out;
 }

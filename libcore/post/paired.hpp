@@ -33,6 +33,7 @@ struct RunPairs {
 struct PairedDifference {
   double site = 0, variant = 0;  ///< amount a run
   double value = 0;              ///< variant - site
+  int n_differ = 0;              ///< pairs with another amount
   Interval interval;             ///< 95 %; NaN: fewer than least_clusters pairs, or than two differ
 };
 /// `weight` of each block is its amount.

@@ -201,6 +201,7 @@ const std::vector<std::uint32_t>& touched_cells(const std::vector<MapLayer>& lay
 
 // What the runs of --compare have more than the others. Both are held at once.
 MapLayer comparison_of(talus::RunInputs& runs, const Gathered& a, const Options& o) {
+  const std::size_t n = runs.members.size();
   Gathered b = gather(runs, runs.set_of(o.compared, "compare"), "runs_compared", o);
   if (a.n_rows + b.n_rows > o.most_rows())
     throw talus::InputError({"", 0, "--compare"},
@@ -209,7 +210,11 @@ MapLayer comparison_of(talus::RunInputs& runs, const Gathered& a, const Options&
                             "give more --memory-mb, or coarser cells (--cell-size-m)");
   const talus::CellRows cells_a = talus::group_by_cell(a.rows, a.rows_of_cell.size()),
                         cells_b = talus::group_by_cell(std::move(b.rows), b.rows_of_cell.size());
-  return talus::comparison_layer({cells_a, a.basis}, {cells_b, b.basis});
+  const std::span members(runs.members);
+  talus::RunPairs pairs = talus::pairs_of(members.first(n), members.subspan(n));
+  const auto n_pairs = static_cast<std::size_t>(pairs.n_runs);
+  if (n_pairs != n || n_pairs != members.size() - n) pairs = {};
+  return talus::comparison_layer({cells_a, a.basis}, {cells_b, b.basis}, pairs);
 }
 
 // Tags of a map of differences: those of the runs that are compared too.

@@ -45,17 +45,33 @@ struct Side {
   }
 };
 
-Estimate reach_of(const Side& side, std::span<const MapRow> rows) {
-  const ShareBasis& basis = side.ensemble.basis;
+std::vector<BlockWeight> blocks_of(std::span<const MapRow> rows) {
   std::vector<BlockWeight> blocks;
+  for (const MapRow& row : rows) blocks.push_back({row.run, row.block, row.weight});
+  return blocks;
+}
+
+Estimate reach_of(const Side& side, std::span<const BlockWeight> blocks) {
+  const ShareBasis& basis = side.ensemble.basis;
   double weight = 0;
-  for (const MapRow& row : rows) {
-    blocks.push_back({row.run, row.block, row.weight});
-    weight += row.weight;
-  }
+  for (const BlockWeight& block : blocks) weight += block.weight;
   const double share = std::min(1.0, weight / basis.over.whole);
   const Interval interval = share_interval(basis, blocks, share);
   return {share, interval.low, interval.high};
+}
+
+Difference reach_difference(const Side& a, std::span<const MapRow> rows_a, const Side& b,
+                            std::span<const MapRow> rows_b, const RunPairs& pairs) {
+  const std::vector<BlockWeight> blocks_a = blocks_of(rows_a), blocks_b = blocks_of(rows_b);
+  Difference out = difference(reach_of(a, blocks_a), reach_of(b, blocks_b));
+  const double whole = a.ensemble.basis.over.whole;
+  if (pairs.n_runs == 0 || std::abs(b.ensemble.basis.over.whole - whole) > 1e-9 * whole) return out;
+  const PairedDifference paired = paired_difference(pairs, blocks_a, blocks_b);
+  if (paired.n_differ < least_clusters || std::isnan(paired.interval.low)) return out;
+  const double scale = pairs.n_runs / whole;  // of an amount a run to a share
+  out.low = std::max(-1.0, scale * paired.interval.low);
+  out.high = std::min(1.0, scale * paired.interval.high);
+  return out;
 }
 
 Estimate percentile_of(Side& side, std::span<const MapRow> rows, const Compared& quantity,
@@ -109,7 +125,7 @@ Difference difference(const Estimate& a, const Estimate& b) {
           d + std::hypot(b.high - b.value, a.value - a.low)};
 }
 
-MapLayer comparison_layer(const ComparedRuns& a, const ComparedRuns& b) {
+MapLayer comparison_layer(const ComparedRuns& a, const ComparedRuns& b, const RunPairs& pairs) {
   MapLayer layer{"compare", {}, {}};
   std::set_union(a.cells.cell.begin(), a.cells.cell.end(), b.cells.cell.begin(), b.cells.cell.end(),
                  std::back_inserter(layer.cell));
@@ -127,7 +143,7 @@ MapLayer comparison_layer(const ComparedRuns& a, const ComparedRuns& b) {
   for (std::size_t i = 0; i < layer.cell.size(); ++i) {
     const auto rows_a = side_a.rows_at(layer.cell[i]), rows_b = side_b.rows_at(layer.cell[i]);
     std::size_t band = 0;
-    put(layer, band, i, difference(reach_of(side_a, rows_a), reach_of(side_b, rows_b)));
+    put(layer, band, i, reach_difference(side_a, rows_a, side_b, rows_b, pairs));
     for (const Compared& quantity : quantities)
       for (const Level& level : levels)
         put(layer, band += 3, i,

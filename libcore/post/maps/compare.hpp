@@ -3,11 +3,13 @@
 // in:    passages of both by cell of one map
 // out:   differences of reach and percentiles with their 95 % intervals
 //
-// The ensembles are independent. The interval of a difference is made of those of both sides, each
-// taken as far as it reaches towards the other (Newcombe 1998; Zou and Donner 2008).
+// The interval of a difference is made of those of both sides, each taken as far as it reaches
+// towards the other, as if they were independent (Newcombe 1998; Zou and Donner 2008). That of
+// reach is of pairs (post/paired.hpp) where the runs have the same seeds and ten pairs differ.
 #pragma once
 
 #include "post/maps/maps.hpp"
+#include "post/paired.hpp"
 
 namespace talus {
 
@@ -28,6 +30,8 @@ struct Estimate {
 
 /// `b` minus `a` over the cells that either touched: reach_probability_difference, and of speed,
 /// energy and height of the top the differences of p50 and p95, each with _lo and _hi.
-[[nodiscard]] MapLayer comparison_layer(const ComparedRuns& a, const ComparedRuns& b);
+/// `pairs`: all runs of `a` and `b`, or none.
+[[nodiscard]] MapLayer comparison_layer(const ComparedRuns& a, const ComparedRuns& b,
+                                        const RunPairs& pairs = {});
 
 }  // namespace talus

@@ -83,3 +83,31 @@ TEST(ComparisonLayer, OfACellThatOneSideNeverReached) {
   EXPECT_NEAR(layer.bands[1].value[0], share - std::hypot(share - i.low, 0.036993), 1e-5);
   EXPECT_TRUE(std::isnan(layer.bands[band_of(layer, "velocity_p50_difference")].value[0]));
 }
+
+// Runs of the same seeds: what both share is not in the interval of reach, which is that of the
+// mean of the differences: -1 in 20 of 200 pairs.
+TEST(ComparisonLayer, OfPairsIsStudents) {
+  constexpr int n = 200;
+  std::vector<RunMember> members(n);
+  std::vector<std::vector<MapRow>> rows_a(n), rows_b(n);
+  for (int r = 0; r < n; ++r) {
+    members[r].info.seed = r + 1;
+    members[r].info.seed_draws = true;
+    members[r].n_blocks = 1;
+    members[r].weight = 1;
+    MapRow row;
+    row.cell = 7;
+    if (r < 100) rows_a[r].push_back(row);
+    if (r < 80) rows_b[r].push_back(row);
+  }
+  const CellRows a = group_by_cell(std::move(rows_a), 20), b = group_by_cell(std::move(rows_b), 20);
+  const ShareBasis basis = share_basis(clusters_of_runs(std::vector<double>(n, 1), 1));
+  const RunPairs pairs = pairs_of(members, members);
+  const MapLayer paired = comparison_layer({a, basis}, {b, basis}, pairs);
+  const MapLayer alone = comparison_layer({a, basis}, {b, basis});
+  EXPECT_NEAR(paired.bands[0].value[0], -0.1, 1e-6);
+  const double half = 2.0930241 * std::sqrt(0.1 * 0.9 / (n - 1));  // 19 degrees of freedom
+  EXPECT_NEAR(paired.bands[1].value[0], -0.1 - half, 1e-6);
+  EXPECT_NEAR(paired.bands[2].value[0], -0.1 + half, 1e-6);
+  EXPECT_LT(alone.bands[1].value[0], paired.bands[1].value[0]);
+}
