@@ -15,3 +15,4 @@ for file in $files; do
 done
 now=$(date +%s.%N)
 for file in $files; do touch -d "@$now" "$file"; done
+echo "as in $base"
