@@ -240,6 +240,9 @@ void add_hazard(QgisProject& project, const std::string& file, const ResultFolde
   if (data.hazard.at("classes").is_array()) {
     add_package(project, file, folder, "hazard/hazard.gpkg", "Hazard classes",
                 {"classes_smoothed"});
+    const std::size_t first = project.layers.size();
+    add_package(project, file, folder, "hazard/filing.gpkg", "To be filed", {});
+    for (std::size_t i = first; i < project.layers.size(); ++i) project.layers[i].visible = false;
   }
   for (const std::string& name : hazard_maps_of(data.hazard)) {
     const std::string base = "hazard/" + name;
@@ -249,20 +252,34 @@ void add_hazard(QgisProject& project, const std::string& file, const ResultFolde
   }
 }
 
+// A name is written once: by the result, where the layer of the input has one.
+std::string without_labels(std::string style) {
+  constexpr std::string_view end = "</labeling>";
+  const std::size_t begin = style.find("<labeling"), close = style.find(end);
+  if (begin != std::string::npos && close != std::string::npos)
+    style.erase(begin, close + end.size() - begin);
+  return style;
+}
+
 // What the site is made from, to be edited: the styles and forms are those of the file.
-void add_inputs(QgisProject& project, const std::string& file, const Site& site) {
+void add_inputs(QgisProject& project, const std::string& file, const ResultFolder& folder,
+                const Site& site) {
   if (site.layers_file.empty()) return;
   static constexpr QgisLayer::Kind kinds[] = {QgisLayer::raster, QgisLayer::point, QgisLayer::line,
                                               QgisLayer::polygon};
   const std::string path = resolved(site, site.layers_file);
   const std::vector<StyledLayer> layers = styled_layers(path);
   for (const SiteLayer& known : site_layers())
-    for (const StyledLayer& layer : layers)
-      if (known.name == layer.name)
-        project.layers.push_back({"Inputs (edit, then make)", known.title,
-                                  relative_to(file, path) + "|layername=" + layer.name,
-                                  kinds[layer.shape], layer.qml.empty() ? plain_style() : layer.qml,
-                                  true});
+    for (const StyledLayer& layer : layers) {
+      if (known.name != layer.name) continue;
+      const std::string style = layer.qml.empty() ? plain_style() : layer.qml;
+      const bool has_result = (known.section == "fence" && folder.has("fence.gpkg")) ||
+                              (known.section == "object" && folder.has("trace.gpkg"));
+      project.layers.push_back({"Inputs (edit, then make)", known.title,
+                                relative_to(file, path) + "|layername=" + layer.name,
+                                kinds[layer.shape], has_result ? without_labels(style) : style,
+                                true});
+    }
   project.is_edited = true;
 }
 
@@ -300,6 +317,8 @@ std::map<std::string, std::string> layout_words(const ReportData& data,
           {"site", data.site.info.name},
           {"remark", project.remark},
           {"statement", statement},
+          {"author", data.site.hazard.author},
+          {"date", data.site.hazard.date},
           {"run_id", data.run_id},
           {"version", data.version},
           {"crs", crs}};
@@ -321,7 +340,10 @@ QgisProject project_of(const ReportData& data, const std::string& file,
   project.run = "run id " + data.run_id + ", Talus " + data.version;
   project.words = layout_words(data, project);
 
-  add_inputs(project, file, data.site);
+  // the source that is computed over the one that was drawn
+  add_package(project, file, folder, "stability/blocks.gpkg", "Source", {});
+  add_package(project, file, folder, "blocks.gpkg", "Source", {"blocks"});
+  add_inputs(project, file, folder, data.site);
   add_package(project, file, folder, "fence.gpkg", "Fences", {"fence_fields", "fence_posts"});
   if (folder.has("change.tif"))
     project.layers.push_back(raster_layer(file, folder, "change", "Fences", "Change by the fence"));
@@ -333,8 +355,6 @@ QgisProject project_of(const ReportData& data, const std::string& file,
   if (data.runs.size() > 1) hidden.insert("deposit");
   add_package(project, file, folder, "runout.gpkg", "Paths", hidden);
   if (data.runs.size() > 1) show_farthest(project, data);
-  add_package(project, file, folder, "stability/blocks.gpkg", "Source", {});
-  add_package(project, file, folder, "blocks.gpkg", "Source", {"blocks"});
   add_hazard(project, file, folder, data);
   add_case_maps(project, file, folder, data);
   add_maps(project, file, folder, data);

@@ -12,6 +12,7 @@ insert observed_boulders 'name, volume_m3, date' 'POINT(500120 5200240)' "'sprin
 insert observed_boulders name 'POINT(500124 5200230)' "'spring'"
 insert observed_scars 'name, height_m' 'POINT(500120 5200244)' "'spring', 1.2"
 insert observed_outlines name 'MULTIPOLYGON(((500096 5200220, 500144 5200220, 500144 5200250, 500096 5200220)))' "'spring'"
+insert objects name 'MULTIPOLYGON(((500096 5200200, 500144 5200200, 500144 5200210, 500096 5200200)))' "'hut'"
 sed -i 's/^crs = .*/&\nlayers = "site.gpkg"/' drawn/site.toml
 made drawn -j2
 python3 - <<'PY' || fail "see above"
@@ -27,6 +28,13 @@ assert not re.search(r'\{\{|\}\}', section)
 project = zipfile.ZipFile('drawn/out/site.qgz').read(zipfile.ZipFile('drawn/out/site.qgz').namelist()[0]).decode()
 for name in ('calibrate.gpkg|layername=observed_boulders', 'site.gpkg|layername=observed_scars'):
     assert name in project, name
+# the name of the object once, by the result; the source that is computed over the one that is drawn
+layers = {found[1]: found[0] for found in re.findall(r'(?s)(<maplayer .*?<datasource>\./([^<]*)<.*?</maplayer>)', project)}
+assert '<labeling' in layers['trace.gpkg|layername=objects'], layers.keys()
+assert not any('<labeling' in text for name, text in layers.items() if 'site.gpkg|layername=object' in name)
+assert any('<labeling' in text for name, text in layers.items() if 'site.gpkg|layername=observed_scars' in name)
+order = project[project.index('<layer-tree-group'):]
+assert order.index('blocks.gpkg|layername=source_area') < order.index('site.gpkg|layername=source')
 PY
 on_page drawn/out/calibrate.gpkg
 

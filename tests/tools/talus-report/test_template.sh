@@ -43,7 +43,7 @@ refused '/<Layouts>/,/<\/Layouts>/d' 'wrong.qgs: has no print layout, expected o
 says 'copy report/project.qgs of share/talus'
 refused 's/type="65639"/type="65640"/' 'wrong.qgs: layout Map: has no map item, expected one'
 line=$(grep -n 'labelText="Signature:"' "$shipped" | cut -d: -f1)
-refused 's/labelText="Signature:"/labelText="{tittle}"/' "wrong.qgs:$line: layout Map, item Signature: has {tittle}, expected one of {crs}, {remark}, {run_id}, {site}, {statement}, {title}, {version}"
+refused 's/labelText="Signature:"/labelText="{tittle}"/' "wrong.qgs:$line: layout Map, item Signature: has {tittle}, expected one of {author}, {crs}, {date}, {remark}, {run_id}, {site}, {statement}, {title}, {version}"
 says 'did you mean {title}?'
 refused 's/<\/qgis>//' 'wrong.qgs: is no project of QGIS: '
 python3 -m zipfile -c empty.qgz out

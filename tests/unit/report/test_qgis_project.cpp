@@ -15,7 +15,11 @@ QgisTemplate shipped() {
 
 QgisProject project_of(const std::string& title, const std::string& statement) {
   QgisProject project;
-  project.words = {{"title", title}, {"statement", statement}, {"run_id", "1f"}};
+  project.words = {{"title", title},
+                   {"statement", statement},
+                   {"run_id", "1f"},
+                   {"author", "A. Muster"},
+                   {"date", "2026-05-31"}};
   project.extent = {100, 200, 900, 700};
   return project;
 }
@@ -94,9 +98,10 @@ TEST(QgisProject, LayoutHasGridNorthScaleAndATitleBlock) {
   const std::string xml = qgis_project_xml(project, shipped());
   for (const char* part :
        {"<ComposerMapGrid ", "intervalX=\"200\"", "id=\"North\"", "id=\"Scale\"", "Scale 1 : [%",
-        "Prepared by:  [%", "<value>client</value>", "no hazard zoning by itself",
-        "contour-interval=\"20\"", "contour-index-interval=\"100\"", "name=\"Speed [m/s]\"",
-        "<value>one line\nand another</value>", "numUnitsPerSegment=\"50\"", "unitLabel=\"m\""})
+        "Prepared by:  [%", "<value>client</value>", "<value>A. Muster</value>", "Assessed:  [%",
+        "no hazard zoning by itself", "contour-interval=\"20\"", "contour-index-interval=\"100\"",
+        "name=\"Speed [m/s]\"", "<value>one line\nand another</value>", "numUnitsPerSegment=\"50\"",
+        "unitLabel=\"m\""})
     EXPECT_TRUE(has(xml, part)) << part;
   EXPECT_FALSE(has(xml, "{title}") || has(xml, "{statement}"));
 }
@@ -196,8 +201,8 @@ TEST(QgisProject, TemplatesThatCannotBeFilledAreRefused) {
 
 TEST(QgisProject, UnknownPlaceholdersAreRefusedWithTheirLine) {
   EXPECT_EQ(refusal(small("{titles}")),
-            "office.qgs:4: layout Plan, item Note: has {titles}, expected one of {run_id}, "
-            "{statement}, {title} | did you mean {title}?");
+            "office.qgs:4: layout Plan, item Note: has {titles}, expected one of {author}, "
+            "{date}, {run_id}, {statement}, {title} | did you mean {title}?");
   EXPECT_EQ(refusal(small("[% '{title}' %]")).substr(0, 73),
             "office.qgs:4: layout Plan, item Note: has {title} in an expression of QGI");
   EXPECT_EQ(refusal(small("[% regexp_match('a', 'a{2}b{x}') %] {2} { }")), "");

@@ -115,7 +115,6 @@ TEST(LayerFacts, SayWhatWasTakenAndPassedOver) {
   taken.n_parts = 2, taken.n_passed_over = 1;
   taken.passed_over = "1 point";
   taken.decisions = {{"unit of heights", "0.3048 m", "--unit-m"}};
-  EXPECT_EQ(sentence_on(taken), "a.gpkg: layer heights where z > 3, 2 lines");
   const LayerRead layer = facts_on(taken, "spots");
   EXPECT_EQ(layer.role, "spots");
   std::vector<std::string> names;
