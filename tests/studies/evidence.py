@@ -154,7 +154,10 @@ def pages(folder):
 def check(folder):
     faults = [f"{path.name} is not what docs/evidence/data says: python3 tests/studies/evidence.py pages"
               for path, text in pages(folder).items() if not path.exists() or path.read_text(encoding="utf-8") != text]
-    for name, head in Data(folder / "data").heads.items():
+    heads = Data(folder / "data").heads
+    if "verification" in heads and f"Commit {heads['verification']['commit']} " not in (folder / "verification.md").read_text(encoding="utf-8"):
+        faults.append("verification.md is of another commit than data/verification.csv")
+    for name, head in heads.items():
         script = re.search(r"(?:tests|sample_sites|pipelines)/[\w/.]+", head["command"])
         if script and not (study.SOURCE / script.group()).exists():
             faults.append(f"data/{name}.csv: its command is gone: {head['command']}")

@@ -12,7 +12,7 @@ STUDY = Study(__file__, __doc__)
 STEPS = ("demo, from nothing", "demo again, the site computed anew", "build and all tests")
 
 
-@STUDY.part("all", 3000)
+@STUDY.part("all", 2000)
 def compute(study):
     if os.geteuid() or not shutil.which("debootstrap"):
         skip("needs root and debootstrap")

@@ -10,7 +10,7 @@ from study import SOURCE, Study
 STUDY = Study(__file__, __doc__)
 
 
-@STUDY.part("all", 6000)
+@STUDY.part("all", 2000)
 def compute(study):
     folder, peers = SOURCE / "docs/evidence", SOURCE.parent / "shared/peers"
     study.run("talus-verify", "--full", "--stability", "--leaving-out", *(["--peers", peers] if peers.exists() else []),
