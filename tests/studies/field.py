@@ -4,7 +4,6 @@
 - Tschamut 2014: 18 runs of blocks of 40 to 79 kg on a meadow.
 - Authume quarry, path P1: 41 boulders of 0.2 to 1.8 t on a slope, two walls and a hard floor.
 - Chant Sura: 11 single hits of blocks of 210 to 780 kg on a meadow.
-- Columns of grains that are let go on a floor: Lube et al. 2004, blocks that move as a mass.
 
 Blocks of the observed size and mass start where the observed ones did, each alone, in random attitudes.
 Terrain beyond the observed tracks is held level in the first row of a site: no node is lower than the
@@ -12,17 +11,11 @@ lowest deposit. The second row has the terrain as supplied. A hit is a block tha
 observed slope with the observed velocity, and a spin forward; its speed is taken where it has left the
 plane for at least 0.1 s.
 
-A column is poured into a round fence on a level floor and comes to rest; then the fence is taken away. Its
-height is twice that of its centre of mass. Its final radius is the mean over 24 sectors of the farthest block
-of the heap, which are all that are nearer than 1.5 blocks to one of it; the middle of the heap is in it.
-
 Intervals are 95 %, of the observed runs and of the computed blocks of each drawn again (bootstrap). The
 noise of the data is the area between halves of the observed runs drawn at random, its median and 95 %.
---set changes a section [ground.NAME] of the site files that have it, as in talus-dda. The part `fit` is the table
-of the two numbers that soils were fitted by: the same on all grounds, with fewer blocks.
+--set changes a section [ground.NAME] of the site files that have it, as in talus-dda.
 """
 import csv
-import itertools
 
 import h5py
 import numpy as np
@@ -35,7 +28,6 @@ N_DRAWN = 500  # sets drawn again
 N_HITS = 60  # blocks a hit
 SITE = ('[site]\nname = "field"\n[material.rock]\ndensity_kg_m3 = {}\n[solver]\nduration_s = {}\n'
         'max_lost_share = 1\n[output]\npassages = false\nframes = {}\nframe_interval_s = {}\n')
-FITTED = {"cor_half_energy_kj": (1, 2, 4), "bearing_kpa": (2000, 4000, 8000)}
 GROUND = {"meadow": '[ground.meadow]\nsoil = "meadow"\n',
           "quarry": ('[terrain]\nground_raster = "{}"\n[ground.vegetated]\nsoil = "thin_soil"\nraster_values = [1]\n'
                      '[ground.hard]\nsoil = "rock"\nraster_values = [2]\n'
@@ -259,57 +251,6 @@ class Hits:
                 "normal part per m/s of approach": f"{np.polyfit(approach, of[:, 0] / approach, 1)[0]:+.2f}"})
 
 
-class Columns:
-    """Columns of grains that collapse on a level floor. Lube et al. 2004 (J. Fluid Mech. 508, 175): the radius
-    grows by 1.24 a of itself up to a = height / radius = 1.7, by 1.6 a^0.5 beyond, whatever the grains."""
-    SPACING = 1.1  # of the blocks that are poured in [m]; they are 1 m large
-    CASES = ((300, 5, 15), (600, 5, 15), (300, 5, 25), (820, 7, 25), (600, 5, 25), (1200, 5, 25))
-
-    def __init__(self, tools):
-        self.tools = tools
-        tools.terrain("floor", np.zeros((80, 80)), (-40, 1, 0, 40, 0, -1))
-
-    def places(self, n, radius):
-        at = np.arange(-radius, radius + 0.01, self.SPACING)
-        layer = [(x, y) for x in at for y in at if np.hypot(x, y) < 0.99 * radius - 0.6]
-        return [[x, y, 0.7 + self.SPACING * (i // len(layer))] for i in range(n) for x, y in [layer[i % len(layer)]]]
-
-    def heap(self, ends, radius):
-        """Distances from the middle of the blocks of the heap, and their directions."""
-        near = np.hypot(*(ends[:, None] - ends[None]).transpose(2, 0, 1)) < 1.5
-        heap = np.hypot(*ends.T) < radius / 2
-        while (grown := near[heap].any(0)).sum() > heap.sum():
-            heap = grown
-        return np.hypot(*ends[heap].T), np.arctan2(ends[heap, 1], ends[heap, 0])
-
-    def simulate(self, n, radius, friction_deg):
-        """Height of the column of `n` blocks; radius of the heap, and that which holds 95 % of the blocks."""
-        circle = [[radius * np.cos(t), radius * np.sin(t)] for t in np.linspace(0, 2 * np.pi, 25)]
-        site = SITE.format(2650, 20, "false", 1).replace("[solver]", f"friction_deg = {friction_deg}\n[solver]")
-        site += f"[ground.floor]\nfriction_deg = {friction_deg}\n[blocks.grains]\n"
-        name = f"column{n}_{radius}_{friction_deg}"
-        poured = site + 'shape = "rock"\nsize_m = [1]\nrandom_orientation = true\n'
-        poured += f"position_m = {self.places(n, radius)}\n[fence.wall]\nline = {circle}\nheight_m = 40\npost_spacing_m = 2\n"
-        self.tools.simulate(f"poured_{name}", poured, "floor").close()
-        self.tools.run("talus-export", f"poured_{name}.h5", "-o", f"{name}.obj")
-        with self.tools.simulate(name, site + f'file = "{name}.obj"\nin_place = true\n', "floor") as run:
-            at = run["frames/position_m"][:] + run["frames"].attrs["origin_m"]
-            mass = run["blocks/mass_kg"][:]
-        height = 2 * np.average(at[0, :, 2], weights=mass)
-        distance, direction = self.heap(at[-1, :, :2], radius)
-        sector = ((direction + np.pi) / (2 * np.pi) * 24).astype(int) % 24
-        edge = np.mean([distance[sector == s].max(initial=0) for s in range(24)]) + 0.5
-        return height, edge, np.percentile(np.hypot(*at[-1, :, :2].T), 95)
-
-    def add_row(self, n, radius, friction):
-        height, *radii = self.simulate(n, radius, friction)
-        a = height / radius
-        seen, (made, most) = 1.24 * a if a < 1.7 else 1.6 * a ** 0.5, (r / radius - 1 for r in radii)
-        self.tools.study.row("columns", f"{n} blocks, radius {radius}, {friction} degrees", {
-            "height over radius": f"{a:.2f}", "growth of the radius, observed": f"{seen:.2f}", "computed": f"{made:.2f}",
-            "of 95 % of the blocks": f"{most:.2f}", "computed over observed": f"{made / seen:.2f}"})
-
-
 STUDY = Study(__file__, __doc__)
 STUDY.words.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
 
@@ -329,29 +270,6 @@ def of_authume(study):
 @STUDY.part("hits", 4)
 def of_hits(study):
     Hits(Tools(study, study.options.set), study.data / "experiments").add_rows()
-
-
-for case in Columns.CASES:
-    STUDY.part("columns_{}_{}_{}".format(*case), 100)(
-        lambda study, case=case: Columns(Tools(study, study.options.set)).add_row(*case))
-
-
-@STUDY.part("fit", 100)
-def fit(study):
-    tools, data = Tools(study), study.data / "experiments"
-    slopes = tschamut(tools, data / "tschamut2014", 12), authume(tools, data / "authume_P1", 2)
-    hits = Hits(tools, data)
-    for values in itertools.product(*FITTED.values()):
-        tools.more = [f"ground.{ground}.{key}={value}" for ground in ("meadow", "vegetated", "hard", "rocky", "beyond")
-                      for key, value in zip(FITTED, values)]
-        found = {}
-        for slope in slopes:
-            made = slope.figures("level")
-            found |= {f"{slope.name}: mean [m]": f"{made['mean']:.0f}", f"{slope.name}: area [m]": f"{made['area']:.1f}",
-                      f"{slope.name}: p90 - p10 [m]": f"{made['width']:.0f}",
-                      f"{slope.name}: across over observed": f"{made['across']:.2f}"}
-        kept = np.mean([hits.simulate(k)[:, 0].mean() for k in range(len(hits.hits))])
-        study.row("fit", "{} kJ, {} kPa".format(*values), found | {"speed kept in hits": f"{kept:.2f}"})
 
 
 if __name__ == "__main__":
