@@ -4,7 +4,7 @@
 Ten seeds a site with friction scattered by 2 degrees, joints and fences as in the site files, 60 s. A run that breaks
 a limit of its health is evaluated all the same, and counted.
 
-Each site stands beside its scenario: L is measured along the expected path, and the energy line of 28 degrees ends
+Each site is compared with its scenario: L is measured along the expected path, and the energy line of 28 degrees ends
 where it says. Of the volume at rest half lies below L50.
 """
 import json
