@@ -322,7 +322,8 @@ Drawing inputs_map(const CheckView& view, const std::vector<ViewedInput>& inputs
   }
   const auto draw = [&view, &inputs, &ground](Pen& pen, CheckMap& map) {
     constexpr Colour blue = rgb(0x14508c);
-    constexpr double line = 4;  // from name to name [mm]
+    constexpr double line = 4;              // from name to name [mm]
+    constexpr std::size_t most_named = 50;  // more names cannot be read; each box has its tooltip
     map.ground(ground);
     map.objects(view, ground.cell_size);
     map.source(view);
@@ -335,6 +336,7 @@ Drawing inputs_map(const CheckView& view, const std::vector<ViewedInput>& inputs
                   input.high,
                   {input.low.x(), input.high.y()}}},
                 {}, {0.37, blue, {2.1, 1.1}}, input.title);
+      if (named.size() == most_named) continue;
       Vec2 at = map.place({input.low.x(), input.high.y()}) + Vec2(1, line);
       const auto is_near = [&](const Vec2& other) { return (at - other).norm() < line; };
       while (std::any_of(named.begin(), named.end(), is_near)) at.y() += line;

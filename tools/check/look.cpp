@@ -292,16 +292,19 @@ bool comes_to(const std::vector<Vec2>& path, const RecordObject& object) {
 
 void look_at_objects(Look& look) {
   const BlockSet& set = look.inputs.parts.blocks;
+  std::vector<std::vector<Vec2>> outlines;
+  for (int b = 0; b < n_blocks(set); ++b) {
+    std::vector<Vec2> corners;
+    for (int v = set.block_vertex_begin[b]; v < set.block_vertex_begin[b + 1]; ++v)
+      corners.emplace_back(set.vertices[v].head<2>());
+    outlines.push_back(convex_outline(std::move(corners)));
+  }
   for (const RecordObject& object : look.inputs.objects) {
     ObjectLook found;
     found.object = object;
     found.distance = std::numeric_limits<double>::infinity();
-    for (int b = 0; b < n_blocks(set); ++b) {
-      std::vector<Vec2> corners;
-      for (int v = set.block_vertex_begin[b]; v < set.block_vertex_begin[b + 1]; ++v)
-        corners.emplace_back(set.vertices[v].head<2>());
-      found.distance = std::min(found.distance, gap_to(object, convex_outline(corners)));
-    }
+    for (const std::vector<Vec2>& outline : outlines)
+      found.distance = std::min(found.distance, gap_to(object, outline));
     found.is_in_source = found.distance <= 0;
     for (const SliderPath& slide : look.slides)
       found.n_fall_lines += comes_to(slide.points, object);
