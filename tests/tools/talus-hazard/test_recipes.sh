@@ -75,3 +75,7 @@ says 'vulnerability has 2 numbers'
 sed -i 's/^vulnerability = .*/vulnerability = [0.5]/' site.toml
 expect 0 talus-trace site.toml run_*.h5 --trn slope.tif -o zealand.gpkg
 prints 'intolerable: one in 10,000 a year or more'
+# who is there means nothing to a recipe of cells, which is said
+with valley.toml 0.0136
+expect 0 talus-trace site.toml run_*.h5 --trn slope.tif -o cells.gpkg
+says 'presence, vulnerability and persons_per_day of house, hut, shed are not used; recipe Our valley has no [risk]'
