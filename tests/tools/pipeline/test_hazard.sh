@@ -47,5 +47,9 @@ made slope RUNS=2 check
 sed -i 's/^min_area_m2 = .*/min_area_m2 = 60/' slope/own.toml
 made slope RUNS=2 -n check
 prints talus-check
+# what cannot be filed is refused before the runs
+sed -i 's/^namespace = .*/namespace = "ti.ch"/' slope/site.toml
+expect 2 make -C slope BIN= RUNS=2 check
+says 'hazard.namespace: is of a canton, and the terrain is in EPSG:32633'
 made slope clean
 [ ! -e slope/out ] || fail "left: $(find slope/out)"
