@@ -71,7 +71,7 @@ TEST_F(RunSettings, BlocksThatPassThroughEachOtherAreSaid) {
   plan.block_contacts = true;
   DdaInputs together;
   together.parts.blocks = three_boxes();
-  warn_of_plan(log, site_of(folder, "[output]\nstrain = true\n"), plan, together);
+  warn_of_plan(log, site_of(folder, "[solver]\nstrain = 'on'\n"), plan, together);
   EXPECT_HOLDS(together.warnings.front(), "computes blocks that touch each other rigid");
 }
 
