@@ -63,10 +63,11 @@ struct Reducer {
   SafetyFactor factor_of(double share) {
     const auto moves = [&](double factor) { return at(factor).moved_share > share; };
     SafetyFactor found{0, no_limit};
-    for (const ReducedRun& run : runs)
-      (run.moved_share > share ? found.moves : found.holds) =
-          run.moved_share > share ? std::min(found.moves, run.factor)
-                                  : std::max(found.holds, run.factor);
+    for (const ReducedRun& run : runs) {  // by factor: what a stronger run did counts first
+      if (run.moved_share > share) found.moves = run.factor;
+      if (found.moves < no_limit) break;
+      found.holds = run.factor;
+    }
     for (double f = 1; found.holds == 0 && f >= settings.least; f /= 2)
       (moves(f) ? found.moves : found.holds) = f;
     for (double f = std::max(1.0, 2 * found.holds); found.moves == no_limit && f <= settings.most;
@@ -96,6 +97,17 @@ Scene with_strength_reduced(Scene scene, double factor) {
   return scene;
 }
 
+namespace {
+
+// Blocks that move before the ground shakes: what has come to rest after it is not what holds.
+std::vector<bool> moves_before(Scene scene, double factor, const StabilitySettings& settings) {
+  if (!shakes(scene.base)) return std::vector<bool>(scene.blocks.mass.size(), false);
+  scene.base = {};
+  return run_reduced(scene, factor, settings).moves;
+}
+
+}  // namespace
+
 ReducedRun run_reduced(const Scene& scene, double factor, const StabilitySettings& settings) {
   const Scene reduced = with_strength_reduced(scene, factor);
   Work work = make_work(reduced);
@@ -104,6 +116,7 @@ ReducedRun run_reduced(const Scene& scene, double factor, const StabilitySetting
   std::array<std::vector<Vec3>, 3> at;
   for (size_t k = 0; k < at.size(); ++k)
     at[k] = positions_at(reduced, calm + T * (2 + static_cast<double>(k)) / 4, state, work);
+  const std::vector<bool> gone = moves_before(scene, factor, settings);
   ReducedRun run;
   run.factor = factor;
   // way of an acceleration a in the last quarter: a T^2 / 2 (1 - 9 / 16)
@@ -114,7 +127,7 @@ ReducedRun run_reduced(const Scene& scene, double factor, const StabilitySetting
     const double way = (at[2][b] - reduced.blocks.rest[b].position).norm();
     const bool is_shaken_off = calm > 0 && way > std::cbrt(scene.blocks.volume[b]);
     run.moves.push_back(is_released(scene, b) &&
-                        ((last > before && last > least) || is_shaken_off));
+                        ((last > before && last > least) || is_shaken_off || gone[b]));
     if (!is_released(scene, b)) continue;
     all += scene.blocks.mass[b];
     if (run.moves.back()) moved += scene.blocks.mass[b];

@@ -9,7 +9,7 @@
 // A block moves when it is farther from where it was in the last quarter of a short run than in the
 // quarter before, and accelerates by more than 5e-4 of gravity: what settles onto its
 // contacts slows down. Where the ground shakes, the run begins when that has ended, and a block
-// that is farther from its place than its own size has moved, too.
+// that is farther from its place than its own size, or moved before, has moved, too.
 #pragma once
 
 #include <functional>

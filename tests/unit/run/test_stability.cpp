@@ -98,6 +98,27 @@ TEST(Stability, ShakingThatEndsLeavesFrictionAndTakesBonds) {
   EXPECT_LT(find_stability(bonded, {}).mass.value(), 1.01 * std::tan(20 * degree) / std::tan(dip));
 }
 
+// Rough ground before it stops what slides before the earthquake ends: it has moved all the same.
+TEST(Stability, ShakingMakesNothingSafer) {
+  const SlopeFrame frame = slope_frame(33, 0);
+  Scene scene =
+      scene_of(plane_trn(frame, 1, 30), ground_of(25),
+               {body_of(box_in(frame, Vec3::Zero(), Vec3(-3, -8, 0), Vec3(3, 8, 1.5)))}, {});
+  scene.ground.classes.push_back(ground_of(70));
+  const Trn& trn = scene.ground.trn;
+  for (int row = 0; row + 1 < trn.n_rows; ++row)
+    for (int col = 0; col + 1 < trn.n_cols; ++col)
+      scene.ground.cell_class.push_back(node_point(trn, row, col).x() >= 4 ? 1 : 0);
+  const double still = find_stability(scene, {}).mass.value();
+  EXPECT_NEAR(still / (std::tan(25 * degree) / std::tan(33 * degree)), 1, 0.01);
+  scene.base.time = {0, 1, 5};
+  scene.base.acceleration = {Vec3::Zero(), Vec3(0.1, 0, 0), Vec3::Zero()};
+  const ReducedRun run = run_reduced(scene, 1, {});
+  EXPECT_LT(run.displacement, 5);  // and comes to rest less than its size away
+  EXPECT_EQ(run.moved_share, 1);
+  EXPECT_LE(find_stability(scene, {}).mass.value(), still + 0.005);
+}
+
 // Two blocks apart on one slope, one with less friction on its own part of it: it goes first, the
 // other one, the larger, is the mass.
 TEST(Stability, SaysWhichBlocksGoFirst) {
