@@ -18,29 +18,19 @@ double value_of(const SafetyFactor& factor) {
                                                          : std::numeric_limits<double>::quiet_NaN();
 }
 
-// "1.12", "above 16"
+// "a factor of 1.12", "a factor above 16"
 std::string factor_text(const SafetyFactor& factor) {
-  if (factor.holds == 0) return "below " + text(factor.moves, 3);
-  if (!std::isfinite(factor.moves)) return "above " + text(factor.holds, 3);
-  return text(factor.value(), 3);
+  if (factor.holds == 0) return "a factor below " + text(factor.moves, 3);
+  if (!std::isfinite(factor.moves)) return "a factor above " + text(factor.holds, 3);
+  return "a factor of " + text(factor.value(), 3);
 }
 
 std::string held_text(const SafetyFactor& factor) {
-  return stands(factor) ? "is held by a factor of " + factor_text(factor)
-                        : "does not stand: its factor is " + factor_text(factor);
+  return (stands(factor) ? "is held by " : "does not stand, with ") + factor_text(factor);
 }
 
 double measured(const Findings& f, double rise) {
-  switch (f.measure) {
-    case WaterMeasure::above_foot:
-    case WaterMeasure::in_cracks:
-      return rise - f.range.dry;
-    case WaterMeasure::below_surface:
-      return f.range.full - rise;
-    case WaterMeasure::above_given:
-      break;
-  }
-  return rise;
+  return f.measure == WaterMeasure::below_surface ? f.at_given - rise : f.at_given + rise;
 }
 
 // "water in the joints stands 6.4 m above the foot"
@@ -74,7 +64,7 @@ std::string first_sentence(const Stability& found) {
   for (std::size_t i = 0; i < std::min(first.size(), most_named); ++i)
     names.push_back(std::to_string(first[i]));
   return std::to_string(first.size()) + " of " + counted(std::ssize(found.of_block), "block") +
-         " go first, at a factor of " + factor_text(found.first) + ": " + list_of(names) +
+         " go first, at " + factor_text(found.first) + ": " + list_of(names) +
          (first.size() > most_named ? " ..." : "");
 }
 

@@ -37,6 +37,7 @@ struct Findings {
   bool has_water = false;
   WaterMeasure measure = WaterMeasure::above_given;
   WaterRange range;
+  double at_given = 0;          ///< height of the water of the site file, by the measure [m]
   std::vector<AtLevel> levels;  ///< by rise; one without water
   std::size_t given = 0;        ///< the level of the site file
   GroupFound mass, first{share_of_first, {}, 0};

@@ -190,6 +190,14 @@ void run_tool(Tool& tool, const Site& site, const Options& o) {
   if (const auto& water = stage.plan.inputs.parts.water) {
     found.measure = measure_of(site.water);
     found.range = water_range(*water, setup.scene);
+    if (found.measure == WaterMeasure::below_surface) {
+      found.at_given = site.water.depth_m;
+      found.range.full = std::max(site.water.depth_m, found.range.dry);
+    } else if (found.measure == WaterMeasure::in_cracks) {
+      found.at_given = site.water.crack_fill_m;
+    } else if (found.measure == WaterMeasure::above_foot) {
+      found.at_given = -found.range.dry;
+    }
     found.has_water = found.range.dry < found.range.full;
   }
   search.find_levels(setup);

@@ -65,6 +65,7 @@ expect 0 stability -o wet
 holds wet "j['water'] == 'depth of the water below the surface [m]' and r[0]['is_dry'] and len(r) == 6"
 holds wet "all(a['water_m'] > b['water_m'] and a['mass']['factor'] >= b['mass']['factor'] for a, b in zip(r, r[1:]))"
 holds wet "abs(g['dry']['factor'] / (tan(30) / tan(25)) - 1) < 0.01"
+holds wet "r[-1]['water_m'] == 0 and [row['water_m'] for row in r if row['is_given']] == [1.5]"
 holds wet "[row['is_given'] for row in r].count(True) == 1 and g['factor']['factor'] < g['dry']['factor'] - 0.03"
 holds wet "r[0]['water_m'] > g['fails_at_m'] > r[-1]['water_m']"
 holds wet "'when dry; it fails when water in the joints rises to' in j['words'][0]"
