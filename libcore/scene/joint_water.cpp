@@ -164,20 +164,31 @@ double lowest_of(const std::vector<Vec3>& outline) {
   return low;
 }
 
-// Lowest point of the crack of each face: of all faces of cracks in its plane [m].
-std::vector<double> feet_of(const std::vector<JointFace>& faces, double gap) {
-  std::vector<double> feet;
-  for (const JointFace& face : faces) feet.push_back(lowest_of(face.outline));
-  const std::vector<double> own = feet;
+/// Lowest and highest point of a crack [m].
+struct CrackSpan {
+  double foot = -std::numeric_limits<double>::infinity();
+  double top = std::numeric_limits<double>::infinity();
+};
+
+// Of the crack of each face: of all faces of cracks in its plane. No bounds where it is in none.
+std::vector<CrackSpan> spans_of(const std::vector<JointFace>& faces, double gap) {
+  std::vector<CrackSpan> own(faces.size()), spans(faces.size());
   const auto is_crack = [&](size_t i) { return faces[i].fill == JointFill::crack; };
+  for (size_t i = 0; i < faces.size(); ++i) {
+    if (!is_crack(i)) continue;
+    own[i] = {lowest_of(faces[i].outline), -std::numeric_limits<double>::infinity()};
+    for (const Vec3& x : faces[i].outline) own[i].top = std::max(own[i].top, x.z());
+    spans[i] = own[i];
+  }
   for (size_t i = 0; i < faces.size(); ++i)
     for (size_t k = 0; k < faces.size() && is_crack(i); ++k) {
-      if (!is_crack(k) || own[k] >= feet[i]) continue;
+      if (!is_crack(k)) continue;
       const Vec3 &n = faces[i].into_a, &other = faces[k].into_a;
       if (!is_same_face(n, other) && !is_same_face(n, -other)) continue;
-      if (std::abs(n.dot(faces[k].outline[0] - faces[i].outline[0])) <= gap) feet[i] = own[k];
+      if (std::abs(n.dot(faces[k].outline[0] - faces[i].outline[0])) > gap) continue;
+      spans[i] = {std::min(spans[i].foot, own[k].foot), std::max(spans[i].top, own[k].top)};
     }
-  return feet;
+  return spans;
 }
 
 double area_of(const std::vector<Vec3>& outline) {
@@ -211,8 +222,8 @@ void add_wet_face(const JointFace& face, const FacePressure& pressure, Scene& sc
 struct WetJoints {
   const JointWater& water;
   std::vector<JointFace> faces;  ///< by block
-  std::vector<double> feet;      ///< lowest point of the crack of each [m]
-  Trn surface;                   ///< piezometric
+  std::vector<CrackSpan> cracks;
+  Trn surface;  ///< piezometric
   TopFaces tops;
 
   WetJoints(const JointWater& of, const Scene& scene)
@@ -225,12 +236,12 @@ struct WetJoints {
     });
     if (!water.surface.empty()) surface.elevation = water.surface;
     // cut rock puts the corners of one plane where blocks were merged, not exactly on it
-    feet = feet_of(faces, 100 * closed_gap(scene));
+    cracks = spans_of(faces, 100 * closed_gap(scene));
   }
 
-  // z of the water over a place of face i, NaN: none [m]
+  // z of the water over a place of face i, NaN: none; a crack may run over [m]
   [[nodiscard]] double level(size_t i, const Vec3& x) const {
-    if (faces[i].fill == JointFill::crack) return feet[i] + water.crack_fill;
+    if (faces[i].fill == JointFill::crack) return cracks[i].foot + water.crack_fill;
     return water.surface.empty() ? tops.elevation(x.x(), x.y()) - water.depth
                                  : elevation_at(surface, x.x(), x.y());
   }
@@ -294,7 +305,7 @@ void add_joint_water(const JointWater& water, Scene& scene) {
   for (size_t i = 0; i < joints.faces.size(); ++i) {
     const JointFace& face = joints.faces[i];
     const auto pressure_at = [&](const Vec3& x) {
-      const double level = joints.level(i, x);
+      const double level = std::min(joints.level(i, x), joints.cracks[i].top);
       return std::isnan(level) ? 0 : water.unit_weight * (level - x.z());
     };
     const double resolution = face.fill == JointFill::crack

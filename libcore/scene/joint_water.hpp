@@ -17,7 +17,8 @@ namespace talus {
 /// How high water is in the joints of a set.
 enum class JointFill : std::uint8_t {
   surface,  ///< to the piezometric surface
-  crack,    ///< to `crack_fill` above the lowest point of each crack, a plane of the set
+  crack,    ///< to `crack_fill` above the lowest point of each crack, a plane of the set; at
+            ///< most to its highest
   drained   ///< there is none
 };
 

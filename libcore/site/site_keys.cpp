@@ -248,7 +248,7 @@ template <> const std::vector<SiteKey<WaterSettings>>& keys_of() {
       {"raster", &S::raster, "elevations of the piezometric surface, instead; unknown: no water"},
       {"depth_m", &S::depth_m, "depth of the piezometric surface below the surface of the mass, instead", not_negative},
       {"cracks", &S::cracks, "joint sets that are open cracks, filled by crack_fill_m whatever the piezometric surface; source_side: the walls along the outline of the source", any, "", "", 1},
-      {"crack_fill_m", &S::crack_fill_m, "height of the water above the lowest point of each crack", not_negative},
+      {"crack_fill_m", &S::crack_fill_m, "height of the water above the lowest point of each crack, at most to its top", not_negative},
       {"drained", &S::drained, "joint sets without water; source_side: the walls along the outline of the source", any, "", "", 1},
       {"drained_at_m", &S::drained_at_m, "opening of a face at which its pressure is gone, falling linearly; 0: at once; larger than any face: kept", not_negative}};
   return table;

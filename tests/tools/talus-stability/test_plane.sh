@@ -73,6 +73,13 @@ holds wet "all(abs(row['mass']['factor'] / row['as_one_body'] - 1) < 0.01 for ro
 prints "By limit equilibrium, as one body on its failure surface, it has a factor of"
 [ -s wet/levels.svg ] || fail "no chart of the levels"
 
+# A tension crack behind it: thrust w h^2 / 2 L, h at most 3.2 m and L 27 m, is half of what it resists.
+sed '/^\[water\]/,$d' site.toml >crack.toml
+printf '[water]\ncracks = ["source_side"]\ncrack_fill_m = 1\n' >>crack.toml
+expect 0 talus-stability crack.toml --trn bed.tif --blocks blocks.h5 --no-db -o crack
+holds crack "j['water'] == 'water in the cracks above their foot [m]' and r[0]['water_m'] == 0"
+holds crack "g['fails_at_m'] is None and 'it stands at every level of the water' in j['words'][0]"
+
 # The failed samples are those whose friction is below 25 degrees: about half of 23 to 27
 sed '/^\[water\]/,$d' site.toml >drawn.toml
 cat >>drawn.toml <<'TOML'

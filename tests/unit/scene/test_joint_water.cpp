@@ -115,6 +115,20 @@ TEST(JointWater, StandsInACrackAboveItsFoot) {
   EXPECT_NEAR((force_on(scene, 2) - Vec3(below, 0, 0)).norm(), 0, 1e-8 * below);
 }
 
+// What is poured into a full crack runs over.
+TEST(JointWater, RunsOverTheTopOfACrack) {
+  for (const double fill : {2.0, 7.0}) {
+    Scene scene = two_cubes();
+    JointWater water;
+    water.unit_weight = weight;
+    water.of_set = {JointFill::crack};
+    water.crack_fill = fill;
+    add_joint_water(water, scene);
+    EXPECT_NEAR(std::abs(force_on(scene, 0).x()), weight * 2 * 2 / 2 * 2, 1e-6 * weight);
+    EXPECT_NEAR(water_range(water, scene).full, 2 - fill, 1e-12);
+  }
+}
+
 // A mass of even upright thickness on a slope, piezometric surface at a depth below its top: the
 // head on its base is the rest of the thickness, all over it; the top and the sides are dry.
 TEST(JointWater, IsSoDeepBelowTheTop) {
