@@ -306,7 +306,8 @@ void H5Writer::names(const std::string& path, const std::vector<std::string>& va
   std::vector<const char*> pointers;
   for (const std::string& value : values) pointers.push_back(value.c_str());
   const Id type = text_type(H5T_VARIABLE);
-  impl_->write(path, type, type, pointers.data(), {{dimension, values.size()}}, sizeof(char*), "",
+  constexpr std::size_t in_one_piece = 0;  // no filter takes texts of any length
+  impl_->write(path, type, type, pointers.data(), {{dimension, values.size()}}, in_one_piece, "",
                long_name);
 }
 

@@ -237,6 +237,22 @@ TEST(RunFile, KeepsWhatEachRockLeftOfAPanel) {
   EXPECT_EQ(back.panels[2].deflection, -0.5);
 }
 
+TEST(RunFile, HoldsThousandsOfLinesAndObjects) {
+  const TemporaryFile file("many.h5");
+  RunFile run = sample(1, 1);
+  for (int i = 0; i < 3000; ++i) {
+    const double x = i;
+    run.lines.push_back(talus::record_line("fence." + std::to_string(i), {{x, 0, 1}, {x, 10, 1}}));
+    run.objects.push_back({"hut " + std::to_string(i), "hut", {{{{x, 20}}, false}}, 1});
+  }
+  talus::write_run_file(file.path, run);
+  const RunFile back = talus::read_run_file(file.path);
+  ASSERT_EQ(back.lines.size(), run.lines.size());
+  EXPECT_EQ(back.lines.back().name, "fence.2999");
+  ASSERT_EQ(back.objects.size(), run.objects.size());
+  EXPECT_EQ(back.objects.back().name, "hut 2999");
+}
+
 TEST(RunFile, HoldsARunWithoutRows) {
   const TemporaryFile file("empty.h5");
   RunFile run = sample(0, 0);
