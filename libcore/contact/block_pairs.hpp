@@ -22,7 +22,7 @@ namespace talus {
 
 struct PairSettings {
   double margin = 0;  ///< points are reported up to this gap plus the coming step's motion [m]
-  bool with_areas = false;  ///< areas are needed for bonds only
+  bool with_areas = false;  ///< for bonds and rough joints
   /// A body that slides over a floor of several blocks grazes the sides of those that it has just
   /// reached: a contact is dropped as grazing when the parts overlap by less than this part of
   /// their thickness (plus graze_m) along another face normal, and another block already supports

@@ -53,6 +53,14 @@ double mean_friction(const GroundClass& ground, double speed, double way, double
   return (scar_work(ground, way + path) - scar_work(ground, way)) / path;
 }
 
+double rough_friction(const GroundClass& joint, double stress) {
+  constexpr double steepest = 70 * pi / 180;
+  if (!(stress < joint.wall_strength)) return joint.friction;
+  const double decades = std::log10(joint.wall_strength / std::max(stress, 1e-300));
+  const double angle = std::min(steepest, joint.residual + joint.roughness * decades);
+  return joint.friction * std::max(1.0, std::tan(angle) / std::tan(joint.residual));
+}
+
 double rolling_on(const GroundClass& ground, double weight, double radius) {
   if (ground.bearing == 0) return ground.rolling;
   return std::min(most_by_bearing,

@@ -27,6 +27,10 @@ struct GroundClass {
   double weakening_speed = 0;  ///< U_w: slip speed at which half of the drop is reached [m/s]
   double drag_per_time = 0;    ///< nu [1/s]
   double drag_per_way = 0;     ///< c [1/m]
+  // a rough joint, see rough_friction()
+  double roughness = 0;      ///< JRC, the angle per decade of JCS over stress; 0: smooth [rad]
+  double wall_strength = 0;  ///< JCS [Pa]
+  double residual = 0;       ///< phi_r, whose tangent `friction` is [rad]
 };
 
 /// The numbers of yielding ground: at least 0, or as in firm ground.
@@ -48,6 +52,7 @@ inline constexpr std::array yielding_numbers = {
 [[nodiscard]] inline bool varies_friction(const GroundClass& ground) {
   return scars(ground) || weakens(ground);
 }
+[[nodiscard]] inline bool is_rough(const GroundClass& ground) { return ground.roughness > 0; }
 [[nodiscard]] inline bool drags(const GroundClass& ground) {
   return ground.drag_per_time > 0 || ground.drag_per_way > 0;
 }
@@ -74,6 +79,13 @@ struct RestitutionFall {
 [[nodiscard]] double friction_on(const GroundClass& ground, double speed, double way);
 [[nodiscard]] double mean_friction(const GroundClass& ground, double speed, double way,
                                    double path);
+
+/// tan(phi) of a rough joint at a normal stress [Pa] by Barton and Bandis:
+///
+///     tan(phi_r + JRC log10(JCS / stress)), from phi_r up to 70 degrees.
+///
+/// Where strength is reduced, `friction` is less than the tangent of phi_r, and this in proportion.
+[[nodiscard]] double rough_friction(const GroundClass& joint, double stress);
 
 /// mu_r for a block whose sphere of equal volume has `radius`, of `weight` per volume [N/m3]: by
 /// the ground's bearing strength 4 / (3 pi) sqrt(8 weight radius / (3 q)), at most 0.5.

@@ -154,6 +154,8 @@ Stability find_stability(const Scene& scene, const StabilitySettings& settings,
 
 std::optional<double> factor_as_one_body(const Scene& scene, const BlockSet& blocks) {
   std::vector<BlockContact> bed;
+  std::vector<const GroundClass*> classes;
+  Vec3 area_vector = Vec3::Zero();
   for (int b = 0; b < n_blocks(blocks); ++b) {
     const Polyhedron shell = block_shell(blocks, b);
     for (int f = 0; f < n_faces(shell); ++f) {
@@ -162,18 +164,25 @@ std::optional<double> factor_as_one_body(const Scene& scene, const BlockSet& blo
       const int triangle = triangle_at(scene.ground.trn, at.x(), at.y());
       const GroundClass& ground = scene.ground.classes[class_of(scene.ground, triangle)];
       const double area = face_area(shell, f);
+      area_vector -= face_area_vector(shell, f);
+      classes.push_back(&ground);
       bed.push_back({-1, {-face_normal(shell, f), ground.friction, ground.cohesion * area}, area});
     }
   }
   SlidingMass mass;
-  mass.planes = merged(bed);
-  if (mass.planes.empty() || mass.planes.size() > 2) return std::nullopt;
   for (const PointLoad& load : scene.loads) {
     const bool is_inside = load.wet_face >= 0 && scene.wet_faces[load.wet_face].block_b >= 0;
     if (!is_inside) mass.water += load.force;
   }
   const Vec3& g = scene.gravity;
   for (const double m : scene.blocks.mass) mass.weight -= m * g.z();
+  // of a rough bed, at the mean stress
+  const Vec3 force = mass.weight / -g.z() * g + mass.water;
+  const double stress = std::max(0.0, -force.dot(area_vector)) / area_vector.squaredNorm();
+  for (size_t i = 0; i < bed.size(); ++i)
+    if (is_rough(*classes[i])) bed[i].plane.friction = rough_friction(*classes[i], stress);
+  mass.planes = merged(bed);
+  if (mass.planes.empty() || mass.planes.size() > 2) return std::nullopt;
   return sliding_factor(mass, Vec3(g.x(), g.y(), 0) / -g.z());
 }
 

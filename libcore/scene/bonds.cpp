@@ -24,7 +24,9 @@ GroundClass face_class(const Scene& scene, int block, int joint_set) {
   GroundClass made = joints.of_block.empty() ? scene.joint : joints.of_block[block];
   if (joint_set < 0 || static_cast<size_t>(joint_set) >= joints.of_set.size()) return made;
   const GroundClass& set = joints.of_set[joint_set];
-  if (set.friction >= 0) made.friction = set.friction;
+  if (set.friction >= 0) made.friction = set.friction, made.residual = set.residual;
+  made.roughness = set.roughness;
+  made.wall_strength = set.wall_strength;
   made.weak_friction = std::min(made.weak_friction, made.friction);
   made.cohesion = set.cohesion;
   made.tension = set.tension;
@@ -49,6 +51,9 @@ GroundClass smaller(const GroundClass& a, const GroundClass& b) {
                    std::min(a.tension, b.tension), std::min(a.restitution, b.restitution)};
   made.weak_friction = std::min(a.weak_friction, b.weak_friction);
   made.weakening_speed = std::min(a.weakening_speed, b.weakening_speed);
+  made.roughness = std::min(a.roughness, b.roughness);
+  made.wall_strength = std::min(a.wall_strength, b.wall_strength);
+  made.residual = a.friction < b.friction ? a.residual : b.residual;
   return made;
 }
 

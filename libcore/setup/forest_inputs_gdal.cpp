@@ -119,19 +119,13 @@ void check_number(const ForestSection& s, const std::optional<Area>& area,
              "draw the stand smaller, or check the unit: stems on a hectare");
 }
 
-double factor_of(const ForestSettings& forest, int species) {
-  if (species == 0) return forest.fe_conifer;
-  if (species == 1) return forest.fe_broadleaf;
-  return known_species()[species].factor;
-}
-
 Stem stem_of(const ForestSettings& forest, const Vec3& foot, double dbh, int species) {
   Stem stem;
   stem.foot = foot;
   stem.height = forest.height_m;
   stem.radius = dbh / 2;
-  stem.capacity = stem_capacity(factor_of(forest, species), dbh);
-  stem.deflection = forest.deflection_m;
+  stem.capacity = stem_capacity(known_species()[species].factor, dbh);
+  stem.deflection = 0.5;  // over which it takes that energy [m]
   stem.species = species;
   return stem;
 }

@@ -64,10 +64,12 @@ std::vector<std::string> warn_of_settings(InputLog& log, const Site& site) {
            ".max_deflection_m does nothing without capacity_kj: the fence is rigid");
   if (is_paper && solver.friction == "weakening")
     warn("friction weakens with law talus alone: law paper takes that of the sections");
-  for (const GroundSettings& ground : site.grounds)
-    if (is_paper && yields(ground_class(ground)))
-      warn("ground." + ground.name +
-           " gives way with law talus alone: law paper knows its friction and COR");
+  for (const GroundSettings& ground : site.grounds) {
+    const GroundClass made = ground_class(ground);
+    if (is_paper && (yields(made) || is_rough(made)))
+      warn("ground." + ground.name + (is_rough(made) ? " is rough" : " gives way") +
+           " with law talus alone: law paper knows its friction and COR");
+  }
   if (!site.quantities.empty() && site.uncertainty.sample == 0)
     warn(std::to_string(site.quantities.size()) +
          (site.quantities.size() == 1 ? " quantity" : " quantities") +

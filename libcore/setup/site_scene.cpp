@@ -19,13 +19,20 @@ namespace {
 
 double or_none(double value) { return std::isnan(value) ? 0 : value; }
 
+// Barton and Bandis.
+template <class Section>
+void set_roughness(const Section& drawn, GroundClass& made) {
+  made.roughness = or_none(drawn.jrc) * degree;
+  made.wall_strength = 1e6 * or_none(drawn.jcs_mpa);
+  made.residual = or_none(drawn.friction_deg) * degree;
+}
+
 // What ground that gives way does.
 void set_yielding(const GroundSettings& drawn, GroundClass& made) {
   made.half_speed = or_none(drawn.cor_half_speed_m_s);
   made.half_energy = 1e3 * or_none(drawn.cor_half_energy_kj);
   made.rolling = or_none(drawn.rolling_resistance);
   made.bearing = 1e3 * or_none(drawn.bearing_kpa);
-  if (!std::isnan(drawn.spin_resistance)) made.spinning = drawn.spin_resistance;
   made.scar_friction = or_none(drawn.scar_friction);
   made.scar_rate = or_none(drawn.scar_rate_1_m);
   made.scar_decay = or_none(drawn.scar_decay_1_s);
@@ -87,6 +94,7 @@ JointClasses joint_classes(const Site& site, const BlockSet& blocks,
     if (weakens(site.solver)) made.friction = weakened(made.friction);
     made.cohesion = joints->cohesion_pa;
     made.tension = joints->tension_pa;
+    set_roughness(*joints, made);
   }
   return classes;
 }
@@ -129,6 +137,7 @@ GroundClass ground_class(const GroundSettings& drawn) {
   made.cohesion = drawn.cohesion_pa;
   made.tension = drawn.tension_pa;
   made.restitution = drawn.cor;
+  set_roughness(drawn, made);
   set_yielding(drawn, made);
   return made;
 }

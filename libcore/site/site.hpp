@@ -90,6 +90,7 @@ struct JointSettings {
   std::string measured_file;
   std::int64_t n_sets = 1;
   double friction_deg = not_given, cohesion_pa = 0, tension_pa = 0;
+  double jrc = not_given, jcs_mpa = not_given;  ///< as of GroundSettings
 };
 
 /// [material.NAME]: the rock of blocks.
@@ -113,12 +114,12 @@ struct GroundSettings {
   int line = 0;
   double friction_deg = 30;
   double cohesion_pa = 0, tension_pa = 0;
-  double cor = 0.3;                       ///< along the normal
+  double jrc = not_given, jcs_mpa = not_given;  ///< roughness; friction_deg is residual
+  double cor = 0.3;                             ///< along the normal
   std::string soil;                       ///< fills keys that are not given; libcore/site/soils.hpp
   double cor_half_speed_m_s = not_given;  ///< approach at which the COR is half of `cor`
   double cor_half_energy_kj = not_given;  ///< or energy of the approach
   double rolling_resistance = not_given;  ///< largest couple over normal force and radius
-  double spin_resistance = not_given;     ///< of pivoting; not given: as rolling
   double bearing_kpa = not_given;         ///< rolling resistance by the block's size instead
   double scar_friction = not_given, scar_rate_1_m = not_given, scar_decay_1_s = not_given;
   double drag_1_s = 0, drag_1_m = 0;
@@ -187,9 +188,7 @@ struct ForestSettings {
   double dbh_mean_cm = 30, dbh_std_cm = 10;  ///< diameter at breast height, gamma distributed
   double conifer_share = 1;
   std::string nrtrees_raster, dbhmean_raster, dbhstd_raster, conif_percent_raster;
-  std::string stems_file;                         ///< points with dbh_cm, and species or conifer
-  double fe_conifer = 0.93, fe_broadleaf = 1.59;  ///< FE of the energy that breaks a stem
-  double deflection_m = 0.5;                      ///< over which it takes that energy
+  std::string stems_file;  ///< points with dbh_cm, and species or conifer
   double height_m = 20, friction_deg = 16.7;
   double drag_kg_s = 0;  ///< d of the force -d v on a block below the canopy
   std::int64_t seed = 1;

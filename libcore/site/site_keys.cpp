@@ -100,7 +100,9 @@ template <> const std::vector<SiteKey<JointSettings>>& keys_of() {
       {"n_sets", &S::n_sets, "number of sets that measured pairs are grouped into", {1, 12}},
       {"friction_deg", &S::friction_deg, "friction angle of the joints; that of the material when not given", angle_below_90, "", friction_hint},
       {"cohesion_pa", &S::cohesion_pa, "cohesion of the joints", not_negative},
-      {"tension_pa", &S::tension_pa, "tensile strength of the joints", not_negative}};
+      {"tension_pa", &S::tension_pa, "tensile strength of the joints", not_negative},
+      {"jrc", &S::jrc, "roughness coefficient of Barton and Bandis: friction_deg is the residual angle, and friction grows as the normal stress falls", {0, 20, true, false}},
+      {"jcs_mpa", &S::jcs_mpa, "compressive strength of the joint walls, with jrc", {0, 500, true, false}}};
   return table;
 }
 template <> const std::vector<SiteKey<MaterialSettings>>& keys_of() {
@@ -123,12 +125,13 @@ template <> const std::vector<SiteKey<GroundSettings>>& keys_of() {
       {"friction_deg", &S::friction_deg, "friction angle on the ground", angle_below_90, "", friction_hint},
       {"cohesion_pa", &S::cohesion_pa, "cohesion on the ground", not_negative},
       {"tension_pa", &S::tension_pa, "tensile strength on the ground", not_negative},
+      {"jrc", &S::jrc, "roughness coefficient of Barton and Bandis: friction_deg is the residual angle, and friction grows as the normal stress falls", {0, 20, true, false}},
+      {"jcs_mpa", &S::jcs_mpa, "compressive strength of the joint walls, with jrc", {0, 500, true, false}},
       {"cor", &S::cor, "coefficient of restitution along the normal", share},
       {"soil", &S::soil, "kind of ground that fills keys which are not given, see Soils", any, "rock|thin_soil|talus|scree|meadow|soft_soil|swamp|asphalt"},
       {"cor_half_speed_m_s", &S::cor_half_speed_m_s, "approach at which the COR is half of cor, cor / (1 + speed / this); constant when not given", positive},
       {"cor_half_energy_kj", &S::cor_half_energy_kj, "energy of the approach at which the COR is half of cor, instead of cor_half_speed_m_s", positive},
       {"rolling_resistance", &S::rolling_resistance, "largest couple against rolling over normal force and radius of the block; none when not given", share},
-      {"spin_resistance", &S::spin_resistance, "the same against pivoting about the normal; as against rolling when not given", share},
       {"bearing_kpa", &S::bearing_kpa, "strength of the ground that gives the rolling resistance by the dent of the block's weight or hit, instead of rolling_resistance", positive},
       {"scar_friction", &S::scar_friction, "tan(phi) that friction grows to as a block slides, from that of friction_deg", not_negative, "", "a friction coefficient, 2 is steep"},
       {"scar_rate_1_m", &S::scar_rate_1_m, "growth per metre slid", positive},
@@ -207,9 +210,6 @@ template <> const std::vector<SiteKey<ForestSettings>>& keys_of() {
       {"dbhstd_raster", &S::dbhstd_raster, "raster of their standard deviations [cm]"},
       {"conif_percent_raster", &S::conif_percent_raster, "raster of the percentage of conifers"},
       {"stems_file", &S::stems_file, "vector file of stems instead of a stand: points with field dbh_cm, and species or conifer (1 or 0) where known"},
-      {"fe_conifer", &S::fe_conifer, "factor on the energy that breaks a conifer", {0, 10, true, false}},
-      {"fe_broadleaf", &S::fe_broadleaf, "the same of a broadleaf", {0, 10, true, false}},
-      {"deflection_m", &S::deflection_m, "path of the block over which a stem takes its energy", {0, 10, true, false}},
       {"height_m", &S::height_m, "height above the ground up to which stems stop blocks, or the canopy drags them", {0, 1000, true, false}},
       {"friction_deg", &S::friction_deg, "friction angle between block and stem", angle_below_90, "", friction_hint},
       {"drag_kg_s", &S::drag_kg_s, "viscous drag on a block in the polygon below height_m, instead of stems: 250 open, 500 medium, 750 dense forest", {0, 100000}},

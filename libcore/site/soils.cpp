@@ -68,17 +68,17 @@ void take_back(Site& site, GroundSettings& ground) {
 }
 
 /// Checks of one section.
-struct GroundCheck {
+struct SectionCheck {
   const Site& site;
-  const GroundSettings& ground;
+  std::string section;
 
-  [[nodiscard]] bool is_given(const char* key) const {
-    return !std::isnan(number_key(site, key_of(ground, key))->value);
+  [[nodiscard]] double value(const char* key) const {
+    return number_key(site, section + "." + key)->value;
   }
+  [[nodiscard]] bool is_given(const char* key) const { return !std::isnan(value(key)); }
   [[noreturn]] void refuse(const char* key, const std::string& finding,
                            const std::string& hint) const {
-    throw InputError(where_of(site, key_of(ground, key)), "[ground." + ground.name + "] " + finding,
-                     hint);
+    throw InputError(where_of(site, section + "." + key), "[" + section + "] " + finding, hint);
   }
   void exclude(const char* a, const char* b, const char* hint) const {
     if (is_given(a) && is_given(b))
@@ -89,7 +89,28 @@ struct GroundCheck {
       refuse(a, std::string("has ") + a + " without " + b, std::string("give ") + b + " too");
   }
 
-  void check() const {
+  // Strength of Barton and Bandis, of joints and of ground.
+  void check_roughness() const {
+    need("jrc", "jcs_mpa");
+    need("jcs_mpa", "jrc");
+    need("jrc", "friction_deg");
+    if (!is_given("jrc")) return;
+    if (value("cohesion_pa") > 0 || value("tension_pa") > 0)
+      refuse("jrc", "has jrc and cohesion or tension, which exclude each other",
+             "a rough joint has its strength at low stress from its roughness");
+    if (value("friction_deg") == 0)
+      refuse("friction_deg", "has jrc, and friction_deg is 0",
+             "friction_deg is the residual angle there, e.g. 28");
+    if (site.solver.friction == "weakening")
+      refuse("jrc",
+             "has jrc, and with [solver] friction = \"weakening\" friction follows the speed",
+             "leave one out");
+  }
+
+  void check_ground(const GroundSettings& ground) const {
+    check_roughness();
+    exclude("jrc", "scar_friction", "friction follows the normal stress, or the slid distance");
+    exclude("jrc", "friction_weak_deg", "friction follows the normal stress, or the speed");
     exclude("cor_half_speed_m_s", "cor_half_energy_kj",
             "one says how COR falls: by speed, or by energy");
     exclude("rolling_resistance", "bearing_kpa",
@@ -151,7 +172,10 @@ void fill_from_soils(Site& site) {
 }
 
 void check_grounds(const Site& site) {
-  for (const GroundSettings& ground : site.grounds) GroundCheck{site, ground}.check();
+  for (const GroundSettings& ground : site.grounds)
+    SectionCheck{site, "ground." + ground.name}.check_ground(ground);
+  for (const JointSettings& joints : site.joints)
+    SectionCheck{site, "joints." + joints.name}.check_roughness();
 }
 
 }  // namespace talus

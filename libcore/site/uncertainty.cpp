@@ -508,7 +508,8 @@ void check_places(const Site& site) {
 bool is_rock_key(const std::string& path) {
   const std::string group = group_of(path), key = last_word(path);
   if (group == "joints")
-    return key != "friction_deg" && key != "cohesion_pa" && key != "tension_pa";
+    return key != "friction_deg" && key != "cohesion_pa" && key != "tension_pa" && key != "jrc" &&
+           key != "jcs_mpa";
   return group == "source" || group == "blocks" || group == "rockfall";
 }
 

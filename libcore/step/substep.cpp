@@ -13,6 +13,7 @@
 #include "solver/law_numbers.hpp"
 #include "step/flight.hpp"
 #include "step/loads.hpp"
+#include "step/rough_joints.hpp"
 
 namespace talus {
 namespace {
@@ -440,6 +441,7 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
   const Mat3 to_body = s.R.transpose();
   set_motions(scene, b, s, to_body, contacts, rows);
   inherit_all(scene, c, s, to_body, memory, contacts, rows);
+  set_rough_friction(scene, b, to_body, memory, rows);
   for (size_t i = 0; i < rows.size(); ++i) {
     ContactRow& row = rows[i];
     if (row.memory < 0) {

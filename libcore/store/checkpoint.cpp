@@ -24,8 +24,9 @@ static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
 static_assert(sizeof(MetBody) == 64 && sizeof(StemHit) == 80);
 static_assert(sizeof(FenceState) == 24 + sizeof(HitChain) && sizeof(HitChain) == 2 * 24);
 static_assert(sizeof(FenceHit) == 104);
-// Ground fields of a bond's face are those of joints: joints do not yield as ground does.
-static_assert(sizeof(BlockBond) == 40 + sizeof(GroundClass) && sizeof(GroundClass) == 128);
+// Ground fields of a bond's face are those of joints with cohesion: they neither yield as ground does
+// nor are rough.
+static_assert(sizeof(BlockBond) == 40 + sizeof(GroundClass) && sizeof(GroundClass) == 152);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
 static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&

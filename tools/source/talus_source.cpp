@@ -12,6 +12,7 @@
 #include "blocks/limit_equilibrium.hpp"
 #include "import/dem_gdal.hpp"
 #include "setup/site_crs_gdal.hpp"
+#include "setup/site_shapes_gdal.hpp"
 #include "setup/sliding_sets.hpp"
 #include "setup/source_cut_gdal.hpp"
 #include "setup/water_inputs_gdal.hpp"
@@ -131,8 +132,20 @@ struct Sliding {
   std::vector<Attitude> planes;
 };
 
-std::vector<Sliding> sliding_masses(const BlocksWork& work) {
+std::vector<Sliding> sliding_masses(Tool& tool, const BlocksWork& work) {
   std::vector<Sliding> masses;
+  const SourceSettings& source = work.site.source;
+  if (source.failure_surface == "plane") {
+    const std::vector<double>& p = source.plane_point_m;
+    SourceOptions given = plan_source(work.site, work.ground.origin);
+    given.plane_point = local_points(tool, work.site, work.ground, {Vec3(p[0], p[1], p[2])},
+                                     "source", "plane_point_m")[0];
+    masses.push_back({"plane of [source]",
+                      given.plane_dip_direction,
+                      given,
+                      find_source(work.ground, work.area, given, where_of_area(work)).volume,
+                      {{given.plane_dip, given.plane_dip_direction}}});
+  }
   for (const FailurePlane& plane : work.planes.planes)
     if (plane.volume > 0)
       masses.push_back({plane.set,
@@ -158,7 +171,7 @@ Json limit_equilibrium_json(Tool& tool, const BlocksWork& work) {
   const MaterialSettings& rock =
       work.site.materials[material_index(work.site, work.site.source.material)];
   Json rows = Json::array();
-  for (const Sliding& one : sliding_masses(work)) {
+  for (const Sliding& one : sliding_masses(tool, work)) {
     SlidingMass mass;
     mass.weight = rock.density_kg_m3 * work.site.solver.gravity_m_s2 * one.volume;
     for (const Attitude& plane : one.planes)

@@ -8,6 +8,7 @@
 #include "solver/law_numbers.hpp"
 #include "step/island/island_soil.hpp"
 #include "step/island/stages.hpp"
+#include "step/rough_joints.hpp"
 #include "step/substep.hpp"
 
 namespace talus {
@@ -216,6 +217,7 @@ struct ContactMaker {
         ca.mass * std::min(ca.least_stiffness / ca.mass, cb.least_stiffness / cb.mass);
     meeting.numbers.sag = rest ? std::min(ca.sag, cb.sag) : std::max(ca.sag, cb.sag);
     if (meeting.bond >= 0) meeting.numbers.sag = 0;
+    set_rough_friction(scene, m, memory_of(m.block_a), meeting.faces);
     return meeting;
   }
 

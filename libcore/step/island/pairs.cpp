@@ -13,6 +13,7 @@
 #include "step/island/stems.hpp"
 #include "step/island/step_island.hpp"
 #include "step/mass/stages.hpp"
+#include "step/rough_joints.hpp"
 #include "step/substep.hpp"
 
 namespace talus {
@@ -87,7 +88,7 @@ void search_marked(const Scene& scene, double h, State& state, PairSearch& searc
   const Blocks& blocks = scene.blocks;
   PairSettings settings;
   settings.margin = pair_margin(scene, h);
-  settings.with_areas = !state.bonds.empty();
+  settings.with_areas = !state.bonds.empty() || has_rough_joints(scene);
   settings.workers = search.workers;
   settings.closing = mass_reach(scene, h) + scene.gravity.norm() * h * h;
   search.in_mass.clear();

@@ -11,6 +11,7 @@
 #include "step/island/stems.hpp"
 #include "step/loads.hpp"
 #include "step/mass/stages.hpp"
+#include "step/rough_joints.hpp"
 #include "step/soil.hpp"
 #include "step/substep.hpp"
 
@@ -324,7 +325,8 @@ struct MassMaker {
     const int fixed = on_fixed ? fixed_of(scene, m.block_b) : -1;
     const Yielding* yielding = on_fixed ? giving_way(scene, fixed, m.normal) : nullptr;
     open_pair(static_cast<int>(ka), on_fixed ? -1 : members.place[m.block_b]);
-    const GroundClass of = on_fixed ? fixed_class(scene, fixed) : pair_class(scene, m);
+    GroundClass of = on_fixed ? fixed_class(scene, fixed) : pair_class(scene, m);
+    if (!on_fixed) set_rough_friction(scene, m, state.memory[m.block_a], of);
     Faces faces;
     bool is_first = true;
     for (int p = m.point_begin; p < m.point_end; ++p) {

@@ -41,8 +41,7 @@ awk "BEGIN { exit !($grass < 0.5 * $bare) }" || fail "on meadow $grass m, on roc
 # all laws at once: the same when it is done again
 make_classes 1
 for run in once again; do
-  expect 0 run_dda -o "$run.h5" --set ground.grass.spin_resistance=0.1 \
-    --set ground.grass.scar_friction=1.5 --set ground.grass.scar_rate_1_m=1 \
+  expect 0 run_dda -o "$run.h5" --set ground.grass.scar_friction=1.5 --set ground.grass.scar_rate_1_m=1 \
     --set ground.grass.scar_decay_1_s=50 --set ground.grass.drag_1_s=0.3
 done
 cmp -s once.h5 again.h5 || fail "two runs with all laws of ground differ"

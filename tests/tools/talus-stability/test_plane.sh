@@ -80,6 +80,20 @@ expect 0 talus-stability crack.toml --trn bed.tif --blocks blocks.h5 --no-db -o 
 holds crack "j['water'] == 'water in the cracks above their foot [m]' and r[0]['water_m'] == 0"
 holds crack "g['fails_at_m'] is None and 'it stands at every level of the water' in j['words'][0]"
 
+# Barton and Bandis: the residual angle alone does not hold the mass; drawn, half of the samples do
+sed '/^\[water\]/,$d' site.toml >rough.toml
+sed -i '/^\[ground.rock\]/,$ s/^friction_deg = 30/friction_deg = 18\njrc = 5\njcs_mpa = 60/' rough.toml
+cat >>rough.toml <<'TOML'
+[uncertainty.roughness]
+keys = ["ground.rock.jrc"]
+distribution = "discrete"
+values = [1, 4]
+TOML
+expect 0 talus-stability rough.toml --trn bed.tif --blocks blocks.h5 -q --no-db -o rough
+holds rough "r[0]['as_one_body'] > 1.1 * tan(18) / tan(25)"
+holds rough "abs(r[0]['mass']['factor'] / r[0]['as_one_body'] - 1) < 0.015"
+holds rough "4 <= j['drawn']['failed'] <= 8"
+
 # The failed samples are those whose friction is below 25 degrees: about half of 23 to 27
 sed '/^\[water\]/,$d' site.toml >drawn.toml
 cat >>drawn.toml <<'TOML'

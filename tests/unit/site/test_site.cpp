@@ -349,7 +349,14 @@ TEST(SiteSoil, KeysThatExcludeOrNeedEachOtherAreRefused) {
       "scar_friction = 2\nscar_rate_1_m = 1\nscar_decay_1_s = 9\nfriction_weak_deg = 5\n"
       "weakening_speed_m_s = 4\n",
       "scar_friction and friction_weak_deg");
-  says("rolling_resistance = 0.1\nspin_resistance = 0.05\ndrag_1_s = 1\n", "accepted");
+  says("jrc = 10\n", "jrc without jcs_mpa");
+  says("jcs_mpa = 100\n", "jcs_mpa without jrc");
+  says("jrc = 10\njcs_mpa = 100\ncohesion_pa = 1e4\n", "jrc and cohesion or tension");
+  says("jrc = 10\njcs_mpa = 100\nfriction_deg = 0\n", "friction_deg is 0");
+  says("jrc = 10\njcs_mpa = 100\nfriction_weak_deg = 5\nweakening_speed_m_s = 4\n",
+       "jrc and friction_weak_deg");
+  says("jrc = 10\njcs_mpa = 100\n", "accepted");
+  says("rolling_resistance = 0.1\ndrag_1_s = 1\n", "accepted");
 }
 
 // --- layers for sections -------------------------------------------------------------------------

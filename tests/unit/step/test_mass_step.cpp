@@ -214,6 +214,51 @@ TEST(MassStep, FrictionBetweenBlocksWeakensWithSpeed) {
         weakening_way(5), 5e-3 * weakening_way(5));
 }
 
+// On rough ground, and between blocks, friction is that at the stress of each cube or tile.
+TEST(MassStep, RoughJointsSlideAtTheStressOfTheirBlocks) {
+  const auto rough = [](double residual_deg) {
+    GroundClass made = ground_of(residual_deg, 0.3);
+    made.residual = residual_deg * degree;
+    made.roughness = 8 * degree;
+    made.wall_strength = 50e6;
+    return made;
+  };
+  const auto tangent = [](double residual_deg, double stress) {
+    return std::tan((residual_deg + 8 * std::log10(50e6 / stress)) * degree);
+  };
+  Lattice cubes;
+  cubes.along = cubes.across = 6;
+  cubes.high = 1;
+  Scene slope = scene_of_lattice(cubes, with_masses(true));
+  slope.ground.classes[0] = rough(4);
+  const Course down = run(slope, 2);
+  EXPECT_GE(down.steps_in_mass, 2 / 0.005 - 5);
+  const double dip = cubes.dip_deg * degree;
+  const double a = g * (std::sin(dip) - tangent(4, 2500 * g * std::cos(dip)) * std::cos(dip));
+  EXPECT_NEAR(place_of(slope, down.state).way / (a * 2 * 2 / 2), 1, 5e-3);
+  EXPECT_LT(std::abs(down.imbalance), 1e-3);
+
+  Lattice tiles = cubes;
+  tiles.thick = 0.2;
+  tiles.above = 1;
+  tiles.velocity = Vec3(5, 0, 0);
+  const SlopeFrame flat = slope_frame(0, 0);
+  std::vector<Body> bodies = cubes_of(tiles, flat, Vec3::Zero());
+  bodies.push_back(body_of(box_in(flat, Vec3::Zero(), Vec3(-1, -1, 0), Vec3(12, 7, 1))));
+  const double way = 5 * 5 / (2 * g * tangent(5, 2500 * g * tiles.thick));
+  for (const bool masses : {false, true}) {
+    Scene slab = scene_of(plane_trn(flat, 4, 400), ground_of(60, 0.3), bodies, with_masses(masses));
+    slab.joint = rough(5);
+    const Course along = run(slab, 2);
+    EXPECT_EQ(along.steps_in_mass > 50, masses);
+    EXPECT_LT(std::abs(along.imbalance), 1e-3);
+    double sum = 0;
+    for (std::size_t b = 0; b < 36; ++b)
+      sum += (along.state.motion[b].pose.position - slab.blocks.rest[b].position).dot(flat.dip);
+    EXPECT_NEAR(sum / 36 / way, 1, 5e-3) << masses;
+  }
+}
+
 // Blocks that fall flat side by side rebound with the restitution, each alone.
 TEST(MassStep, ReboundsWithTheRestitution) {
   Lattice lattice;
