@@ -35,6 +35,16 @@ inline constexpr std::string_view candidate_prefix = "fence_search.";
   return line.name.starts_with(candidate_prefix);
 }
 
+/// Lines at a dam that stands in the terrain: its crest, which has the name behind this one, and
+/// the line before its uphill face, which ends in `before_dam`.
+inline constexpr std::string_view dam_prefix = "dam.", before_dam = ".before";
+[[nodiscard]] inline bool is_dam(const RecordLine& line) {
+  return line.name.starts_with(dam_prefix);
+}
+[[nodiscard]] inline bool is_before_dam(const RecordLine& line) {
+  return is_dam(line) && line.name.ends_with(before_dam);
+}
+
 /// The corners of a line and, between them, posts at equal distances not longer than `spacing`, all
 /// on the ground. Throws InputError at `where` for fewer than two corners, two in a row at the same
 /// place, more than 1e4 posts, and for a post outside the known terrain.

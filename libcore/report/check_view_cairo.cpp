@@ -80,6 +80,10 @@ std::vector<Vec2> plan_of(const ViewedFence& fence) {
   return plan;
 }
 
+std::string title_of(const ViewedFence& fence) {
+  return (is_dam(fence.line) ? "" : "fence ") + fence.line.name;
+}
+
 // What maps of the page have in common: each thing with a note, and its name beside it.
 class CheckMap {
  public:
@@ -130,7 +134,7 @@ class CheckMap {
   void source(const CheckView& view) { rings(view.source, {}, {0.55, rgb(0xc0127a)}, "source"); }
   void fences(const CheckView& view) {
     for (const ViewedFence& fence : view.fences) {
-      lines({plan_of(fence)}, line_stroke(true), "fence " + fence.line.name);
+      lines({plan_of(fence)}, line_stroke(true), title_of(fence));
       name(plan_of(fence), fence.line.name, rgb(0x000000));
     }
   }
@@ -375,7 +379,7 @@ Chart section_chart(const CheckView& view, const Trn& ground, const Trn& bed) {
   chart.series.push_back(std::move(surface));
   for (size_t k = 0; k < view.fences.size(); ++k)
     for (const auto& [along, z] : fences_across(view, ground, k))
-      chart.series.push_back({"fence " + view.fences[k].line.name,
+      chart.series.push_back({title_of(view.fences[k]),
                               "#000000",
                               {along, along},
                               {z + zero, z + zero + view.fences[k].height},

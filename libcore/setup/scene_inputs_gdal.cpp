@@ -16,6 +16,7 @@
 #include "setup/forest_inputs_gdal.hpp"
 #include "setup/ground_class_inputs_gdal.hpp"
 #include "setup/search_lines.hpp"
+#include "setup/site_dams_gdal.hpp"
 #include "setup/site_places_gdal.hpp"
 #include "setup/start_depth.hpp"
 #include "setup/start_overlaps.hpp"
@@ -253,6 +254,10 @@ DdaInputs read_dda_inputs(InputLog& log, const Site& site, const DdaFiles& files
   std::vector<FenceLine> lines;
   for (const FenceSettings& fence : site.fences) add_lines(log, site, fence, inputs, lines);
   check_fences_apart(log, site, parts.trn, lines);
+  for (DamLines& dam : dam_lines(log, site, parts.trn)) {
+    inputs.lines.push_back(std::move(dam.crest));
+    inputs.lines.push_back(std::move(dam.before));
+  }
   inputs.objects = site_objects(log, site, parts.trn);
   for (const FenceSearchSettings& search : site.fence_searches)
     for (RecordLine& line : search_candidates(log, site, parts.trn, search, inputs.objects).lines)

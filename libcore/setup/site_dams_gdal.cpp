@@ -172,6 +172,46 @@ std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn) {
   return all;
 }
 
+namespace {
+
+// Beside the line, at corners where its pieces' own lines meet.
+std::vector<Vec2> beside(const std::vector<Vec2>& line, double distance) {
+  std::vector<Vec2> out;
+  const auto left_of = [&line](std::size_t piece) {
+    const Vec2 along = (line[piece + 1] - line[piece]).normalized();
+    return Vec2(-along.y(), along.x());
+  };
+  const std::size_t last = line.size() - 2;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const Vec2 a = left_of(i == 0 ? 0 : i - 1), b = left_of(std::min(i, last));
+    out.emplace_back(line[i] + distance / (1 + a.dot(b)) * (a + b));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn) {
+  constexpr double spacing = 10;
+  std::vector<DamLines> all;
+  for (const DamSettings& settings : site.dams) {
+    if (!settings.active) continue;
+    const Where where = where_of_dam(site, settings);
+    for (const SiteDam& dam : dams_of(log, site, trn, settings)) {
+      const DamShape& shape = dam.shape;
+      // half the height more: the centroid of a block that touches the face has crossed the line
+      const double off =
+          uphill_side(trn, shape) *
+          (shape.crest_width / 2 + shape.height / shape.tan_uphill + shape.height / 2);
+      const std::string name = std::string(dam_prefix) + dam.name;
+      all.push_back({&settings, record_line(name, posts_on_ground(trn, shape.line, spacing, where)),
+                     record_line(name + std::string(before_dam),
+                                 posts_on_ground(trn, beside(shape.line, off), spacing, where))});
+    }
+  }
+  return all;
+}
+
 std::string sentence_on(const BuiltDam& built) {
   const Dam& dam = built.dam;
   const auto volumes = [](const Earthwork& work, bool has_cut) {

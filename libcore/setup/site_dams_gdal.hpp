@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/input_log.hpp"
+#include "record/crossings.hpp"
 #include "site/site.hpp"
 #include "terrain/dam.hpp"
 
@@ -31,6 +32,16 @@ struct BuiltDam {
 /// them. Tells the log what cells of this size cannot represent. Throws InputError as dams_of(),
 /// for a dam that cannot be built where it is (DamFault), and for two that share a node.
 std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn);
+
+/// The two lines that a run watches for a dam in the ground of `trn`, with a point every ten
+/// metres: the crest, and, where blocks come to the dam, one as far before it as the uphill face
+/// would run on level ground and half the height more.
+struct DamLines {
+  const DamSettings* settings = nullptr;
+  RecordLine crest, before;
+};
+/// Of all that are active. Throws InputError as dams_of() and posts_on_ground().
+[[nodiscard]] std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn);
 
 /// "dam valley: 62 m long, crest 4.9 to 5.2 m above the ground, fill 1240 m3, cut 310 m3 ..."
 [[nodiscard]] std::string sentence_on(const BuiltDam& built);

@@ -80,6 +80,7 @@ PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
         std::max({facts.largest_cohesion, joints.cohesion_pa, joints.tension_pa});
   }
   facts.n_fences = static_cast<int>(site.fences.size());
+  for (const DamSettings& dam : site.dams) facts.n_dams += dam.active;
   facts.n_fence_searches = static_cast<int>(site.fence_searches.size());
   for (const FenceSettings& fence : site.fences)
     facts.n_standing += fence.active && site.solver.law == "talus";
@@ -151,13 +152,15 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
   plan.passages = add(
       kept_by_full(full, {"passages", facts.passages, "one row a block and cell, for maps",
                           facts.passages ? "[output] passages" : "[output] passages is false"}));
+  const std::string dams =
+      facts.n_dams == 0 ? "" : " and two lines of " + counted(facts.n_dams, "dam");
   const std::string searches =
       facts.n_fence_searches == 0
           ? ""
           : " and candidates of [fence_search.*]: " + std::to_string(facts.n_fence_searches);
-  plan.crossings =
-      add({"crossings", facts.n_fences + facts.n_fence_searches > 0,
-           "one row a block and line of [fence.*]", counted(facts.n_fences, "fence") + searches});
+  plan.crossings = add({"crossings", facts.n_fences + facts.n_dams + facts.n_fence_searches > 0,
+                        "one row a block and line of [fence.*]",
+                        counted(facts.n_fences, "fence") + dams + searches});
   add({"standing fences", facts.n_standing > 0,
        "panels as fixed bodies where a fence is active, law talus",
        counted(facts.n_standing, "fence")});

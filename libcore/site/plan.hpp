@@ -33,7 +33,7 @@ struct PlanFacts {
   std::int64_t n_convex_features = 0;  ///< nodes and edges that stand out (trn_flags)
   std::int64_t n_features = 0;         ///< all nodes and edges
   int n_fences = 0;
-  int n_fence_searches = 0;
+  int n_fence_searches = 0, n_dams = 0;
   int n_standing = 0;   ///< fences that stop blocks
   int n_forests = 0;    ///< of stems that do
   int n_canopies = 0;   ///< forests that drag, law talus

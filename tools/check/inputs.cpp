@@ -59,7 +59,7 @@ std::vector<ViewedInput> viewed_inputs(const Look& look, const std::vector<Json>
   inputs.add("blocks", std::exchange(points, {}));
   for (const RecordLine& fence : look.inputs.lines) {
     for (const Vec3& post : fence.points) points.emplace_back(post.head<2>());
-    inputs.add("fence." + fence.name, std::exchange(points, {}));
+    inputs.add(is_dam(fence) ? fence.name : "fence." + fence.name, std::exchange(points, {}));
   }
   for (const RecordObject& object : look.inputs.objects) {
     for (const auto& polygon : polygons_of(object))
@@ -77,6 +77,7 @@ std::vector<ViewedInput> viewed_inputs(const Look& look, const std::vector<Json>
     inputs.add_written("ground." + ground.name, ground.polygon);
   for (const FenceSettings& fence : site.fences)
     inputs.add_written("fence." + fence.name, fence.line);
+  for (const DamSettings& dam : site.dams) inputs.add_written("dam." + dam.name, dam.line);
   for (const ForestSettings& forest : site.forests)
     inputs.add_written("forest." + forest.name, forest.polygon);
   for (const ObjectSettings& object : site.objects)

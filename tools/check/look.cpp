@@ -254,13 +254,18 @@ const FenceSettings* fence_of(const Site& site, const std::string& line) {
 }
 
 void look_at_fences(Look& look) {
-  for (const RecordLine& line : look.inputs.lines) {
+  const std::vector<RecordLine>& lines = look.inputs.lines;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const RecordLine& line = lines[i];
     const FenceSettings* settings = fence_of(look.work.site, line.name);
-    if (settings == nullptr) continue;  // a candidate of a search: nobody asked for a fence there
+    const bool is_crest = is_dam(line) && !is_before_dam(line);
+    // a candidate of a search: nobody asked for a fence there
+    if (settings == nullptr && !is_crest) continue;
     FenceLook fence;
     fence.line = line;
+    fence.is_dam = is_crest;
     fence.stands = line.standing;
-    fence.height = settings->height_m;
+    if (settings != nullptr) fence.height = settings->height_m;
     fence.low = std::numeric_limits<double>::infinity();
     fence.high = -fence.low;
     for (const Vec3& post : line.points) {
@@ -271,7 +276,9 @@ void look_at_fences(Look& look) {
     }
     fence.nearest = std::numeric_limits<double>::infinity();
     for (const SliderPath& slide : look.slides) {
-      const bool comes = crosses(slide.points, line);
+      // a dam turns them away: they come to the line before it, which is the next
+      const bool comes =
+          crosses(slide.points, line) || (is_crest && crosses(slide.points, lines[i + 1]));
       fence.n_fall_lines += comes;
       fence.nearest = std::min(fence.nearest, comes ? 0 : gap(slide.points, line));
     }
@@ -340,7 +347,7 @@ void doubt_objects(Look& look) {
 
 void doubt_fences(Look& look) {
   for (const FenceLook& fence : look.fences) {
-    const std::string key = "fence." + fence.line.name;
+    const std::string key = fence.is_dam ? fence.line.name : "fence." + fence.line.name;
     std::vector<Vec2> posts;
     for (const Vec3& post : fence.line.points) posts.emplace_back(post.head<2>());
     if (fence.is_in_source)

@@ -35,6 +35,7 @@ struct FenceLook {
   RecordLine line;
   double height = 0;          ///< [m]
   bool stands = false;        ///< it stops blocks
+  bool is_dam = false;        ///< it is the crest of a dam, which is ground
   double low = 0, high = 0;   ///< of its base, local z [m]
   int n_fall_lines = 0;       ///< that cross it
   double nearest = 0;         ///< distance of the nearest fall line; 0 where one crosses it [m]

@@ -308,8 +308,11 @@ std::string fence_section(const Look& look) {
   std::vector<std::vector<std::string>> rows;
   for (const FenceLook& fence : look.fences)
     rows.push_back(
-        {xml_escaped(fence.line.name), fence.stands ? "stands" : "line only",
-         grouped_text(fence.line.chainage.back()), text(fence.height, 3),
+        {xml_escaped(fence.line.name),
+         fence.is_dam   ? "crest"
+         : fence.stands ? "stands"
+                        : "line only",
+         grouped_text(fence.line.chainage.back()), fence.is_dam ? "" : text(fence.height, 3),
          text(std::round(fence.low + look.inputs.origin.z())) + " to " +
              text(std::round(fence.high + look.inputs.origin.z())),
          std::to_string(fence.n_fall_lines) + " of " + std::to_string(look.slides.size())});

@@ -119,8 +119,9 @@ std::string stability_text(const Look& look) {
 std::string fences_text(const Look& look) {
   std::string words;
   for (const FenceLook& fence : look.fences)
-    words += "\nfence " + fence.line.name + ": " + text(fence.line.chainage.back(), 4) +
-             " m long, base at " + text(std::round(fence.low + look.inputs.origin.z())) + " to " +
+    words += "\n" + std::string(fence.is_dam ? "" : "fence ") + fence.line.name + ": " +
+             text(fence.line.chainage.back(), 4) + " m long, base at " +
+             text(std::round(fence.low + look.inputs.origin.z())) + " to " +
              text(std::round(fence.high + look.inputs.origin.z())) + " m; " +
              std::to_string(fence.n_fall_lines) + " of " + std::to_string(look.slides.size()) +
              " fall lines come to it";

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "post/reduce.hpp"
+#include "setup/site_dams_gdal.hpp"
 #include "setup/site_places_gdal.hpp"
 
 namespace talus {
@@ -61,8 +62,27 @@ std::vector<FenceCase> fence_cases(Tool& tool, const Site& site, const Trn& trn)
       cases.push_back({settings, line, make_fence(line, settings)});
     }
   check_fences_apart(tool, site, trn, lines);
-  if (cases.empty())
+  if (cases.empty() && site.dams.empty())
     throw InputError({site.file}, "has no section [fence.*]", "add one with its line and height");
+  return cases;
+}
+
+std::vector<DamCase> dam_cases(Tool& tool, const Site& site, const Trn& trn,
+                               std::vector<FenceCase>& lines) {
+  std::vector<DamCase> cases;
+  const std::vector<DamLines> dams = dam_lines(tool, site, trn);
+  const std::size_t first = lines.size();
+  for (const RecordLine DamLines::*of : {&DamLines::before, &DamLines::crest})
+    for (const DamLines& dam : dams) {
+      FenceSettings settings;
+      settings.name = (dam.*of).name;
+      settings.height_m = dam.settings->height_m;
+      settings.capacity_kj = dam.settings->capacity_kj;
+      lines.push_back({settings, dam.*of, make_fence(dam.*of, settings)});
+    }
+  for (std::size_t i = 0; i < dams.size(); ++i)
+    cases.push_back({dams[i].crest.name.substr(dam_prefix.size()), dams[i].settings->height_m,
+                     1e3 * dams[i].settings->capacity_kj, first + i, first + dams.size() + i});
   return cases;
 }
 

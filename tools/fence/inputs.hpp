@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "post/fence/fence_runs.hpp"
+#include "post/fence/dam_result.hpp"
 #include "tools/frame/fence_code.hpp"
 #include "tools/frame/run_inputs.hpp"
 #include "tools/frame/tool.hpp"
@@ -19,6 +19,10 @@ namespace talus {
 /// Reads the runs of `inputs` and those `without_files` to compare with. `free_border`: f_min [m];
 /// NaN: that of the code. Throws InputError for runs of other fences than those of the site file
 /// (find_line, check_same_fence, check_one_kind).
+/// Dams of the site that stand, whose lines it adds to those of the fences.
+[[nodiscard]] std::vector<DamCase> dam_cases(Tool& tool, const Site& site, const Trn& trn,
+                                             std::vector<FenceCase>& lines);
+
 [[nodiscard]] FenceRuns read_fence_runs(RunInputs& inputs,
                                         const std::vector<std::string>& without_files,
                                         const std::vector<FenceCase>& fences,

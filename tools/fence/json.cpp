@@ -175,6 +175,27 @@ Json fence_json(const FenceCase& fence_case, std::size_t index, const FenceResul
           {"notes", fence_notes(fence_case, index, r, group, code.code)}};
 }
 
+Json dam_json(const DamCase& dam, const DamResult& r, const FenceRunGroup& group,
+              const Fence& crest, const ShareBasis& basis) {
+  Json shares;
+  for (const Verdict v : {Verdict::stopped, Verdict::overtopped, Verdict::bypassed_left,
+                          Verdict::bypassed_right, Verdict::not_reached})
+    shares[text(v)] = share_json(verdict_share(group, dam.arrival, v, basis));
+  const bool is_judged =
+      r.verdict == DesignVerdict::meets || r.verdict == DesignVerdict::does_not_meet;
+  return {{"name", dam.name},
+          {"length_m", length(crest)},
+          {"height_m", dam.height},
+          {"capacity_kj", number_or_null(dam.capacity / 1e3)},
+          {"verdicts", shares},
+          {"arriving", part_json(r.arriving)},
+          {"passing", part_json(r.passing)},
+          {"energy_use", number_or_null(r.energy_use)},
+          {"verdict", text(r.verdict)},
+          {"pass", is_judged ? Json(r.verdict == DesignVerdict::meets) : Json()},
+          {"text", r.text}};
+}
+
 Json comparison_json(const FenceRunGroup& with, const FenceRunGroup& without, std::size_t index) {
   const Json a = ground_json(with, index), b = ground_json(without, index);
   Json change;

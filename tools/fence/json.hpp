@@ -15,6 +15,9 @@ namespace talus {
 
 /// What comes behind the line of fence number `index` with the fences, without them, and the
 /// difference.
+[[nodiscard]] Json dam_json(const DamCase& dam, const DamResult& result, const FenceRunGroup& group,
+                            const Fence& crest, const ShareBasis& basis);
+
 [[nodiscard]] Json comparison_json(const FenceRunGroup& with, const FenceRunGroup& without,
                                    std::size_t index);
 

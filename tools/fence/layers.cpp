@@ -231,9 +231,47 @@ VectorLayer arrivals_layer(const std::vector<FenceCase>& fences, const FenceRunG
 
 std::vector<VectorLayer> fence_layers(const std::vector<FenceCase>& fences,
                                       const std::vector<FenceResult>& results,
+                                      const std::vector<FenceCase>& lines,
                                       const FenceRunGroup& group, const Vec3& origin) {
   return {whole_layer(fences, results, origin), field_layer(fences, results, origin),
-          post_layer(fences, results, origin), arrivals_layer(fences, group, origin)};
+          post_layer(fences, results, origin), arrivals_layer(lines, group, origin)};
+}
+
+VectorLayer dam_layer(const std::vector<DamCase>& dams, const std::vector<DamResult>& results,
+                      const std::vector<Fence>& crests, const Vec3& origin) {
+  struct DamRow {
+    const DamCase& dam;
+    const DamResult& result;
+  };
+  using Dam = const DamRow&;
+  static const std::vector<Field<DamRow>> fields = {
+      {"dam", "", "Dam", [](Dam r) -> Value { return r.dam.name; }, words},
+      {"height_m", "m", "Height of the crest", [](Dam r) -> Value { return r.dam.height; }},
+      {"arrivals", "", "Number of arrivals", [](Dam r) -> Value { return r.result.arriving.n; },
+       whole},
+      {"passed", "", "Number that passed over the crest",
+       [](Dam r) -> Value { return r.result.passing.n; }, whole},
+      {"energy_p95_kj", "kJ", "Kinetic energy of arrivals, 95th percentile",
+       [](Dam r) -> Value { return p95(r.result.arriving.energy).value / kilo; }},
+      {"energy_max_kj", "kJ", "Kinetic energy of arrivals, largest",
+       [](Dam r) -> Value { return r.result.arriving.energy.largest / kilo; }},
+      {"verdict", "", "Verdict", [](Dam r) -> Value { return text(r.result.verdict); }, words},
+      {"verdict_text", "", "Verdict in words", [](Dam r) -> Value { return r.result.text; },
+       words}};
+  VectorLayer layer{"dams",
+                    "crests of the dams with their verdict",
+                    GeometryType::line_zm,
+                    vector_fields(fields),
+                    {},
+                    vector_qml({SymbolKind::line, "verdict", verdict_classes(), 1.4, "\"dam\""})};
+  for (std::size_t i = 0; i < dams.size(); ++i) {
+    VectorFeature feature;
+    for (const Vec3& post : crests[i].post) feature.points.emplace_back(post + origin);
+    feature.measure = crests[i].chainage;
+    feature.values = values_of(fields, {dams[i], results[i]});
+    layer.features.push_back(std::move(feature));
+  }
+  return layer;
 }
 
 }  // namespace talus

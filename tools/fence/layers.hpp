@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/geopackage_gdal.hpp"
-#include "post/fence/fence_result.hpp"
+#include "post/fence/dam_result.hpp"
 
 namespace talus {
 
@@ -14,6 +14,12 @@ namespace talus {
 /// of the local origin [m].
 [[nodiscard]] std::vector<VectorLayer> fence_layers(const std::vector<FenceCase>& fences,
                                                     const std::vector<FenceResult>& results,
+                                                    const std::vector<FenceCase>& lines,
                                                     const FenceRunGroup& group, const Vec3& origin);
+
+/// Crests of dams with their verdicts.
+[[nodiscard]] VectorLayer dam_layer(const std::vector<DamCase>& dams,
+                                    const std::vector<DamResult>& results,
+                                    const std::vector<Fence>& crests, const Vec3& origin);
 
 }  // namespace talus

@@ -107,8 +107,10 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
   if (o.code != "uni" && o.code != "onr") tool.read_also("code", o.code);
   const Trn& trn = inputs.trn();
   const std::vector<FenceCase> fences = fence_cases(tool, site, trn);
-  const FenceRuns runs =
-      read_fence_runs(inputs, o.without, fences, code.code, o.result.design.free_border, site.file);
+  std::vector<FenceCase> lines = fences;
+  const std::vector<DamCase> dams = dam_cases(tool, site, trn, lines);
+  FenceRuns runs =
+      read_fence_runs(inputs, o.without, lines, code.code, o.result.design.free_border, site.file);
   const bool compared = n_runs(runs.without) > 0;
 
   const ShareBasis basis = share_basis(runs.with.clusters, inputs.failed_share());
@@ -122,17 +124,30 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
     warn_of(tool, fences[i], i, results[i], runs);
     summary += (i > 0 ? "\n" : "") + fence_summary(fences[i], i, results[i], runs.with);
   }
+  Json dam_list = Json::array();
+  std::vector<DamResult> dam_results;
+  for (const DamCase& dam : dams) {
+    set_verdicts(runs.with, dam);
+    dam_results.push_back(dam_result(dam, runs.with));
+    dam_list.push_back(dam_json(dam, dam_results.back(), runs.with, lines[dam.crest].fence, basis));
+    summary += (summary.empty() ? "" : "\n") + dam_summary(dam, dam_results.back(), runs.with);
+  }
+  std::vector<Fence> crests;
+  for (const DamCase& dam : dams) crests.push_back(lines[dam.crest].fence);
+  lines.resize(fences.size() + dams.size());  // a row a block and measure
   inputs.warn_of_ends();
   const std::string remark = inputs.remark();
   const MapTags tags = output_tags(tool, inputs, runs, remark);
   if (!o.change.empty()) write_change(tool, inputs, o.change, runs, tags, remark);
-  std::vector<VectorLayer> layers = fence_layers(fences, results, runs.with, trn.origin);
+  std::vector<VectorLayer> layers = fence_layers(fences, results, lines, runs.with, trn.origin);
+  if (!dams.empty()) layers.push_back(dam_layer(dams, dam_results, crests, trn.origin));
   mark_layers(layers, remark);
   write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
-  if (!o.csv.empty()) tool.write_text(o.csv, verdict_csv(fences, runs.with));
+  if (!o.csv.empty()) tool.write_text(o.csv, verdict_csv(lines, runs.with));
   Json tag_list;
   for (const auto& [key, value] : tags) tag_list[key] = value;
-  Json result = {{"run_id", tool.run_id()}, {"tags", tag_list}, {"fences", fence_list}};
+  Json result = {
+      {"run_id", tool.run_id()}, {"tags", tag_list}, {"fences", fence_list}, {"dams", dam_list}};
   add_faults(result, faults_of(inputs.members, inputs.left_out));
   if (compared)
     result["deposit_change"] = deposit_change_json(runs.ground_with, runs.ground_without);

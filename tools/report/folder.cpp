@@ -130,7 +130,7 @@ void leave_out_fences(ResultFolder& folder, const Site& site, const std::string&
     if (!folder.has(name)) continue;
     const Origin origin = origin_of(folder, name);
     std::string why;
-    if (site.fences.empty())
+    if (site.fences.empty() && site.dams.empty())
       why = "the site has no fences";
     else if (origin.run_set != run_set)
       why = of_other_runs;

@@ -320,7 +320,8 @@ Json fences_of(const Texts& texts, const Json& report) {
 }
 
 void add_fences(const ReportData& data, Json& out) {
-  out["fence"] = {{"fences", fences_of(data.texts, data.fence)}};
+  out["fence"] = {{"fences", fences_of(data.texts, data.fence)},
+                  {"dams", list_or_none(value_at(data.fence, {"dams"}))}};
   out["case_fences"] = Json::array();
   for (const auto& [name, report] : data.case_fences)
     out["case_fences"].push_back({{"case", name}, {"fences", fences_of(data.texts, report)}});

@@ -41,6 +41,7 @@ std::string relative_to(const std::string& project, const fs::path& path) {
 std::string layer_words(const std::string& name) {
   static const std::map<std::string, std::string> words = {
       {"fences", "Fence: verdict"},
+      {"dams", "Dam: verdict"},
       {"fence_fields", "Fields of the fence: verdict"},
       {"fence_posts", "Posts of the fence"},
       {"fence_arrivals", "Blocks that arrived at the fence"},

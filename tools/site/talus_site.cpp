@@ -214,7 +214,7 @@ std::string make_variables(const Site& site) {
   line("SITE_SEED", std::to_string(site.solver.seed));
   const bool has_water = std::ranges::find(site.sections, "water") != site.sections.end();
   line("SITE_WATER", has_water ? "yes" : "");
-  line("SITE_FENCES", site.fences.empty() ? "" : "yes");
+  line("SITE_FENCES", site.fences.empty() && site.dams.empty() ? "" : "yes");
   line("SITE_DAMS", site.dams.empty() ? "" : "yes");
   line("SITE_WITHOUT_FENCES", no_fences);
   line("SITE_SAMPLES", site.quantities.empty() && site.uncertainty.rock_masses == 0 ? "" : "yes");

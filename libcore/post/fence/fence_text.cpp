@@ -27,22 +27,6 @@ std::string arrivals_text(const FenceResult& r) {
   return out;
 }
 
-// "fence a: 39 blocks of 1 run: 30 stopped, 9 not reached;"
-std::string verdicts_text(const FenceCase& fence, std::size_t index, const FenceRunGroup& group) {
-  std::map<Verdict, int> count;
-  int total = 0;
-  for (const FenceRun& run : group.runs)
-    for (const BlockVerdict& v : run.at_fence[index].verdicts) ++count[v.verdict], ++total;
-  const int n = n_runs(group);
-  std::string out = "fence " + fence.line.name + ": " + std::to_string(total) + " blocks of " +
-                    std::to_string(n) + (n == 1 ? " run:" : " runs:");
-  for (const auto& [verdict, n_blocks] : count)
-    out += " " + std::to_string(n_blocks) + " " + text(verdict) + ",";
-  std::replace(out.begin() + static_cast<std::ptrdiff_t>(out.find(':')), out.end(), '_', ' ');
-  out.back() = ';';
-  return out;
-}
-
 // "; design by 70 crossings of its line in 10 runs without the fence, largest energy 42,960 kJ;
 // does not meet the code, energy governs: needs ..."
 std::string design_text(const FenceResult& r) {
@@ -82,6 +66,21 @@ std::string broken_text(std::size_t index, const FenceRunGroup& group) {
 }
 
 }  // namespace
+
+std::string verdicts_text(const std::string& name, std::size_t index, const FenceRunGroup& group) {
+  std::map<Verdict, int> count;
+  int total = 0;
+  for (const FenceRun& run : group.runs)
+    for (const BlockVerdict& v : run.at_fence[index].verdicts) ++count[v.verdict], ++total;
+  const int n = n_runs(group);
+  std::string out = name + ": " + std::to_string(total) + " blocks of " + std::to_string(n) +
+                    (n == 1 ? " run:" : " runs:");
+  for (const auto& [verdict, n_blocks] : count)
+    out += " " + std::to_string(n_blocks) + " " + text(verdict) + ",";
+  std::replace(out.begin() + static_cast<std::ptrdiff_t>(out.find(':')), out.end(), '_', ' ');
+  out.back() = ';';
+  return out;
+}
 
 const char* recorded_at(const FenceArrival& arrival) {
   return arrival.by_touch ? "first touch" : "crossing";
@@ -125,7 +124,7 @@ std::string basis_note(const FenceResult& r, const std::string& fence, bool one_
 
 std::string fence_summary(const FenceCase& fence, std::size_t index, const FenceResult& result,
                           const FenceRunGroup& group) {
-  const std::string out = verdicts_text(fence, index, group);
+  const std::string out = verdicts_text("fence " + fence.line.name, index, group);
   if (result.whole.n == 0) return out + " nothing came to it" + design_text(result);
   return out + " " + arrivals_text(result) + ": largest energy " +
          grouped_text(result.whole.energy.largest / 1e3) + " kJ, highest top " +

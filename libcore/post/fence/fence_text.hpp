@@ -14,6 +14,10 @@ namespace talus {
 /// Where an arrival's values are from: "first touch" or "crossing".
 [[nodiscard]] const char* recorded_at(const FenceArrival& arrival);
 
+/// "fence a: 39 blocks of 1 run: 30 stopped, 9 not reached;" of what is called `name`.
+[[nodiscard]] std::string verdicts_text(const std::string& name, std::size_t index,
+                                        const FenceRunGroup& group);
+
 /// What the design check rests on: "70 crossings of its line in 10 runs without the fence".
 [[nodiscard]] std::string basis_text(const FenceResult& result);
 

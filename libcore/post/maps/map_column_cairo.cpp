@@ -113,11 +113,13 @@ void draw_signs(Column& column, const MapGround& ground, const MapPlaces& places
   if (!places.source.empty()) column.area_row(source_stroke(), "source of the released rock");
   const auto any_line = [&](bool stands) {
     return std::any_of(places.lines.begin(), places.lines.end(), [&](const RecordLine& line) {
-      return line.standing == stands && is_seen(view, line.points);
+      return line.standing == stands && !is_dam(line) && is_seen(view, line.points);
     });
   };
   if (any_line(true)) column.line_row(line_stroke(true), "fence that stands");
   if (any_line(false)) column.line_row(line_stroke(false), "line without a fence");
+  if (std::any_of(places.lines.begin(), places.lines.end(), is_dam))
+    column.line_row(line_stroke(false), "crest of a dam");
   if (any_object) column.area_row(object_stroke(), "object");
   if (ground.contour_interval > 0)
     column.line_row(contour_stroke(true), "heights every " + text(ground.contour_interval) +

@@ -18,7 +18,7 @@ void add_places(MapPlaces& places, const RunFile& run) {
   for (int block = 0; block < n_blocks(run); ++block)
     places.source.push_back(footprint(run, block, run.blocks.rest[block]));
   for (const RecordLine& line : run.lines) {
-    if (is_candidate(line)) continue;
+    if (is_candidate(line) || is_before_dam(line)) continue;
     const auto known = named(places.lines, line.name);
     if (known == places.lines.end())
       places.lines.push_back(line);

@@ -1,0 +1,87 @@
+#include "post/fence/dam_result.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/grouped_text.hpp"
+#include "base/numbers.hpp"
+#include "base/text.hpp"
+#include "post/fence/fence_text.hpp"
+#include "post/statistics.hpp"
+
+namespace talus {
+namespace {
+
+std::vector<FenceArrival> not_beside(const std::vector<FenceArrival>& all) {
+  std::vector<FenceArrival> out;
+  for (const FenceArrival& a : all)
+    if (!a.beside) out.push_back(a);
+  return out;
+}
+
+std::vector<FenceArrival> over_the_crest(const FenceRunGroup& group, const DamCase& dam) {
+  std::vector<FenceArrival> out;
+  for (int r = 0; r < n_runs(group); ++r)
+    for (FenceArrival a : not_beside(passed_for_good(group.runs[r].at_fence[dam.crest]))) {
+      a.run = r;
+      out.push_back(a);
+    }
+  return out;
+}
+
+void judge(const DamCase& dam, DamResult& r) {
+  const double p95 = r.arriving.energy.percentile[place_of_p95].value;
+  r.energy_use = p95 / dam.capacity;
+  const std::string energy = grouped_text(p95 / 1e3) + " kJ (95 % of the blocks)",
+                    capacity = ", the dam is for " + grouped_text(dam.capacity / 1e3) + " kJ";
+  if (r.passing.n > 0) {
+    r.verdict = DesignVerdict::does_not_meet;
+    r.text = "does not hold: " + std::to_string(r.passing.n) + " of " +
+             std::to_string(std::max(r.passing.n, r.arriving.n)) + " blocks passed over the crest";
+  } else if (r.arriving.n == 0) {
+    r.text = "not judged: nothing came to it";
+  } else if (std::isnan(p95)) {
+    r.verdict = DesignVerdict::too_few;
+    r.text = "not judged: too few arrivals, " + std::to_string(r.arriving.n) + " of " +
+             std::to_string(smallest_sample(0.95)) + "; none passed over the crest";
+  } else if (std::isnan(dam.capacity)) {
+    r.verdict = DesignVerdict::energy_unknown;
+    r.text = "high enough; no capacity given: energy not checked, " + energy;
+  } else if (r.energy_use > 1) {
+    r.verdict = DesignVerdict::does_not_meet;
+    r.text = "does not hold: the energy is " + energy + capacity;
+  } else {
+    r.verdict = DesignVerdict::meets;
+    r.text = "holds: none passed over the crest; energy " + energy + capacity;
+  }
+}
+
+}  // namespace
+
+void set_verdicts(FenceRunGroup& group, const DamCase& dam) {
+  for (FenceRun& run : group.runs) {
+    RunAtFence &before = run.at_fence[dam.arrival], &crest = run.at_fence[dam.crest];
+    for (BlockVerdict& v : before.verdicts) {
+      v.verdict = Verdict::not_reached;
+      if (v.arrival >= 0 && !before.arrivals[v.arrival].beside) v.verdict = Verdict::stopped;
+    }
+    for (const FenceArrival& a : passed_for_good(crest))
+      before.verdicts[a.block].verdict =
+          a.beside ? crest.verdicts[a.block].verdict : Verdict::overtopped;
+  }
+}
+
+DamResult dam_result(const DamCase& dam, const FenceRunGroup& group) {
+  DamResult r;
+  r.arriving = summarise(not_beside(arrivals_at(group, dam.arrival)), group.clusters);
+  r.passing = summarise(over_the_crest(group, dam), group.clusters);
+  judge(dam, r);
+  return r;
+}
+
+std::string dam_summary(const DamCase& dam, const DamResult& r, const FenceRunGroup& group) {
+  return verdicts_text("dam " + dam.name, dam.arrival, group) + " " + std::to_string(r.arriving.n) +
+         " came: " + r.text;
+}
+
+}  // namespace talus

@@ -1,0 +1,45 @@
+// libcore/post/fence/dam_result.hpp: public
+// What comes to a dam that stands in the terrain, what passes over its crest, and whether it holds.
+// in:    runs at the two lines of each dam (dam_lines() of setup/site_dams_gdal.hpp), read as the
+//        lines of fences that stop nothing
+// out:   a verdict a block, statistics of what comes and what passes, a verdict on the whole
+// Definitions: docs/guide/dams.md
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "post/fence/fence_result.hpp"
+
+namespace talus {
+
+/// A dam of the site file: its lines among those of the runs.
+struct DamCase {
+  std::string name;
+  double height = 0;                   ///< of the crest above the ground, as designed [m]
+  double capacity = 0;                 ///< energy that it is designed for [J]; NaN: not given
+  std::size_t arrival = 0, crest = 0;  ///< indices of RunAtFence
+};
+
+struct DamResult {
+  FencePartSummary arriving;  ///< at the line before the uphill face
+  FencePartSummary passing;   ///< over the crest
+  double energy_use = 0;      ///< 95th percentile of the energy over the capacity [-]; NaN: unknown
+  DesignVerdict verdict = DesignVerdict::nothing_came;  ///< meets: it holds
+  std::string text;                                     ///< the verdict in words
+};
+
+/// Of each block, in place of the verdicts at the dam's first line: stopped where it came to the
+/// dam and did not pass its crest, overtopped where it did, bypassed where it passed beside an end,
+/// else not reached.
+void set_verdicts(FenceRunGroup& group, const DamCase& dam);
+
+/// It holds when no block passed over the crest, and the 95th percentile of the energy of those
+/// that came is no more than the capacity. No factor and no freeboard of a code is in it.
+[[nodiscard]] DamResult dam_result(const DamCase& dam, const FenceRunGroup& group);
+
+/// "dam road: 280 blocks of 10 runs: 251 stopped, 29 not reached; 251 came, largest energy ..."
+[[nodiscard]] std::string dam_summary(const DamCase& dam, const DamResult& result,
+                                      const FenceRunGroup& group);
+
+}  // namespace talus

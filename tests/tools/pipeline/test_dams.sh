@@ -1,0 +1,50 @@
+# A dam of the site: make burns it into the terrain before blocks are cut, anew when it changes, and
+# the report says what comes to it.
+. "$source_dir/tests/tools/pipeline/common.sh"
+command -v gdal_translate >/dev/null || skip "needs gdal-bin"
+awk 'BEGIN { print "ncols 60\nnrows 80\nxllcorner 650000\nyllcorner 5200000\ncellsize 2\nNODATA_value -9999"
+  for (r = 0; r < 80; r++) { y = 2 * (79 - r); z = 500 + 0.1 * y + (y > 60 ? 0.75 * (y - 60) : 0)
+    for (c = 0; c < 60; c++) printf "%g ", z; print "" } }' >dem.asc
+gdal_translate -q -ot Float64 -a_srs EPSG:25832 dem.asc dem.tif
+mkdir wall
+echo "include $source_dir/pipelines/site.mk" >wall/Makefile
+cat >wall/site.toml <<'TOML'
+[site]
+name = "wall"
+[terrain]
+dem = "../dem.tif"
+[ground.slope]
+friction_deg = 30
+[rockfall.top]
+position_m = [[650050, 5200140], [650060, 5200140], [650070, 5200140]]
+shape = "rock"
+volume_m3 = 0.5
+height_above_ground_m = 2
+rocks = 4
+[dam.road]
+line = [[650020, 5200040], [650100, 5200040]]
+height_m = 4
+crest_width_m = 4
+slopes_deg = [45, 34]
+ditch_m = [1, 4]
+capacity_kj = 1500
+[solver]
+duration_s = 20
+n_runs = 3
+TOML
+made wall -j2
+python3 - <<'PY' || fail 'the dam in terrain and results'
+import json
+dam, = json.load(open("wall/out/trn.json"))["dams"]
+assert dam["designed"]["fill_m3"] > 1500 and dam["designed"]["cut_m3"] > 200, dam
+dam, = json.load(open("wall/out/fence.json"))["dams"]
+assert sum(v["n"] for v in dam["verdicts"].values()) == 36 and dam["arriving"]["n"] > 0, dam
+PY
+grep -q 'dam road: 80 m long' wall/out/report.html || fail 'no dam in the report'
+made wall # nothing to do
+sed -i 's/^capacity_kj.*/capacity_kj = 1200/' wall/site.toml
+expect 0 make -C wall BIN= -n
+grep -q 'talus-trn\|talus-dda' out && fail 'another capacity makes the terrain or runs anew'
+sed -i 's/^height_m = 4/height_m = 3/' wall/site.toml
+made wall terrain
+prints 'trn: elevation model -> terrain'
