@@ -8,11 +8,11 @@ build="g++ cmake ninja-build make ccache libgdal-dev libcgal-dev libboost-dev li
   libhdf5-dev libsqlite3-dev libsqlitecpp-dev libssl-dev libcli11-dev libtomlplusplus-dev
   nlohmann-json3-dev gdal-bin proj-data git help2man python3 pkgconf libpango1.0-dev
   fonts-dejavu-core"
-test="libgtest-dev librapidcheck-dev clang-format-14 sqlite3 hdf5-tools procps python3-gdal
+test="libgtest-dev librapidcheck-dev sqlite3 hdf5-tools procps python3-gdal
   python3-h5py python3-matplotlib python3-netcdf4 python3-pandas python3-vtk9 python3-xarray"
 release="debootstrap dpkg-dev file patchelf umoci"
-# without these their tests are skipped, with a line that says so
-optional="slurm-wlm munge parallel"
+# without these their tests are skipped, with a line that says so; Debian 13 has no clang-format-14
+optional="clang-format-14 slurm-wlm munge parallel"
 
 case ${1:-} in
   build) wanted=$build optional= ;;
@@ -50,6 +50,10 @@ export DEBIAN_FRONTEND=noninteractive
 $as_root apt-get update -qq
 # shellcheck disable=SC2086  # lists of words
 [ -z "$missing" ] || $as_root apt-get install -y -qq --no-install-recommends $missing >/dev/null
+known=
+for package in $extra; do
+  ! apt-cache show "$package" >/dev/null 2>&1 || known="$known $package"
+done
 # shellcheck disable=SC2086
-[ -z "$extra" ] || $as_root apt-get install -y -qq --no-install-recommends $extra >/dev/null ||
+[ -z "$known" ] || $as_root apt-get install -y -qq --no-install-recommends $known >/dev/null ||
   echo "Not installed, so the tests that need them are skipped:$extra"
