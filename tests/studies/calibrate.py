@@ -72,7 +72,7 @@ STUDY.words.add_argument("--runs", default=64, type=int)
 def compute(study):
     study.need_data("experiments")
     tools, data = field.Tools(study), study.data / "experiments"
-    found = {slope.name: calibrated(slope, tools, study.options.runs)["calibration"]
+    found = {slope.name: calibrated(slope, tools, study.options.runs)
              for slope in (field.tschamut(tools, data / "tschamut2014", ROCKS["tschamut"]),
                            field.authume(tools, data / "authume_P1", ROCKS["authume_P1"]))}
     sets = {name: {run["seed"] for run in said["runs"] if run["implausibility"] <= said["most_implausible"]}

@@ -38,7 +38,7 @@ EVIDENCE = study.SOURCE / "docs/evidence"
 # In the order of a run: some read what others left in OUT.
 STUDIES = ["deliveries", "terrain_error", "field", "columns", "calibrate", "two_bounds", "fence_search", "forecast",
            "designed_slide", "real_sites", "single_rocks", "mobility", "error_budget", "rocks_beside_ode", "beside_ode",
-           "speed", "verification", "faults", "first_result"]
+           "benchmarks", "speed", "verification", "faults", "first_result"]
 COMPARE = {"<=": operator.le, ">=": operator.ge, "<": operator.lt, ">": operator.gt, "==": operator.eq}
 
 

@@ -1,34 +1,16 @@
 #!/usr/bin/env python3
-"""Speed of terrain, steps, blocks and single rocks, CPU times of one core.
+"""Speed of single rocks and of the terrain, whole tools, CPU times of one core.
 
-Benchmarks of the release build (tests/bench), medians of five. Single rocks: 0.3 m3 each released every 5 m over the
-source of gschnitz_gar, whole tool, median of three: with all outputs written, without passages, and with everything
-that the plan leaves out. Beside GDAL: a million points of contours to nine million nodes, in one thread.
+Single rocks: 0.3 m3 each, released every 5 m over the source of gschnitz_gar, median of three: with all outputs
+written, without passages, and with everything that the plan leaves out. Beside GDAL: a million points of contours to nine million nodes, in one thread.
 """
 import json
 import re
 import resource
 
-from study import SOURCE, Study, skip
+from study import SOURCE, Study
 
 STUDY = Study(__file__, __doc__)
-BENCHMARKS = {"terrain": r"plane_at|elevation_at|candidate|cells_of|^set_up", "dda": ".", "blocks": "."}
-
-
-def benchmarks(study, name):
-    program = study.bin.parent / f"tests/bench/bench_{name}"
-    if not program.exists():
-        skip(f"no {program}: cmake --build --preset release")
-    said = json.loads(study.run(program, f"--benchmark_filter={BENCHMARKS[name]}", "--benchmark_repetitions=5",
-                                "--benchmark_report_aggregates_only=true", "--benchmark_format=json"))
-    for one in said["benchmarks"]:
-        if one["aggregate_name"] == "median":
-            counters = {key: f"{one[key]:.2g}" for key in ("error", "cut_error", "blocks", "triangles") if key in one}
-            study.row(name, one["run_name"].replace("/", ", "), {"CPU time": f"{one['cpu_time']:.3g} {one['time_unit']}", **counters})
-
-
-for one in BENCHMARKS:
-    STUDY.part(one, 60)(lambda study, name=one: benchmarks(study, name))
 
 
 def cpu(study, *words):
