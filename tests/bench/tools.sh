@@ -40,12 +40,12 @@ site designed
 site maungawhau
 
 # a million points of contours, nine million nodes
-gdalwarp -q -overwrite -r cubicspline -ts 1740 1220 -ot Float32 -s_srs EPSG:2193 -t_srs EPSG:2193 \
+gdalwarp -q -overwrite -r cubicspline -ts 1740 1220 -ot Float32 \
   sample_sites/maungawhau/volcano.asc "$work/fine.tif"
 rm -f "$work/fine.gpkg"
 gdal_contour -q -3d -a ELEV -i 0.34 "$work/fine.tif" "$work/fine.gpkg"
-row "maungawhau every 0.34 m, --flat keep" talus-tin "$work/fine.gpkg" -o "$work/keep.ply" --flat keep
-row "maungawhau every 0.34 m, --flat fill" talus-tin "$work/fine.gpkg" -o "$work/fill.ply"
+row "maungawhau every 0.34 m, --flat keep" talus-tin "$work/fine.gpkg" --crs none -o "$work/keep.ply" --flat keep
+row "maungawhau every 0.34 m, --flat fill" talus-tin "$work/fine.gpkg" --crs none -o "$work/fill.ply"
 row "that TIN (keep) to cells of 0.242 m" talus-trn "$work/keep.ply" -o "$work/t.tif" --cell-size-m 0.242
 row "the nine million nodes, copied" talus-trn "$work/t.tif" -o "$work/copy.tif"
 row "the same, averaged to cells of 2 m" talus-trn "$work/t.tif" -o "$work/mean.tif" --cell-size-m 2

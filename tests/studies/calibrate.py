@@ -79,7 +79,7 @@ def compute(study):
             for name, said in found.items()}
     for name, said in found.items():
         of_key = {key["key"].rpartition(".")[2]: key for key in said["keys"]}
-        ranges = {f"{key} of the set": f"{of_key[key]['set_low']:.3g} to {of_key[key]['set_high']:.3g}"
+        ranges = {f"{key} of the set": " to ".join(f"{float(f'{of_key[key][end]:.3g}'):g}" for end in ("set_low", "set_high"))
                   if said["n_plausible"] else "none" for key in RANGES}
         other, = (n for n in found if n != name)
         study.row("sites", name, {

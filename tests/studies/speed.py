@@ -55,12 +55,12 @@ frame_interval_s = 10
 def gdal_grid(study):
     for name in ("fine.tif", "contours.gpkg", "grid.tif"):
         (study.out / name).unlink(missing_ok=True)
-    study.run("gdalwarp", "-q", "-r", "cubicspline", "-ts", 1740, 1220, "-ot", "Float32", "-s_srs", "EPSG:2193", "-t_srs",
-              "EPSG:2193", SOURCE / "sample_sites/maungawhau/volcano.asc", "fine.tif")
+    study.run("gdalwarp", "-q", "-r", "cubicspline", "-ts", 1740, 1220, "-ot", "Float32",
+              SOURCE / "sample_sites/maungawhau/volcano.asc", "fine.tif")
     study.run("gdal_contour", "-q", "-3d", "-a", "ELEV", "-i", 0.34, "fine.tif", "contours.gpkg")
     kept = ["--overwrite", "--no-db", "-q"]
-    mended = cpu(study, "talus-tin", "contours.gpkg", "-o", "mended.ply", *kept)
-    plain = cpu(study, "talus-tin", "contours.gpkg", "-o", "tin.ply", "--flat", "keep", *kept)
+    mended = cpu(study, "talus-tin", "contours.gpkg", "--crs", "none", "-o", "mended.ply", *kept)
+    plain = cpu(study, "talus-tin", "contours.gpkg", "--crs", "none", "-o", "tin.ply", "--flat", "keep", *kept)
     nodes = cpu(study, "talus-trn", "tin.ply", "-o", "trn.tif", "--cell-size-m", 0.242, *kept)
     info = study.run("gdalinfo", "trn.tif")
     size = re.search(r"Size is (\d+), (\d+)", info).groups()
