@@ -24,8 +24,8 @@ static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
 static_assert(sizeof(MetBody) == 64 && sizeof(StemHit) == 80);
 static_assert(sizeof(FenceState) == 24 + sizeof(HitChain) && sizeof(HitChain) == 2 * 24);
 static_assert(sizeof(FenceHit) == 104);
-// Ground fields of a bond's face are those of joints with cohesion: they neither yield as ground does
-// nor are rough.
+// Ground fields of a bond's face are those of joints with cohesion: they neither yield as ground
+// does nor are rough.
 static_assert(sizeof(BlockBond) == 40 + sizeof(GroundClass) && sizeof(GroundClass) == 152);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
