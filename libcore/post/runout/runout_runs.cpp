@@ -22,7 +22,7 @@ std::vector<LineReach> reach_of_lines(const RunFile& run) {
   }
   std::vector<LineReach> asked_for;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    if (!is_candidate(run.lines[i])) asked_for.push_back(lines[i]);
+    if (!is_candidate(run.lines[i]) && !is_before_dam(run.lines[i])) asked_for.push_back(lines[i]);
   return asked_for;
 }
 
