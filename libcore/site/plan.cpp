@@ -174,7 +174,7 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
   plan.strains_in_frames = add(kept_by_full(
       full && plan.strains,
       {"strains in frames", is_asked_for && plan.strains, "stored where asked for and computed",
-       is_asked_for ? "[solver] strain = on" : "not asked for"}));
+       is_asked_for ? "[solver] strain is on" : "not asked for"}));
   return plan;
 }
 

@@ -720,7 +720,7 @@ Refusal refusal_of(const VariantSettings& variant, const VariantSettings::Change
   if (has_name({"source", "blocks", "uncertainty"}, change.group) ||
       (change.group == "joints" && !is_strength) || (change.group == "rockfall" && !is_frequency))
     return {"would draw other rocks, and the difference would be theirs",
-            "a mass that is scaled off is without = [\"SECTION\"]; else make another site of it"};
+            "a mass that is scaled off is named by the key without; else make another site of it"};
   return {};
 }
 
@@ -834,10 +834,9 @@ void apply_variant(Site& site, const std::string& name) {
     has_others = true;
   }
   if (has_others && is_alternative(variant))
-    throw InputError(
-        {site.file, variant.line},
-        "[variant." + name + "] has a weight and other sections than the site",
-        "write the sections on the site, with active = false where they have that key");
+    throw InputError({site.file, variant.line},
+                     "[variant." + name + "] has a weight and other sections than the site",
+                     "write the sections on the site, not active where they have that key");
   fill_from_soils(site);
   check_names(site);
 }

@@ -102,8 +102,7 @@ struct SectionCheck {
       refuse("friction_deg", "has jrc, and friction_deg is 0",
              "friction_deg is the residual angle there, e.g. 28");
     if (site.solver.friction == "weakening")
-      refuse("jrc",
-             "has jrc, and with [solver] friction = \"weakening\" friction follows the speed",
+      refuse("jrc", "has jrc, and weakening friction of [solver] follows the speed",
              "leave one out");
   }
 

@@ -16,7 +16,7 @@ needs() {
 
 needs talus-runs crypto sqlite3
 needs talus-site crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
-needs talus-trn crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3
+needs talus-trn crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3 tomlplusplus
 needs talus-tin crypto gdal gmp hdf5_serial hdf5_serial_hl proj sqlite3
 needs talus-maps cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial hdf5_serial_hl pango-1.0 pangocairo-1.0 proj sqlite3
 needs talus-reduce crypto gdal hdf5_serial hdf5_serial_hl proj sqlite3

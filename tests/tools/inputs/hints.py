@@ -1006,6 +1006,11 @@ def frequency_of_an_area_of_points(_plane):
     return ROCKS + 'frequency_per_m2_a = 1e-4\n' + END
 
 
+@key_row(BLOCKS, 'alone has a weight', 'variant.as_it_is', 'weight = 1')
+def a_lone_weight(plane):
+    return CUT + '[variant.steep]\nweight = 1\nsolver.duration_s = 20\n'
+
+
 @key_row(BLOCKS, 'keys is missing', 'uncertainty.q', 'keys = ["ground.slope.friction_deg"]')
 def quantity_of_no_key(_plane):
     return drawn(distribution='"uniform"', min=25, max=35)
@@ -1124,6 +1129,7 @@ NOT_OBEYED = {
     'slbl_curvature_m = ': 'says, and asks for nothing',
     'with frames = false': 'help of a key',
     'e.g. keys = ': 'help of a key',
+    'sections of the site that it lacks': 'help of a key',
     "name = '": 'a filter of a layer',
     'value = [': 'a value of --set',
     'key = value': 'how TOML is written',
