@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "import/dem_gdal.hpp"
