@@ -71,7 +71,9 @@ TEST_F(RunSettings, BlocksThatPassThroughEachOtherAreSaid) {
   plan.block_contacts = true;
   DdaInputs together;
   together.parts.blocks = three_boxes();
-  warn_of_plan(log, site_of(folder, "[solver]\nstrain = 'on'\n"), plan, together);
+  Site strained = site_of(folder);
+  override_value(strained, "solver.strain", "on");
+  warn_of_plan(log, strained, plan, together);
   EXPECT_HOLDS(together.warnings.front(), "computes blocks that touch each other rigid");
 }
 
