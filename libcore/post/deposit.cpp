@@ -1,3 +1,4 @@
+// Fates, places and volumes of the blocks when a run ends.
 #include "post/deposit.hpp"
 
 #include <algorithm>

@@ -40,7 +40,7 @@ void add(Balance& sum, const Balance& other);
 void add_volume(std::map<std::uint32_t, double>& volume, const PassageGrid& grid,
                 const RunFile& run, int block, const Pose& pose);
 
-/// What the layer of the deposit gathers over runs.
+/// Sums over runs for the layer of the deposit.
 struct DepositSums {
   std::map<std::uint32_t, double> count;   ///< blocks at rest with their centroid in the cell
   std::map<std::uint32_t, double> weight;  ///< of those

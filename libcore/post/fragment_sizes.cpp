@@ -1,3 +1,4 @@
+// Number and sizes of the pieces of blocks that broke, and the power law of their volumes.
 #include "post/fragment_sizes.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // libcore/post/fragment_sizes.hpp: public
-// What blocks that broke came to: how many pieces, how large, and the power law of their volumes.
+// Pieces of blocks that broke: their number, sizes, and the power law of their volumes.
 // in:    a run whose pieces are merged (record/pieces.hpp)
 // Ruiz-Carulla et al. 2017, 10.1007/s10346-016-0773-8, after Perfect 1997: N(> V) ~ V^(-D/3)
 #pragma once

@@ -1,3 +1,4 @@
+// Share of the released mass that moved, and percentiles of its displacement.
 #include "post/moved.hpp"
 
 #include "base/grouped_text.hpp"
@@ -56,7 +57,7 @@ std::string text(const Moved& moved) {
 std::string standing_mass_warning(const Moved& moved) {
   if (!(moved.share < least_moved)) return "";
   if (!moved.any()) return "no block moved more than " + text(moved_m) + " m: there is no run-out";
-  if (moved.of_rocks) return "";  // that stay are counted as what they are
+  if (moved.of_rocks) return "";  // that stay are counted as such
   return "only " + percent(moved.share) + " of the mass moved more than " + text(moved_m) +
          " m: L and the angle of reach are those of few blocks, not of the released volume; see "
          "whether the failure surface comes out at the foot of the source";

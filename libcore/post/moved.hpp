@@ -1,5 +1,5 @@
 // libcore/post/moved.hpp: public
-// How much of the released mass moved, and how far: what no number of a single block tells.
+// How much of the released mass moved, and how far: no number of a single block tells it.
 // in:    first and last pose of each block
 // out:   shares of the mass, percentiles of the displacement by mass
 #pragma once
@@ -29,23 +29,23 @@ struct Moved {
   /// Enough of the mass moved to call it one; else single blocks fell, or none.
   [[nodiscard]] bool is_event() const { return share >= event_share; }
 };
-/// NaN where there is no mass.
+/// NaN without mass.
 [[nodiscard]] Moved moved_of(std::vector<WeightedValue> displacement_and_mass,
                              bool of_rocks = false);
 /// Of one run.
 [[nodiscard]] Moved moved_of_run(const RunFile& run);
 
-/// What the blocks of a run count in shares: their mass [kg]; one each where rocks fell one by one.
+/// Weights of the blocks of a run in shares: their mass [kg]; one each where rocks fell one by one.
 [[nodiscard]] std::vector<double> counted_by(const RunFile& run);  //               (n_blocks)
 
-/// Displacement [m] of each block of a run, and what it counts                    (n_blocks)
+/// Displacement [m] of each block of a run, and its weight                       (n_blocks)
 [[nodiscard]] std::vector<WeightedValue> displacements(const RunFile& run);
 
 /// "28 % of the mass moved more than 1 m, 12 % more than 20 m; displacement by mass: p50 0.1 m, p90
 /// 45 m, p95 60 m"
 [[nodiscard]] std::string text(const Moved& moved);
 
-/// What to say when less than half of the mass moved; "" else.
+/// Message when less than half of the mass moved; "" else.
 [[nodiscard]] std::string standing_mass_warning(const Moved& moved);
 
 }  // namespace talus

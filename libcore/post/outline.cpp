@@ -1,3 +1,4 @@
+// The outline of a set of cells, as polygons with holes.
 #include "post/outline.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Difference of the runs of a variant from the site's runs of the same seeds, with its interval.
 #include "post/paired.hpp"
 
 #include <algorithm>

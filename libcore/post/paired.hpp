@@ -1,10 +1,10 @@
 // libcore/post/paired.hpp: public
-// What runs of a variant have more than runs of the site of the same seeds, and how sure that is.
+// Difference of the runs of a variant from the site's runs of the same seeds, and how sure it is.
 // in:    both sets of runs; amounts by block, such as hits of an object
 // out:   difference a run with its 95 % interval
 //
 // A pair is a cluster (ensemble/clusters.hpp) with its counterpart: the release cell, or the run of
-// the same case and seed. What both have in common, as the rocks that were drawn, is not in the
+// the same case and seed. The part common to both, such as the rocks that were drawn, is not in the
 // interval. It is Student's, of the mean over the pairs; its degrees of freedom are those of the
 // pairs that differ, since pairs in which nothing happened say little of how much it scatters.
 #pragma once

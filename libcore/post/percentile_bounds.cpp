@@ -1,3 +1,4 @@
+// Upper 95 % bounds of percentiles: one rule for maps and fences.
 #include "post/percentile_bounds.hpp"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ int place_of(const ClusterSample& sample, double p) {
       at - sample.up_to.begin(), static_cast<std::ptrdiff_t>(sample.up_to.size()) - 1));
 }
 
-// What the share of the values up to the p-percentile rests on.
+// Basis of the share of the values up to the p-percentile.
 ShareSample sample_below(ClusterSample& sample, std::span<const ClusterWeight> ascending,
                          double p) {
   const int last = place_of(sample, p);

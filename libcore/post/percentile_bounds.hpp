@@ -29,7 +29,7 @@ inline constexpr int least_clusters_for_woodruff = 30;
 
 using BoundPlaces = std::array<int, percentile_levels.size()>;
 
-/// Sets of values over the same clusters, one after the other: what they share is computed once.
+/// Sets of values over the same clusters, one after the other: their common part is computed once.
 struct PercentileBounds {
   const Clusters& clusters;
   int n_resamples = 0;

@@ -1,3 +1,4 @@
+// Share of blocks and of runs that reach a place, with intervals, and how many runs are lacking.
 #include "post/places.hpp"
 
 #include <algorithm>

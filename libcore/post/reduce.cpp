@@ -1,3 +1,4 @@
+// Reduces runs to their start and end, and many of them to one part.
 #include "post/reduce.hpp"
 
 #include <algorithm>

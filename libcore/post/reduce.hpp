@@ -1,7 +1,7 @@
 // libcore/post/reduce.hpp: public
 // Runs without the frames between start and end, and many of them as one part.
 // in:    runs, parts, the terrain
-// out:   what every evaluation but paths, curves and the viewer needs
+// out:   the data for every evaluation but paths, curves and the viewer
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace talus {
 /// The run with its first and last frame, and with the reach that all of them told.
 [[nodiscard]] RunFile without_frames(RunFile run, const Trn& trn, const ReachSettings& settings);
 
-/// Two rows that say what all of them say: the first one, and the rest as one interval.
+/// Two rows that summarise all of them: the first one, and the rest as one interval.
 [[nodiscard]] std::vector<HealthRow> short_health(const std::vector<HealthRow>& rows);
 
 /// Hands over the passages of a part, of each of its runs, cells of `factor` x `factor` recorded

@@ -1,3 +1,4 @@
+// 95 % intervals of shares over clusters: one rule for every map and table.
 #include "post/share_interval.hpp"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace talus {
 namespace {
 
-constexpr double rounding = 1e-24;  // of squares of weights: what is smaller is no variance
+constexpr double rounding = 1e-24;  // of squares of weights: a smaller value is not a variance
 constexpr double whole_cluster = 1 - 1e-12;
 
 double effective_number(const ShareOver& over) { return effective_size(over.whole, over.squares); }
@@ -93,8 +94,8 @@ double trials_of(const ShareBasis& basis, std::span<const BlockWeight> blocks, d
   return share_sample(basis.over, shares_of(basis.clusters, blocks), share).n_trials;
 }
 
-// Variance of a share that is within clusters: between blocks of one. What differs between clusters
-// of one block may all be such.
+// Variance of a share that is within clusters: between blocks of one. The difference between
+// clusters of one block may all be of this kind.
 double variance_within(const ShareBasis& basis, std::span<const BlockWeight> blocks, double share) {
   double sum = 0;
   std::vector<bool> has_any(static_cast<std::size_t>(basis.over.n), false);
@@ -221,7 +222,7 @@ RunsToAdd runs_to_add(const ShareBasis& basis, std::span<const BlockWeight> bloc
   if (basis.clusters.kind == Clusters::Kind::release_cell && factor > 1) {
     const double binomial = share * (1 - share), variance = binomial / trials;
     const double within = std::min(variance, variance_within(basis, blocks, share));
-    const double left = binomial / wanted - (variance - within);  // for what is within
+    const double left = binomial / wanted - (variance - within);  // for the part within
     if (!(left > 0)) return {0, false};
     factor = within / left;
   }

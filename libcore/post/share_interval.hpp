@@ -19,7 +19,7 @@
 
 namespace talus {
 
-/// What one cluster adds to a share: part of whole, 0 <= part <= whole.
+/// Contribution of one cluster to a share: part of whole, 0 <= part <= whole.
 struct ClusterShare {
   double part = 0, whole = 0;
 };
@@ -31,7 +31,7 @@ struct ShareOver {
   double squares = 0;  ///< sum of the squares of each cluster's whole
 };
 
-/// What a share over clusters rests on.
+/// Basis of a share over clusters.
 struct ShareSample {
   double n_trials = 0;  ///< independent trials of the same variance [-]
   /// Degrees of freedom of that variance: clusters with any of it, or without all, the fewer; 0:
@@ -72,7 +72,8 @@ struct ShareBasis {
 /// Of the share of runs in which something happened, each with its weight; each run its own unit,
 /// or none of them was hit.
 [[nodiscard]] Interval run_share_interval(const ShareBasis& basis, double share);
-Interval run_share_interval(const ShareBasis& basis, int n_runs) = delete;  // a count is no share
+Interval run_share_interval(const ShareBasis& basis,
+                            int n_runs) = delete;  // no share
 /// Of share_of_runs().
 [[nodiscard]] Interval run_share_interval(const ShareBasis& basis,
                                           std::span<const BlockWeight> blocks);
@@ -90,8 +91,8 @@ struct RunsToAdd {
   bool help = true;  ///< false: no number of runs does, and `n` is 0
 };
 /// For the interval of a share of these blocks, to be no wider than 2 `half`. More runs are more
-/// clusters; of release cells only what differs between rocks of one cell averages out, and too few
-/// rock masses stay too few.
+/// clusters; of release cells only the difference between rocks of one cell averages out, and too
+/// few rock masses stay too few.
 [[nodiscard]] RunsToAdd runs_to_add(const ShareBasis& basis, std::span<const BlockWeight> blocks,
                                     double share, double half);
 

@@ -1,3 +1,4 @@
+// Weighted percentiles, confidence bounds and effective sample sizes.
 #include "post/statistics.hpp"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 namespace talus {
 namespace {
 
-// p n and sums of weights are rounded; what differs by less than this share is equal.
+// p n and sums of weights are rounded; values that differ by less than this share are equal.
 constexpr double rounding = 1e-12;
 
 double log_binomial_pmf(int n, double p, int k) {

@@ -1,5 +1,5 @@
 // libcore/post/statistics.hpp: public
-// What a sample of blocks or runs says about a quantity, and how sure it is.
+// Statistics of a quantity over a sample of blocks or runs, and how sure they are.
 // in:    values with weights; counts; the cluster that each value came from (ensemble/clusters.hpp)
 // out:   percentiles, confidence bounds, effective sample size
 // Every result depends on the values alone, not on their order in the input.
@@ -55,7 +55,7 @@ struct RankInterval {
 /// probability p, 0.5 to 0.999; to 1e-9.
 [[nodiscard]] double student_quantile(int degrees, double p);
 
-/// How often each cluster stands in each resample of all clusters, drawn with replacement: the
+/// How often each cluster occurs in each resample of all clusters, drawn with replacement: the
 /// bootstrap over clusters, which keeps together blocks that are not independent.
 struct ClusterResamples {
   int n_clusters = 0, n_resamples = 0;
@@ -75,7 +75,7 @@ struct ClusterWeight {
   double weight = 0;
 };
 
-/// Where in a list of values the upper bounds of its percentiles stand, by the bootstrap over
+/// Positions in a list of values of the upper bounds of its percentiles, by the bootstrap over
 /// clusters: each bound is the `confidence`-percentile of the percentiles of all resamples that
 /// hold any weight. `descending`: cluster and weight (>= 0) of each value, the largest value first.
 /// `levels`: the percentiles wanted, the largest first. All are found in one pass from the largest

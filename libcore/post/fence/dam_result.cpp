@@ -1,3 +1,4 @@
+// Blocks that reach a dam, those that pass over its crest, and whether it holds.
 #include "post/fence/dam_result.hpp"
 
 #include <algorithm>

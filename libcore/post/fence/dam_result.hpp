@@ -1,8 +1,8 @@
 // libcore/post/fence/dam_result.hpp: public
-// What comes to a dam that stands in the terrain, what passes over its crest, and whether it holds.
+// Blocks that reach a dam in the terrain, those that pass over its crest, and whether it holds.
 // in:    runs at the two lines of each dam (dam_lines() of setup/site_dams_gdal.hpp), read as the
 //        lines of fences that stop nothing
-// out:   a verdict a block, statistics of what comes and what passes, a verdict on the whole
+// out:   a verdict a block, statistics of arrivals and of passages, a verdict on the whole
 // Definitions: docs/guide/dams.md
 #pragma once
 

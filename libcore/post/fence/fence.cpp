@@ -1,3 +1,4 @@
+// Arrivals of blocks at fences and their verdicts: stopped, beside, over, under, through.
 #include "post/fence/fence.hpp"
 
 #include <algorithm>
@@ -111,8 +112,8 @@ FenceArrival arrival_of(const FenceHit& hit, const RunFile& file, const Fence& f
   return a;
 }
 
-// Panels that a block may hang in: that nearest to where it lies at the end, and those that it
-// touched. Does one of them stand that was pushed as far as the block lies beyond the line?
+// Panels that may hold a block: the one nearest to its last place, and those that it touched. Is
+// one of them active and pushed as far as the block lies beyond the line?
 bool is_held(const RunFile& file, const PanelsOfLine& panels, const Fence& fence, int block,
              int direction) {
   const Vec2 at = last_pose(file, block).position.head<2>();

@@ -1,7 +1,7 @@
 // libcore/post/fence/fence.hpp
-// What fences would meet and what becomes of each block at them.
+// Arrivals of blocks at fences and the fate of each block there.
 // in:    crossings of the fences' lines, recorded where nothing stops the blocks, or with the fence
-//        standing, then with what touched its panels; the terrain
+//        built, then with the touches of its panels; the terrain
 // out:   one verdict a block, storage behind the fence
 // Definitions: docs/reference/formats.md#fence
 #pragma once
@@ -58,7 +58,7 @@ struct FenceArrival {
   double weight = 1;
   double time = 0;            ///< [s]
   double chainage = 0;        ///< [m]
-  bool by_touch = false;      ///< what it had before the first touch; else at the crossing
+  bool by_touch = false;      ///< its state before the first touch; else at the crossing
   bool beside = false;        ///< beyond an end
   int direction = 0;          ///< +1 to the left of the line seen from its first point, -1 right
   int field = -1, post = -1;  ///< of the chainage; nearest post; -1 beside
@@ -68,50 +68,50 @@ struct FenceArrival {
   double translation = 0, rotation = 0;      ///< [J]
   double centroid = 0, top = 0, bottom = 0;  ///< heights above the base; centroid NaN by touch [m]
   double volume = 0;                         ///< [m3]
-  int world = 0;  ///< of its block in its run (worlds_of): what of one world comes meets one fence
+  int world = 0;  ///< of its block in its run (worlds_of): arrivals of one world meet one fence
   bool passed_for_good = false;  ///< a crossing that ended on the far side: an odd number of times
   [[nodiscard]] double energy() const { return translation + rotation; }
 };
 
-/// Where an arrival is drawn: on the line, at the height of its centroid, or by touch half way up
-/// the block, local [m]. Beyond an end the line goes on straight.
+/// Where an arrival is drawn: on the line, at the height of its centroid, or by touch at half the
+/// height of the block, local [m]. Beyond an end the line continues straight.
 [[nodiscard]] Vec3 place_of(const FenceArrival& arrival, const Fence& fence);
 
-/// All crossings of one line of a run, by block. `run` is what the arrivals carry.
+/// All crossings of one line of a run, by block. The arrivals carry `run`.
 [[nodiscard]] std::vector<FenceArrival> line_crossings(const RunFile& file, int line,
                                                        const Fence& fence, int run);
 
-/// What comes at a fence: a block that touched panels as it was before the first touch, when the
-/// fence had taken nothing from it yet; any other as it crossed the line. By block, one each.
+/// Arrivals at a fence: a block that touched panels as it was before the first touch, when the
+/// fence had taken no energy from it; any other block as it crossed the line. By block, one each.
 [[nodiscard]] std::vector<FenceArrival> arrivals(const RunFile& file, int line, const Fence& fence,
                                                  int run);
 
-/// Where nothing stopped the blocks: what would become of an arrival. `free_border`: f_min [m].
+/// Where nothing stopped the blocks: the fate that an arrival would have. `free_border`: f_min [m].
 /// The order of precedence: beside, underpassed, overtopped, pierced, freeboard, stopped.
 [[nodiscard]] Verdict expected_verdict(const FenceArrival& arrival, const Fence& fence,
                                        double free_border);
 
-/// With the fence standing: a crossing means that the block came through, and how. Blocks that did
+/// With the fence built: a crossing means that the block came through, and how. Blocks that did
 /// not cross were stopped when any part of them came within `contact` of the line in any frame [m],
 /// else they did not reach it.
 [[nodiscard]] Verdict observed_verdict(const FenceArrival& arrival, const Fence& fence,
                                        double free_border);
 [[nodiscard]] bool came_near(const RunFile& file, int block, const Fence& fence, double contact);
 
-/// What the record of a standing fence says of a block.
+/// A block in the record of a fence that is built.
 struct FenceTouch {
   static constexpr double never = std::numeric_limits<double>::infinity();
   double time = never;       ///< of its first touch [s]
   double gap_since = never;  ///< when the panel broke where its centroid crossed the line [s]
   bool held = false;  ///< crossed, but lies at the end no farther beyond the line than a panel that
-                      ///< stands, there or where the block touched it, was pushed
+                      ///< active, there or where the block touched it, was pushed
 };
 /// Of each block, at one line; `crossings` of that line                               (n_blocks)
 [[nodiscard]] std::vector<FenceTouch> touches(const RunFile& file, int line, const Fence& fence,
                                               const std::vector<FenceArrival>& crossings);
 
 /// With the record of hits: a block is stopped that touched a panel and did not cross, or crossed
-/// in a panel that gave way and still holds it. `crossing`: null when it did not cross. Passing
+/// in a panel that yielded and still holds it. `crossing`: null when it did not cross. Passing
 /// beside an end counts when it comes after the touch; before it, the block came to the fence round
 /// a wing that is turned uphill.
 [[nodiscard]] Verdict touched_verdict(const FenceTouch& touch, const FenceArrival* crossing,

@@ -1,3 +1,4 @@
+// Maps and volumes of what a fence changes: deposit and passages with it minus without it.
 #include "post/fence/fence_change.hpp"
 
 #include <algorithm>

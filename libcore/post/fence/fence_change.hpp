@@ -1,6 +1,6 @@
 // libcore/post/fence/fence_change.hpp
-// What a fence changes on the ground: where the mass comes to lie and how fast it passes.
-// in:    runs with the fence standing and runs without it, on one grid of passages
+// Changes by a fence on the ground: where the mass comes to rest and how fast it passes.
+// in:    runs with the fence and runs without it, on one grid of passages
 // out:   a map of differences, with minus without; volumes
 // paper: Zhang et al. 2018, Fig. 14
 #pragma once

@@ -1,3 +1,4 @@
+// Design check of a fence by a code: design energy and height, their derivation, the verdict.
 #include "post/fence/fence_design.hpp"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ struct Demand {
   std::vector<DesignStep> steps;
 };
 
-// A factor of the code, with where it stands.
+// A factor of the code, with its source.
 DesignStep factor_step(const DesignCode& code, const std::string& key, const char* symbol,
                        const char* name) {
   const auto source = code.source.find(key);
@@ -45,7 +46,8 @@ DesignStep factor_step(const DesignCode& code, const std::string& key, const cha
               (guessed ? " (not checked against the print)" : "")};
 }
 
-// What stands for a percentile of the arrivals: it, or the largest value where they are too few.
+// Value used for a percentile of the arrivals: the percentile, or the largest value where they are
+// too few.
 DesignStep sample_step(const QuantitySummary& quantity, double p, const FencePartSummary& part,
                        double scale, const char* symbol, const std::string& what,
                        const char* unit) {
@@ -168,7 +170,7 @@ void judge(DesignResult& result, bool enough, bool first_touches) {
   if (!energy_known && !(largest > 1)) result.governs.clear();
 }
 
-// The end of the derivation: what is needed beside what the fence has.
+// The end of the derivation: the demand beside the capacity of the fence.
 void add_fence_steps(DesignResult& result, const DesignCode& code, const DesignInput& input,
                      const Fence& fence) {
   const bool given = !std::isnan(input.free_border);

@@ -1,9 +1,9 @@
 // libcore/post/fence/fence_design.hpp
-// The design check of a fence by a code whose factors stand in a data file, because codes are paid
+// The design check of a fence by a code whose factors are in a data file, because codes are paid
 // for and change.
 // in:    share/codes/*.csv (key, value, unit, mark, source), the barrier classes, statistics
 // out:   design energy and height with their derivation, smallest class and height that meet them,
-//        what governs, the verdict and its words
+//        the governing demand, the verdict and its words
 #pragma once
 
 #include <limits>
@@ -49,7 +49,7 @@ struct DesignInput {
   double distance_to_object = 0;  ///< horizontal, from the fence downhill [m]; NaN: not known
   double free_border = std::numeric_limits<double>::quiet_NaN();  ///< f_min [m]; NaN: of the code
   std::string block_source = "given";                             ///< where block_volume comes from
-  bool first_touches = false;  ///< arrivals are touches of a standing fence, not of an open line
+  bool first_touches = false;  ///< arrivals are touches of a built fence, not of an open line
 };
 
 enum class DesignVerdict {
@@ -58,7 +58,7 @@ enum class DesignVerdict {
   energy_unknown,  ///< the fence has no capacity; all else holds
   too_few,         ///< arrivals for the percentiles that the code asks for
   nothing_came,
-  first_touches,  ///< all holds, but for touches of a standing fence, which are no design values
+  first_touches,  ///< all holds, but for touches of a built fence: not design values
 };
 [[nodiscard]] const char* text(DesignVerdict verdict);
 
@@ -87,13 +87,13 @@ struct DesignResult {
   std::string governs;  ///< "energy", "height" or "distance"; empty while the energy is unknown
   std::vector<DesignStep> steps;
 };
-/// The verdict and what is needed, in the words of every output.
+/// The verdict and the demand, in the words of every output.
 [[nodiscard]] std::string text(const DesignResult& result);
 
 /// Empty: not judged, or nothing fails but the energy could not be checked.
 [[nodiscard]] std::optional<bool> passes(const DesignResult& result);
 
-/// When there are too few arrivals the largest values stand in for the percentiles, and the verdict
+/// When there are too few arrivals the largest values replace the percentiles, and the verdict
 /// says so.
 [[nodiscard]] DesignResult check_design(const DesignCode& code,
                                         const std::vector<BarrierClass>& classes,
@@ -103,7 +103,7 @@ struct DesignResult {
 /// f_min of the code [m].
 [[nodiscard]] double free_border(const DesignCode& code, double mean_block_size);
 
-/// What the code says of the fence's build, where it is not so: a sentence each.
+/// Rules of the code for the fence's build that it does not meet: a sentence each.
 [[nodiscard]] std::vector<std::string> build_remarks(const DesignCode& code, const Fence& fence);
 
 }  // namespace talus

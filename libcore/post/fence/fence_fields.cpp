@@ -1,3 +1,4 @@
+// Fields of a block's verdict at a fence, with its arrival.
 #include "post/fence/fence_fields.hpp"
 
 #include "base/units.hpp"

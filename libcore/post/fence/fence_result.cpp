@@ -1,3 +1,4 @@
+// Results of one fence over many runs: verdicts, statistics, design check, ground behind it.
 #include "post/fence/fence_result.hpp"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ std::vector<FenceArrival> arrivals_on_line(const FenceRunGroup& group, std::size
   return out;
 }
 
-// What is given, and what the blocks say of the rest.
+// The given values; the rest is taken from the blocks.
 DesignInput design_input(const DesignInput& given, const FenceRunGroup& group,
                          const std::vector<FenceArrival>& arrivals) {
   DesignInput input = given;

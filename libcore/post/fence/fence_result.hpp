@@ -2,7 +2,7 @@
 // All that is said of one fence over many runs: shares of verdicts, statistics and design check of
 // the whole, its fields and posts, storage, and the ground behind it with and without the fence.
 // in:    runs at the fences (fence_runs.hpp), the design code
-// out:   numbers; their words stand in fence_text.hpp
+// out:   numbers; their words are in fence_text.hpp
 // Definitions: docs/reference/formats.md#fence
 #pragma once
 
@@ -19,11 +19,11 @@ struct FenceResultSettings {
 };
 
 /// Where the arrivals of the design check come from. Design values are those of a line that stops
-/// nothing: behind a standing fence rocks that it dammed hold back others.
+/// nothing: rocks held by a built fence stop those behind them.
 enum class DesignBasis {
-  open_line,      ///< the line of these runs, in which the fence did not stand
-  without_fence,  ///< its line in the runs compared with, in which it did not stand
-  first_touches,  ///< none of both: touches of the standing fence
+  open_line,      ///< the line of these runs, which are without the fence
+  without_fence,  ///< its line in the runs compared with, which are without it
+  first_touches,  ///< neither: touches of the built fence
 };
 
 struct FieldResult {
@@ -38,7 +38,7 @@ struct FenceResult {
   std::vector<FencePartSummary> posts;  ///<                                         (n_posts)
   FencePartSummary whole;
   DesignBasis basis = DesignBasis::open_line;
-  FencePartSummary at_basis;  ///< what the design check rests on: `whole`, or without the fence
+  FencePartSummary at_basis;  ///< basis of the design check: `whole`, or without the fence
   int n_basis_runs = 0;
   DesignResult design;
   double storage = 0;   ///< of all fields [m3]
@@ -66,7 +66,7 @@ struct VerdictShare {
 [[nodiscard]] VerdictShare verdict_share(const FenceRunGroup& group, std::size_t fence,
                                          Verdict verdict, const ShareBasis& basis);
 
-/// What comes behind the line of a fence, and how far the runs came. NaN where nothing says.
+/// Blocks behind the line of a fence, and how far the runs came. NaN where unknown.
 struct GroundBehind {
   int n = 0;                  ///< blocks that crossed for good and that the fence does not hold
   double share = 0;           ///< of the released weight [-]

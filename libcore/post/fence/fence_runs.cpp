@@ -1,3 +1,4 @@
+// Arrivals and verdicts of each run at the fences of a site; checks that both belong together.
 #include "post/fence/fence_runs.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace talus {
 namespace {
 
-constexpr double contact_m = 0.25;  // a block so near a standing fence touches it
+constexpr double contact_m = 0.25;  // a block so near a built fence touches it
 
 RunAtFence run_at_fence(const RunFile& run, int index, const Fence& fence, int line, double f_min,
                         double rest_speed) {
@@ -84,7 +85,7 @@ std::vector<FenceArrival> passed_for_good(const RunAtFence& at) {
 
 namespace {
 
-// The fence as it stands on the ground of this run.
+// The fence on the ground of this run.
 Fence fence_of_run(const RecordLine& line, Fence fence) {
   fence.post = line.points;
   fence.chainage = line.chainage;

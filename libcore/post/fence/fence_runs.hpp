@@ -1,5 +1,5 @@
 // libcore/post/fence/fence_runs.hpp: public
-// What runs say at the fences of a site, and that fences and runs belong together.
+// Runs at the fences of a site, and a check that fences and runs belong together.
 // in:    run files one by one, the fences of the site file, the terrain
 // out:   of each run its arrivals and verdicts at every fence and how far it came
 #pragma once
@@ -22,7 +22,7 @@ struct FenceCase {
   Fence fence;
 };
 
-/// The line of a run that belongs to a fence. `file` and `site_file` are what messages name. Throws
+/// The line of a run that belongs to a fence. `file` and `site_file` are named in messages. Throws
 /// InputError when the run recorded none for it, or one in another place.
 [[nodiscard]] int find_line(const RunFile& run, const FenceCase& fence, const std::string& file,
                             const std::string& site_file);
@@ -34,21 +34,21 @@ void check_same_fence(const FenceSettings& stood, const FenceSettings& expected,
 
 /// A run at one fence.
 struct RunAtFence {
-  std::vector<FenceArrival> arrivals;   ///< what comes at the fence
+  std::vector<FenceArrival> arrivals;   ///< at the fence
   std::vector<FenceArrival> crossings;  ///< of its line
   std::vector<BlockVerdict> verdicts;   ///<                                         (n_blocks)
   bool standing = false;
-  int n_unsettled = 0;  ///< blocks that the standing fence stopped and that move at the end
+  int n_unsettled = 0;           ///< blocks that the built fence stopped and that move at the end
   std::vector<PanelRow> broken;  ///< panels of the fence that broke, by time; rock by rock
 };
 /// Crossings of blocks that passed a fence for good; one that hangs in a panel has not.
 [[nodiscard]] std::vector<FenceArrival> passed_for_good(const RunAtFence& at);
 
-/// What is kept of a run once it has been read.
+/// Data kept of a run after it was read.
 struct FenceRun {
   std::vector<double> volume;        ///< of each block [m3]                         (n_blocks)
   std::vector<double> weight;        ///<                                            (n_blocks)
-  double run_weight = 1;             ///< how much it counts among the others [-]
+  double run_weight = 1;             ///< weight among the runs [-]
   bool independent = false;          ///< its rocks fell one by one, each on a fence of its own
   std::vector<int> world;            ///< whose fence each block met (worlds_of)     (n_blocks)
   double density = 0;                ///< of all its rock [kg/m3]
@@ -61,7 +61,7 @@ struct FenceRunSettings {
   double free_border = 0;  ///< f_min [m]; NaN: that of the code for the run's blocks
   double rest_speed = 0;   ///< [m/s]
 };
-/// `index` is what arrivals and verdicts carry as run; `line` of each fence (find_line) (n_fences)
+/// `index`: the `run` of arrivals and verdicts; `line` of each fence (find_line) (n_fences)
 [[nodiscard]] FenceRun run_at_fences(const RunFile& run, int index,
                                      const std::vector<FenceCase>& fences,
                                      const std::vector<int>& line, const DesignCode& code,
@@ -78,7 +78,7 @@ struct FenceRunGroup {
 [[nodiscard]] inline int n_runs(const FenceRunGroup& group) {
   return static_cast<int>(group.runs.size());
 }
-/// Whether a fence stood in the runs: in all of them or in none (check_one_kind).
+/// Whether a fence was built in the runs: in all of them or in none (check_one_kind).
 [[nodiscard]] inline bool stood(const FenceRunGroup& group, std::size_t fence) {
   return group.runs[0].at_fence[fence].standing;
 }
@@ -87,8 +87,8 @@ struct FenceRunGroup {
 /// Whether rocks fell one by one in all runs: none dams another, or finds what it broke.
 [[nodiscard]] bool fell_one_by_one(const FenceRunGroup& group);
 
-/// Throws InputError when a fence stood in some runs and not in others: what it lets through and
-/// what comes to its line when it does not stand are two samples.
+/// Throws InputError when a fence was built in some runs and not in all: what it lets through and
+/// the blocks at its line without it are two samples.
 void check_one_kind(const FenceRunGroup& group, const std::vector<FenceCase>& fences);
 
 /// The runs with the fences and those to compare with, and where their blocks came to rest.

@@ -1,3 +1,4 @@
+// Statistics of arrivals at a fence, at one of its fields or at one of its posts.
 #include "post/fence/fence_summary.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // libcore/post/fence/fence_summary.hpp
-// Statistics of what comes at a fence, at one of its fields or at one of its posts.
+// Statistics of arrivals at a fence, at one of its fields or at one of its posts.
 // in:    arrivals of all runs (fence.hpp)
 // out:   percentiles of energy, height and speed with their bounds; several hits
 // Definitions: docs/reference/formats.md#fence
@@ -17,7 +17,7 @@ namespace talus {
 /// Resamples of the clusters for a bound at a fence.
 inline constexpr int fence_resamples = 400;
 
-/// A percentile with what bounds it; NaN where the sample gives none: below the least number of
+/// A percentile with its bounds; NaN where the sample gives none: below the least number of
 /// effective arrivals (smallest_sample).
 struct BoundedPercentile {
   double value = 0, upper = 0;  ///< 95 % upper bound

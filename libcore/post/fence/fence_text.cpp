@@ -1,3 +1,4 @@
+// Results at a fence in words: summary, notes and table.
 #include "post/fence/fence_text.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Crossings of lines that are moved after the runs, from frames; moves a fence to a cheaper place.
 #include "post/fence_search/paths.hpp"
 
 #include <algorithm>
@@ -172,7 +173,7 @@ bool is_within(const Posts& posts, const Posts& start, double farthest) {
                      [&](const Vec3& p) { return is_near(p.head<2>(), line, farthest); });
 }
 
-// What shall be stopped is held without the end fields.
+// Blocks to be stopped are held without the end fields.
 bool has_free_ends(const SearchLine& line, int end_fields, double needed) {
   const int last = n_fields(line.fence) - end_fields;
   double held = 0;

@@ -38,15 +38,15 @@ struct Corridor {
   double margin = 15;  ///< [m]
 };
 /// The pieces of all blocks of a run; none where it has no frames between the first and the last.
-/// `first_block`: number of its block 0 among those of all runs; `on_object` of each block.
+/// `first_block`: number of its block 0 among the blocks of all runs; `on_object` of each block.
 void add_paths(std::vector<BlockPath>& paths, const RunFile& run, int run_index, int first_block,
                const std::vector<double>& on_object, const Corridor& corridor);
 
-/// The line that posts stand on, with what crosses it. `side`: +1 blocks come from the left.
+/// The line of the posts, with its crossings. `side`: +1 blocks come from the left.
 [[nodiscard]] SearchLine line_of_paths(const std::vector<BlockPath>& paths,
                                        const std::vector<Vec3>& posts, int side);
 
-/// What a line that is moved must keep to.
+/// Limits for a line that is moved.
 struct RefineLimits {
   double offset = 2.5;   ///< of a move of the whole line, or of one post [m]
   double farthest = 10;  ///< that a post may be moved away [m]
@@ -62,8 +62,8 @@ struct RefinedFence {
   int n_moves = 0;     ///< that made it cheaper
   int n_tried = 0;
 };
-/// Moves the whole line, single posts and both ends as long as the fence gets cheaper and does what
-/// is asked for. `start`: a fence on one line, whose crossings may have been recorded.
+/// Moves the whole line, single posts and both ends as long as the fence gets cheaper and meets
+/// what is asked for. `start`: a fence on one line, whose crossings may have been recorded.
 [[nodiscard]] RefinedFence refine(const SearchRuns& runs, const std::vector<BlockPath>& paths,
                                   const Fence& start, int side, const DesignCode& code,
                                   const SearchSettings& settings, const Trn& trn,

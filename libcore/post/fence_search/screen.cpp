@@ -1,3 +1,4 @@
+// Effect of fences on candidate lines, followed hit by hit through runs without fences.
 #include "post/fence_search/screen.hpp"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ std::vector<Event> events_of(const std::vector<SearchLine>& lines,
   return events;
 }
 
-// A fence that stands in one run, or for one rock that falls alone.
+// A fence of one run, or for one rock that falls alone.
 struct Standing {
   std::vector<double> taken;  // by field [J]
   std::vector<bool> broken;

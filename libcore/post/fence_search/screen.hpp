@@ -1,13 +1,14 @@
 // libcore/post/fence_search/screen.hpp
-// What fences on candidate lines would do, from runs in which these lines stopped nothing.
+// Effect of fences on candidate lines, from runs in which these lines stopped nothing.
 // in:    crossings of the lines, in the order of time; which blocks come to the object
 // out:   where along a line a fence belongs; what must be high and strong enough; which runs still
 //        have a block on the object
 //
-// A crossing matters when its block touches the object later. The others load a fence too. A fence
+// A crossing matters when its block touches the object later. The rest load a fence too. A fence
 // is followed hit by hit: a field adds up the energies that it takes and breaks when they are more
-// than its capacity; then the block passes, and all after it. What a stopped block would have met
-// later it does not meet. That stopped rocks dam those behind them is not seen.
+// is followed hit by hit: a field adds up the energies that it takes and breaks when they are more
+// than its capacity; then the block passes, and all after it. A stopped block has no later hits.
+// That stopped rocks dam those behind them is not considered.
 #pragma once
 
 #include <limits>
@@ -89,14 +90,14 @@ struct PlacedFence {
 /// Its posts on the line.
 [[nodiscard]] Fence fence_on(const SearchLine& line, const PlacedFence& placed);
 
-/// What a set of fences lets through.
+/// Blocks that a set of fences lets through.
 struct ScreenOutcome {
   double stopped = 0;            ///< share of the weight of all hits on the object [-]
   std::vector<BlockWeight> hit;  ///< blocks that still come to the object, by run
   std::vector<bool> is_stopped;  ///< block stopped by any of the fences           (n_blocks)
   std::vector<double> retained;  ///< rock stopped, by fence, median over runs [m3]
 };
-/// `adds_up`: fields add up what they take; else each hit counts alone.
+/// `adds_up`: fields add up the energies that they take; else each hit counts alone.
 [[nodiscard]] ScreenOutcome follow(const SearchRuns& runs, const std::vector<SearchLine>& lines,
                                    const std::vector<PlacedFence>& fences, bool adds_up = true);
 
@@ -109,7 +110,7 @@ struct FieldLoads {
 [[nodiscard]] FieldLoads field_loads(const SearchLine& line, const PlacedFence& fence, double share,
                                      const std::vector<bool>& gone = {});
 
-/// What the code asks of a fence for the hits that matter, without those `gone` already.
+/// Demand of the code on a fence for the hits that matter, without those `gone` already.
 struct FenceDemand {
   int n = 0;                ///< hits
   double height = 0;        ///< with the freeboard [m]

@@ -1,3 +1,4 @@
+// Search for fences that protect an object: options, their costs and residual hits.
 #include "post/fence_search/search.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace {
 // Shares of the hits that stretches are sought for, beside the one that is asked for.
 constexpr std::array front_shares = {0.5, 0.8, 0.9, 1.0};
 constexpr std::array first_shares = {0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
-constexpr int most_first_lines = 12;  // that the first fence of a pair stands on
+constexpr int most_first_lines = 12;  // for the first fence of a pair
 constexpr int most_proposals = 10;
 
 struct Search {
@@ -77,7 +78,7 @@ void find_faults(FenceOption& option, const SearchSettings& settings) {
   }
 }
 
-// What is said of fences that were followed; each demand and load is known.
+// Results for fences that were followed; each demand and load is known.
 FenceOption made(const Search& s, std::vector<OptionPart> parts, const ScreenOutcome& outcome) {
   FenceOption option;
   option.parts = std::move(parts);
@@ -114,8 +115,8 @@ bool apart(const PlacedFence& a, const PlacedFence& b) {
   return a.line != b.line || a.to <= b.from || b.to <= a.from;
 }
 
-// The second fence of a pair, on each line: for what the first lets through; only where both can
-// cost less than `limit`.
+// The second fence of a pair, on each line: for the blocks that the first lets through; only where
+// both can cost less than `limit`.
 void add_seconds(const Search& s, const OptionPart& first, double limit,
                  std::vector<FenceOption>& options) {
   const ScreenOutcome alone = follow(s.runs, s.lines, {first.placed});

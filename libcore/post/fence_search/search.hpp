@@ -1,12 +1,12 @@
 // libcore/post/fence_search/search.hpp
-// Which fences would protect an object, what they cost and what they leave.
+// Which fences would protect an object, their costs and the residual hits.
 // in:    candidate lines with their crossings (screen.hpp), what can be built and its prices
 // out:   options that no other beats in all respects, and the cheapest that do what is asked
 //
 // Options are stretches of candidate lines that hold different shares of the hits, with each height
-// and class that can be built, and pairs of such fences: the second is sought for what the first
-// lets through, whether it stands below, above or beside it. Pairs are looked at where they can
-// cost less than the cheapest single fence that does what is asked for.
+// and class that can be built, and pairs of such fences: the second is sought for the blocks that
+// the first lets through, whether it is below, above or beside it. Pairs are looked at where they
+// can cost less than the cheapest single fence that does what is asked for.
 #pragma once
 
 #include <array>
@@ -33,14 +33,14 @@ struct SearchSettings {
 
 [[nodiscard]] double cost_of(const PlacedFence& fence, const SearchSettings& settings);
 
-/// What keeps an option from being what is asked for.
+/// Reason why an option does not meet the demand.
 enum class SearchFault { share, height, energy, storage, length };
 inline constexpr std::array search_faults = {SearchFault::share, SearchFault::height,
                                              SearchFault::energy, SearchFault::storage,
                                              SearchFault::length};
 [[nodiscard]] const char* text(SearchFault fault);
 
-/// What an option of the search is of.
+/// One fence of an option.
 struct OptionPart {
   PlacedFence placed;
   FenceDemand demand;
@@ -57,7 +57,7 @@ struct FenceOption {
   std::vector<BlockWeight> hit;     ///< blocks that still come to the object, by run
   double residual = 0;              ///< their share of the runs
   Interval residual_interval;       ///< 95 %; NaN: too few runs
-  std::vector<SearchFault> faults;  ///< none: it does what is asked for
+  std::vector<SearchFault> faults;  ///< none: the option meets the demand
 };
 /// Which of its demands is nearest to what it has: "height", "energy of single blocks", "energies
 /// within a second", "energies of a run", "storage".
@@ -71,8 +71,8 @@ struct FenceOption {
 /// Smallest height and class that the demand asks for, the largest where none is enough.
 void size_fence(PlacedFence& fence, const FenceDemand& demand, const SearchSettings& settings);
 
-/// The cheapest fence on a part of a line that does what is asked for; where none does, the one
-/// that is sized for what comes.
+/// The cheapest fence on a part of a line that meets the demand; where none does, the one
+/// that is sized for the arrivals.
 [[nodiscard]] FenceOption cheapest_on(const SearchRuns& runs, const std::vector<SearchLine>& lines,
                                       const PlacedFence& place, const DesignCode& code,
                                       const SearchSettings& settings, const Trn& trn);
@@ -84,9 +84,9 @@ void size_fence(PlacedFence& fence, const FenceDemand& demand, const SearchSetti
 struct FenceSearchResult {
   /// Not beaten by any other; by cost.
   std::vector<FenceOption> front;
-  /// What is asked for, the cheapest of its line or lines; by cost.
+  /// Options that meet the demand, the cheapest of each line or pair; by cost.
   std::vector<FenceOption> proposals;
-  FenceOption nearest;  ///< without a proposal: what comes nearest; no parts: nothing was placed
+  FenceOption nearest;  ///< without a proposal: the nearest option; no parts: nothing was placed
   int n_options = 0;    ///< looked at
 };
 /// Nothing hits the object: no front and no proposals.
@@ -95,7 +95,7 @@ struct FenceSearchResult {
                                               const DesignCode& code,
                                               const SearchSettings& settings, const Trn& trn);
 
-/// Those of the front that no cheaper one equals in what is stopped: a curve, by cost.
+/// Those of the front that no cheaper one equals in the blocks stopped: a curve, by cost.
 [[nodiscard]] std::vector<FenceOption> cost_curve(const std::vector<FenceOption>& front);
 
 /// Whether two shares with their 95 % intervals, of trials that are independent of each other,

@@ -1,3 +1,4 @@
+// Passages as hazard classes count them: rows by cell and run.
 #include "post/hazard/event_rows.hpp"
 
 #include <algorithm>

@@ -17,7 +17,7 @@ struct EventRow {
   std::uint32_t cell = 0;
   std::int32_t run = 0, block = 0;
   float energy = 0;     ///< largest kinetic energy with spin of a block over the cell [kJ]
-  float intensity = 0;  ///< what the recipe's breaks divide, raised by its rule for masses
+  float intensity = 0;  ///< measure that the recipe's breaks divide, raised by its rule for masses
   double weight = 1;    ///< of the block, times that of its run
 };
 

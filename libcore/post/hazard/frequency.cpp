@@ -1,3 +1,4 @@
+// Frequency of the simulated events, from [hazard] and [hazard.class.*] of the site file.
 #include "post/hazard/frequency.hpp"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ HazardClass class_of(const Site& site, const HazardClassSettings& s) {
   return out;
 }
 
-// One class by weights among others may be that of the release points; the runs tell.
+// One class by weights among several may be that of the release points; the runs tell.
 void check_sources(const Site& site, const std::vector<HazardClass>& classes) {
   for (const HazardClass& kind : classes)
     if (kind.kind == FrequencyKind::of_weights) return;

@@ -1,5 +1,5 @@
 // libcore/post/hazard/frequency.hpp: public
-// How often what was simulated happens.
+// Frequency of the simulated events.
 // in:    [hazard] and [hazard.class.*] of the site file
 // out:   a frequency a class, or the probability of a single failure, with bounds
 //
@@ -14,7 +14,7 @@
 
 namespace talus {
 
-/// Events a year; also what frequency and share together give a cell.
+/// Events a year; also frequency times share at a cell.
 struct Rate {
   double value = 0, low = 0, high = 0;  ///< [1/a]
 };
@@ -57,7 +57,7 @@ struct HazardClass {
   return all;
 }
 
-/// What to do where a class and its sources both have a frequency.
+/// Remedy where a class and its sources both have a frequency.
 inline constexpr const char* two_frequencies_hint =
     "without one of its own, the class counts each source by its frequency; or take the frequency "
     "out of [rockfall.*]: that of the class is then of all its sources together";

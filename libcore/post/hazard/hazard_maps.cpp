@@ -1,3 +1,4 @@
+// Layers of a hazard map: rates, intensities, classes and their certainty, cell by cell.
 #include "post/hazard/hazard_maps.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace talus {
 namespace {
 
-// The limits of a recipe as they stand in names: "0kJ", "30kJ", "300kJ".
+// The limits of a recipe as written in names: "0kJ", "30kJ", "300kJ".
 std::vector<std::string> limit_names(const Recipe& recipe) {
   std::vector<std::string> names{break_name(recipe, 0)};
   for (const double limit : recipe.breaks) names.push_back(break_name(recipe, limit));
@@ -240,7 +241,7 @@ std::string capital(std::string words) {
   return words;
 }
 
-// Of a legend; a recipe of risk has no periods of its own.
+// Of a legend; a recipe of risk does not have its own periods.
 std::vector<double> longer_than(const std::vector<double>& periods) {
   std::vector<double> all = periods.empty() ? std::vector<double>{30, 100, 300} : periods;
   const double last = all.back();

@@ -1,5 +1,5 @@
 // libcore/post/hazard/hazard_maps.hpp: public
-// What an authority asks of a slope: how often, how strong, which class, and how sure that is.
+// A slope's hazard as an authority asks for it: rate, intensity, class, and how sure these are.
 // in:    rows of passages by cell, classes with frequencies, a recipe
 // out:   layers over the cells that were touched
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace talus {
 
-/// What layers are made of.
+/// Sources of the layers.
 struct HazardSources {
   std::vector<HazardRuns> classes;  ///< in the order of their runs
   Recipe recipe;

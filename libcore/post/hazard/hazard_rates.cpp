@@ -1,3 +1,4 @@
+// Rates of events at a cell with their bounds, and the energy of a return period.
 #include "post/hazard/hazard_rates.hpp"
 
 #include <algorithm>

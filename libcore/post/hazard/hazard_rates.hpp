@@ -7,7 +7,7 @@
 // moved as if it were alone, or weights are frequencies, an event is a rock: a run is a sample of
 // them, and each counts by its share of the weight. So a rate does not depend on how many rocks a
 // run has. The share of events has its interval (post/share_interval.hpp), the frequency its own;
-// the bounds of a rate are the products of both ends, so they hold together what each leaves open.
+// the bounds of a rate are the products of both ends, so they include the uncertainty of each.
 // Intervals are made over clusters (ensemble/clusters.hpp).
 #pragma once
 
@@ -21,14 +21,14 @@
 
 namespace talus {
 
-/// A class of volumes and the runs that stand for it: `first` to before `first` + `n`.
+/// A class of volumes and the runs that represent it: `first` to before `first` + `n`.
 struct HazardRuns {
   HazardClass kind;
   ShareBasis basis;
   int first = 0, n = 0;
 };
 
-/// The runs of a class, members `first` to the last: what an event is of them, and how often it
+/// The runs of a class, members `first` to the last: the event that they sample, and how often it
 /// comes. The one place that decides it, for every tool. Throws InputError where some runs moved
 /// their blocks alone and some together, where both the class and the blocks have a frequency, and
 /// where the class asks for weights that are none.
@@ -44,7 +44,7 @@ struct HazardRuns {
 [[nodiscard]] Rate rate_of(const HazardRuns& runs, std::span<const BlockWeight> hit);
 [[nodiscard]] Rate share_of(const HazardRuns& runs, std::span<const BlockWeight> hit);
 
-/// What the runs say about places that none of them reached: at most so often [1/a].
+/// Upper bound of the rate at places that none of the runs reached [1/a].
 [[nodiscard]] double largest_rate_elsewhere(std::span<const HazardRuns> classes);
 
 class HazardRates {
@@ -56,10 +56,10 @@ class HazardRates {
   /// `rows` of one cell, sorted.                                            (n_breaks + 1)
   [[nodiscard]] std::vector<Rate> above(std::span<const EventRow> rows,
                                         std::span<const double> breaks);
-  /// Shares of the events of one class, in the same way.
+  /// Shares of the events of one class, by the same method.
   [[nodiscard]] std::vector<Rate> shares_above(std::span<const EventRow> rows,
                                                std::span<const double> breaks, std::size_t kind);
-  /// Blocks a year, in the same way, without bounds [1/a].
+  /// Blocks a year, by the same method, without bounds [1/a].
   [[nodiscard]] std::vector<double> passages_above(std::span<const EventRow> rows,
                                                    std::span<const double> breaks);
   /// The largest energy that is reached or exceeded at least once in each of `periods`; NaN: none.

@@ -1,3 +1,4 @@
+// Joins patches of cells that are too small to be filed to their neighbours.
 #include "post/hazard/patches.hpp"
 
 #include <algorithm>
@@ -12,8 +13,8 @@ class Patches {
   Patches(std::vector<int>& values, int n_cols)
       : values_(values), n_cols_(static_cast<std::size_t>(n_cols)), seen_(values.size(), false) {}
 
-  // Of fewer cells than `least`, the smallest first; what is open to the edge of the grid is no
-  // hole.
+  // Of fewer cells than `least`, the smallest first. A patch that is open to the edge of the grid
+  // is not a hole.
   std::vector<std::vector<std::size_t>> small_ones(std::int64_t least) {
     std::fill(seen_.begin(), seen_.end(), false);
     std::vector<std::vector<std::size_t>> small;

@@ -9,7 +9,7 @@
 
 namespace talus {
 
-/// What join_small_patches() did, in patches and cells.
+/// Changes by join_small_patches(), in patches and cells.
 struct PatchRepair {
   int n_joined = 0, n_left_out = 0;
   std::int64_t cells_raised = 0, cells_lowered = 0;

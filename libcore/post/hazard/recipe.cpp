@@ -1,3 +1,4 @@
+// Classes of an authority's recipe: the matrix of intensity and period, limits of risk, names.
 #include "post/hazard/recipe.hpp"
 
 #include <cmath>

@@ -95,7 +95,7 @@ class RecipeReader {
     return *node.as_table();
   }
 
-  // What is an open key of one way to write a recipe, and means nothing in the other.
+  // Keys that are open in one form of a recipe and have no meaning in the other.
   void refuse_beside(const char* other, const std::vector<const char*>& keys) const {
     for (const char* key : keys)
       if (root_.contains(key))
@@ -205,7 +205,7 @@ class RecipeReader {
     }
   }
 
-  // Every number of the recipe stands somewhere.
+  // Every number of the recipe has a source.
   void read_sources() {
     static const std::vector<std::string> items = {"return_period_a", "probability", "matrix",
                                                    "intensity",       "risk",        "mass",
@@ -242,7 +242,7 @@ class RecipeReader {
                "name it in `of` of a [[source]]; what you chose yourself has mark = \"o\"");
   }
 
-  // What is left out is by reach alone.
+  // Without these keys the classes are by reach alone.
   void read_intensity() {
     if (!root_.contains("intensity")) {
       recipe_.intensities = {"reached"};
@@ -334,7 +334,7 @@ class RecipeReader {
     return chosen < 0 ? "none" : recipe_.classes[static_cast<std::size_t>(chosen)].name;
   }
 
-  // Of the last cell of a row that is being read: what is stronger, or comes more often, has no
+  // Of the last cell of a row that is being read: a stronger or more frequent cell must not have a
   // lower class, on either side of the split.
   void check_order(const toml::node& entry, const std::string& item,
                    const std::vector<MatrixCell>& cells) const {

@@ -1,3 +1,4 @@
+// Annual probability of death of the person most at risk at an object, and expected deaths.
 #include "post/hazard/risk.hpp"
 
 #include <algorithm>

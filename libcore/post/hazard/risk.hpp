@@ -1,5 +1,5 @@
 // libcore/post/hazard/risk.hpp: public
-// What a year may bring those who are at an object.
+// Annual risk of the people at an object.
 // in:    rates of hits of the object by intensity; who is there, of [object.*]; a recipe of risk
 // out:   the annual probability of death of the one most at risk with its interval, expected deaths
 //        a year, the class
@@ -23,7 +23,7 @@ namespace talus {
 void check_exposure(const Site& site, const Recipe& recipe,
                     const std::vector<HazardClass>& classes);
 
-/// What objects say of who is there and a recipe without [risk] does not read; empty: nothing.
+/// Keys of objects on the people there that a recipe without [risk] does not read; empty: none.
 [[nodiscard]] std::string unused_exposure(const Site& site, const Recipe& recipe);
 
 struct ObjectRisk {

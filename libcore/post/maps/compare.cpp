@@ -1,3 +1,4 @@
+// Difference of two ensembles of runs, cell by cell, with 95 % intervals.
 #include "post/maps/compare.hpp"
 
 #include <algorithm>

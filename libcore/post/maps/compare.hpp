@@ -1,5 +1,5 @@
 // libcore/post/maps/compare.hpp: public
-// What one ensemble of runs has more than another, cell by cell, and how sure that is.
+// Difference of two ensembles of runs, cell by cell, and how sure it is.
 // in:    passages of both by cell of one map
 // out:   differences of reach and percentiles with their 95 % intervals
 //

@@ -1,5 +1,5 @@
 // libcore/post/maps/map_column.hpp
-// What is beside a map: legend, signs, scale, north, words.
+// The column beside a map: legend, signs, scale, north, words.
 #pragma once
 
 #include "post/maps/map_drawing.hpp"

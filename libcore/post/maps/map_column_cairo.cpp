@@ -91,7 +91,7 @@ void draw_legend(Column& column, const MapPage& page) {
   if (!page.cells.uncertain.empty()) column.uncertain_row();
 }
 
-// Whether the frame may show a part of what `points` bound.
+// Whether the frame may show a part of the box of `points`.
 template <class Points>
 bool is_seen(const MapView& view, const Points& points) {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;

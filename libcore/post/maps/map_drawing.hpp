@@ -1,6 +1,6 @@
 // libcore/post/maps/map_drawing.hpp: public
-// A map by the pen, part by part: what pages and reports show of the ground, of cells and of places
-// looks the same.
+// A map by the pen, part by part: the ground, cells and places on pages and in reports
+// look the same.
 #pragma once
 
 #include "draw/drawing.hpp"

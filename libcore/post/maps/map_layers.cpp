@@ -1,3 +1,4 @@
+// The table of the layers of a hazard map: quantity, classes, words and place in the project.
 #include "post/maps/map_layers.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // libcore/post/maps/map_layers.hpp: public
-// The layers of a hazard map: one row each, of one table. What talus-maps makes, in which classes
-// it is drawn, what the report writes below it and where it stands in the QGIS project are read
-// from here; the name of a layer stands nowhere else.
+// The layers of a hazard map: one row each, of one table. Whether talus-maps makes it, the classes
+// in which it is drawn, the text of the report below it and its place in the QGIS project are read
+// from here; the name of a layer is written nowhere else.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace talus {
 
-/// What layers are made from. Passages may be those of one tile of the map.
+/// Sources of the layers. Passages may be those of one tile of the map.
 struct MapSources {
   const CellRows& cells;       ///< passages by cell
   const DepositSums& deposit;  ///< where blocks came to rest
@@ -44,7 +44,7 @@ struct MapLayerKind {
 /// The row of a layer that was made from the table.
 [[nodiscard]] const MapLayerKind& kind_of(const MapLayer& layer);
 
-/// The row of what blocks at rest leave: the one layer that is not made of passages.
+/// The row of the deposit of blocks at rest: the one layer that is not made of passages.
 [[nodiscard]] const MapLayerKind& deposit_kind();
 
 /// The layer of a row, with its name.

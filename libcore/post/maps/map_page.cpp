@@ -1,3 +1,4 @@
+// Layout of a map page: its parts, their positions and the scale.
 #include "post/maps/map_page.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // libcore/post/maps/map_page.hpp: public
-// A map as a page: what stands on it, and at which scale.
+// A map as a page: its content and its scale.
 // in:    values of cells, their style, the terrain, source, fences and objects
 // out:   numbers of the page; map_drawing.hpp draws it
 #pragma once
@@ -19,7 +19,7 @@ namespace talus {
 /// Landscape.
 enum class PageSize { a4, a3 };
 
-/// Where things stand on a page [mm].
+/// Positions of the parts of a page [mm].
 struct PageLayout {
   double width = 0, height = 0;
   PageBox map;     ///< the frame of the map
@@ -55,9 +55,9 @@ struct MapGround {
 };
 [[nodiscard]] MapGround map_ground(const Trn& trn, const PageLayout& layout, const MapView& view);
 
-/// Every fifth line bears its height.
+/// Every fifth line has its height written.
 [[nodiscard]] bool is_numbered(const MapGround& ground, const LevelLine& line);
-/// Where a height stands: in the middle of `at`, along its line.
+/// Position of a height: in the middle of `at`, along its line.
 struct LevelLabel {
   double level = 0;        ///< [m]
   Vec2 at = Vec2::Zero();  ///< from the upper left corner of the frame [mm]
@@ -77,7 +77,7 @@ struct MapCells {
 
 struct MapPage {
   PageSize size = PageSize::a4;
-  std::string title, subtitle;     ///< what is shown; of which site and runs
+  std::string title, subtitle;     ///< the quantity; the site and runs
   std::string crs;                 ///< name of the coordinate system
   std::vector<std::string> words;  ///< paragraphs below the legend: runs, model, limits
   MapCells cells;

@@ -1,3 +1,4 @@
+// Places on a map beside its values: the source, fences, objects.
 #include "post/maps/map_places.hpp"
 
 #include <algorithm>

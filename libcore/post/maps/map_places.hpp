@@ -1,5 +1,5 @@
 // libcore/post/maps/map_places.hpp: public
-// What stands on a map beside its values: the source, fences, objects.
+// Places on a map beside its values: the source, fences, objects.
 #pragma once
 
 #include <vector>
@@ -21,8 +21,8 @@ struct MapPlaces {
   return is_one_by_one ? 0.004 * scale : 0.2;
 }
 
-/// Adds what a run has, read with its lines and objects. Of lines and objects of one name the first
-/// is kept, of lines one that stood.
+/// Adds the places of a run, read with its lines and objects. Of lines and objects of one name the
+/// first is kept; of lines, one with a built fence.
 void add_places(MapPlaces& places, const RunFile& run);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// Passages of runs brought to the cells of a map and put in order.
 #include "post/maps/map_rows.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace talus {
 namespace {
 
-// The largest values of both; what belongs to the arrival comes from the earlier one.
+// The largest values of both; values of the arrival come from the earlier one.
 void take_earlier(MapRow& row, const MapRow& other) {
   row.largest.raise(other.largest);
   if (other.first_time >= row.first_time) return;

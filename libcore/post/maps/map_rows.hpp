@@ -24,7 +24,7 @@ struct MapRow {
   PassageValues largest;
   float first_time = 0;    ///< [s]
   float travel_angle = 0;  ///< below the horizontal, from the start to here [rad]; NaN: no path
-  float heading = 0;       ///< of the centroid when it came, from x to y [rad]; NaN: it stood
+  float heading = 0;       ///< of the centroid when it came, from x to y [rad]; NaN: it was at rest
 };
 
 /// Cells made of `factor` x `factor` cells of `recorded`, from the same north-west corner.

@@ -1,3 +1,4 @@
+// Classes, colours and legends of the map layers.
 #include "post/maps/map_style.hpp"
 
 #include <algorithm>
@@ -49,7 +50,7 @@ int shown_band(const MapLayer& layer, const std::string& wanted) {
              : std::max(0, find(layer.name + "_max"));
 }
 
-// What a value of the shown band is of the blocks that came over the cell, and its unit.
+// Statistic of the shown band over the blocks that crossed the cell, and its unit.
 std::string legend_words(const MapLayer& layer, const MapBand& band) {
   if (band.name == layer.name + "_p95")
     return "95 % of all blocks over the cell stay below [" + band.unit + "]";

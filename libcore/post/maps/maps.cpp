@@ -1,3 +1,4 @@
+// Bands of hazard maps: reach, energy, height, speed and more over each cell.
 #include "post/maps/maps.hpp"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
-// How a quantity is read from a passage, and what its bands say.
+// How a quantity is read from a passage, and the texts of its bands.
 struct QuantityText {
   MapQuantity quantity;
   float PassageValues::*member;
@@ -130,7 +131,7 @@ double take_blocks(std::span<const MapRow> rows, const ShareBasis& basis, const 
 bool all(const MapRow&) { return true; }
 
 // Width of a cell seen across a heading, in cell sizes; the mean over all directions for a block
-// that stood.
+// that was at rest.
 double width_across(double heading) {
   if (std::isnan(heading)) return 4 / std::numbers::pi;
   return std::abs(std::cos(heading)) + std::abs(std::sin(heading));

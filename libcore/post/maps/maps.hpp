@@ -1,5 +1,5 @@
 // libcore/post/maps/maps.hpp: public
-// Hazard maps: what blocks of one or many runs did over each cell.
+// Hazard maps: motion of blocks of one or many runs over each cell.
 // in:    passages of runs by cell (map_rows.hpp)
 // out:   bands over the cells that were touched; definitions in docs/reference/formats.md#maps
 //
@@ -34,9 +34,9 @@ struct MapBand {
 /// Bands that share a file.
 struct MapLayer {
   std::string name;                 ///< of the file, without extension; given by map_layers.hpp
-  std::vector<std::uint32_t> cell;  ///< that the values stand for, ascending       (n_touched)
+  std::vector<std::uint32_t> cell;  ///< of each value, ascending       (n_touched)
   std::vector<MapBand> bands;
-  bool is_codes = false;  ///< whole numbers 0 to 254 that stand for something, not quantities
+  bool is_codes = false;  ///< whole numbers 0 to 254 that are codes, not quantities
 };
 
 /// The five quantities whose per-block maxima are described by mean, percentiles, bounds, maximum.

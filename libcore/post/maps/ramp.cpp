@@ -1,3 +1,4 @@
+// Colour ramps of maps.
 #include "post/maps/ramp.hpp"
 
 #include <algorithm>

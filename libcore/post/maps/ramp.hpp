@@ -1,13 +1,13 @@
 // libcore/post/maps/ramp.hpp: public
 // Colours of maps: each kind of quantity has its own, and each tells its values apart for the
-// colour-blind too, since it grows darker or lighter all the way.
+// colour-blind too, since it grows darker or lighter throughout.
 #pragma once
 
 #include "io/style.hpp"
 
 namespace talus {
 
-/// What is shown. Hazard classes have the colours of their authority, in its recipe.
+/// Kind of quantity. Hazard classes have the colours of their authority, in its recipe.
 enum class Ramp {
   speed,        ///< YlGnBu
   energy,       ///< YlOrRd, carried on to a darker end for its many classes

@@ -1,3 +1,4 @@
+// The ground below a map: where it is known, and its shading.
 #include "post/maps/shading.hpp"
 
 #include <algorithm>

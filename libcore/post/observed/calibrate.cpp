@@ -1,3 +1,4 @@
+// History matching: implausibility of each run, and the set of runs that is not contradicted.
 #include "post/observed/calibrate.hpp"
 
 #include <algorithm>

@@ -1,12 +1,11 @@
 // libcore/post/observed/calibrate.hpp: public
-// Which runs the observations do not contradict, and the values that these drew: a set, no best
-// one. in:    observations, what was computed, what each run drew out:   implausibility of each
-// run; the set; what it says of observations that are left out refs:  Craig et al. 1997, Vernon et
+// Which runs the observations do not contradict, and the values that these drew: a set, not one
+// best run. The set is tried on observations that are left out. Refs: Craig et al. 1997, Vernon et
 // al. 2010 (history matching); Pukelsheim 1994 (three sigma)
 //
-// A run is held against each layer as if the observations were drawn from it. The implausibility is
-// the difference of a number over its standard deviation, which has the noise of n observations and
-// that of the run's own blocks. It has no term for errors of the model: where every run is
+// A run is compared with each layer as if the observations were drawn from it. The implausibility
+// is the difference of a number over its standard deviation, which has the noise of n observations
+// and that of the run's own blocks. It has no term for errors of the model: where every run is
 // contradicted, no values within the ranges explain what was observed.
 #pragma once
 
@@ -43,7 +42,7 @@ struct JudgedRun {
   [[nodiscard]] bool is_plausible() const { return implausibility <= most_implausible; }
 };
 
-/// A boulder or scar that was left out, and what the runs say of it that the rest leaves.
+/// A boulder or scar that was left out, and the result for it from the runs that the rest leaves.
 struct LeftOutPoint {
   ObservedKind kind = ObservedKind::boulders;
   std::string event;

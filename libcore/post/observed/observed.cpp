@@ -1,3 +1,4 @@
+// Observed boulders, scars and outlines beside the computed ones, with a score.
 #include "post/observed/observed.hpp"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ Interval even_shares(std::size_t n) {
 
 // --- shares over clusters ------------------------------------------------------------------------
 
-// What counts differs from what was released: blocks of a mass that stayed, or did not pass.
+// The counted blocks differ from those released: blocks of a mass that stayed, or did not pass.
 template <class Counted>
 ShareBasis basis_of(const ShareBasis& released, const std::vector<Counted>& counted) {
   Clusters clusters = released.clusters;
@@ -269,7 +270,7 @@ Compared compared_level(const Values& observed, const Values& computed, double p
   return {weighted_percentile(observed, p), interval, weighted_percentile(computed, p)};
 }
 
-// What as many points have that were drawn from the computed ones: of a run, which is drawn by its
+// Spread of as many points that are drawn from the computed ones: of a run, which is drawn by its
 // weight, where an event is one.
 void add_noise(const std::vector<ComputedBlock>& blocks, const std::vector<AlongAcross>& at,
                bool is_event_a_run, const Values& pooled, BoulderScore& score) {

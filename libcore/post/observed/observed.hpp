@@ -1,5 +1,5 @@
 // libcore/post/observed/observed.hpp: public
-// What was observed beside what was computed, with a score, and how much the observations can tell.
+// Observations beside results, with a score, and how much the observations can tell.
 // in:    observed boulders, scars and outlines; the runs one by one
 // out:   run-out along and across the path, shares inside, heights, each with an interval
 //
@@ -45,7 +45,7 @@ struct Computed {
   PassageGrid grid;                                        ///< of passages
   std::vector<std::uint8_t> is_passed;                     ///< by any block       (n_cells)
   std::vector<std::vector<std::vector<ScarPass>>> passes;  ///< [event][scar]
-  /// What is observed of an event is of one run: its blocks move together, or share what the run
+  /// An observed event is one run: its blocks move together, or share the values that the run
   /// drew. Else it is of rocks from any of the runs.
   bool is_event_a_run = false;
   // finish()
@@ -54,7 +54,7 @@ struct Computed {
 };
 /// Adds a run, number `index` among them.
 void add_blocks(Computed& computed, const RunFile& run, int index, double rest_speed);
-/// Adds all passages of it; `run` holds no others.
+/// Adds all passages of it; `run` holds only these.
 void add_passages(Computed& computed, const std::vector<ObservedEvent>& events, const RunFile& run,
                   int index, const std::vector<Passage>& passages);
 /// Once all are there: their sums, and the same order however runs are spread over files.
@@ -90,8 +90,8 @@ struct ComputedShare {
                     std::numeric_limits<double>::quiet_NaN()};
 };
 
-/// A number of what was observed with its 95 % interval, NaN where the points are too few for one,
-/// and that of what was computed.
+/// A number of the observations with its 95 % interval, NaN where the points are too few for one,
+/// and the computed one.
 struct Compared {
   double observed = 0;
   Interval interval;
@@ -117,9 +117,9 @@ struct BoulderScore {
   Compared across;                                      ///< standard deviation across [m]
   double area = 0;        ///< between the distributions of the run-outs [m]
   double noise = 0;       ///< as many points drawn from a run, or from all: the area's median [m]
-  double noise_high = 0;  ///< and what it stays below with 95 % [m]
+  double noise_high = 0;  ///< and its 95 % bound [m]
   double mean_percentile = 0;                ///< of the observed among the computed run-outs [-]
-  Interval by_chance;                        ///< 95 % of what the drawn points have [-]
+  Interval by_chance;                        ///< 95 % of the drawn points [-]
   std::vector<double> computed_percentiles;  ///< run-outs at 0, 1 ... 100 %, for a chart   (101)
   Compared reached;  ///< share of the points that lie in the computed reach; computed: 1
   /// The observations tell that the computed distribution is not theirs.
@@ -138,11 +138,11 @@ struct ScarScore {
   std::vector<ScarRow> rows;
   int n_passed = 0;            ///< scars that a computed block passed
   double mean_percentile = 0;  ///< of those [-]; NaN: none
-  Interval by_chance;          ///< 95 % of what as many even shares have [-]
+  Interval by_chance;          ///< 95 % of as many even shares [-]
 };
 
 struct OutlineScore {
-  ComputedShare inside;      ///< of what was deposited, within the outline
+  ComputedShare inside;      ///< of the deposit, within the outline
   double reached_share = 0;  ///< of the outline's cells, that a computed block passed [-]
 };
 

@@ -1,3 +1,4 @@
+// Fields of observations beside results: boulders, scars, outlines.
 #include "post/observed/observed_fields.hpp"
 
 namespace talus {

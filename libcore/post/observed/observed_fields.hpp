@@ -1,5 +1,5 @@
 // libcore/post/observed/observed_fields.hpp: public
-// Fields of what was observed beside what was computed: boulders, scars, outlines.
+// Fields of observations beside results: boulders, scars, outlines.
 #pragma once
 
 #include "base/fields.hpp"

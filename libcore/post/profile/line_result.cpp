@@ -1,3 +1,4 @@
+// Statistics across and along a line that was drawn after the runs.
 #include "post/profile/line_result.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // libcore/post/profile/line_result.hpp: public
 // Statistics across and along a line that was drawn after the runs.
 // in:    crossings and passages of all runs (line_sums.hpp)
-// out:   what crosses, for the whole line and by chainage; ground and envelope at stations
+// out:   crossings, for the whole line and by chainage; ground and envelope at stations
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace talus {
 
-/// What crosses a part of the line.
+/// Crossings of a part of the line.
 struct AcrossSummary {
   double from = 0, to = 0;      ///< chainage [m]
   FencePartSummary blocks;      ///< number, energy, speed, height of the top above the ground
@@ -51,8 +51,8 @@ struct StationSummary {
 [[nodiscard]] std::vector<StationSummary> station_summaries(const LineSums& sums,
                                                             const ShareBasis& basis);
 
-/// Change of energy between the two frames about a crossing, over the energy at it: what the error
-/// of that energy mostly stays below.
+/// Change of energy between the two frames about a crossing, over the energy at it: a bound that
+/// the error of that energy mostly stays below.
 struct EnergyChange {
   double p50 = 0, p95 = 0;  ///< over crossings by frames [-]; NaN: there are none
 };

@@ -1,3 +1,4 @@
+// Crossings and passages of runs at a line that was drawn after them.
 #include "post/profile/line_sums.hpp"
 
 #include <algorithm>
@@ -37,7 +38,8 @@ LineCrossing crossing_of_block(const RunFile& run, int index, int b) {
   return out;
 }
 
-// Of block b on a way in plan from frame k to the next, as the body that it then is part of.
+// Of block b on a straight path in plan from frame k to the next, as the body that it then is part
+// of.
 LineCrossing crossing_between(const RunFile& run, int index, int b, const WholeBodies& bodies,
                               int k, const Vec2& start, const Vec2& end, const LineMeeting& met,
                               const Trn& trn) {
@@ -74,7 +76,7 @@ void add_frame_crossings(LineSums& sums, const RunFile& run, int index, const Tr
     Vec2 to = place(0);
     for (int k = 0; k + 1 < n_frames(run.frames); ++k) {
       const Vec2 from = to;
-      to = place(k + 1);  // of a piece, when it has come off since: its way goes on from its block
+      to = place(k + 1);  // of a piece, come off since: its path continues from its block
       if (from == to || (from.cwiseMin(to).array() > box.high.array()).any() ||
           (from.cwiseMax(to).array() < box.low.array()).any())
         continue;

@@ -1,9 +1,9 @@
 // libcore/post/profile/line_sums.hpp: public
-// What runs say of a line that was drawn after them.
+// Blocks of runs at a line that was drawn after them.
 // in:    runs one by one, with frames or passages; a line on the ground
-// out:   which blocks cross the line and how; what passed each cell under it
+// out:   which blocks cross the line and how; the passages of each cell under it
 //
-// Two questions. Across: what crosses the line. It is told by frames, linear between two of them,
+// Two questions. Across: blocks that cross the line, from frames, linear between two of them,
 // for the centroid; of a run without frames by the cells under the line, which a block's footprint
 // touched: no block too few, some too many, values the largest over these cells. Along: the largest
 // values of each block over each cell under the line, from passages alone.
@@ -73,15 +73,15 @@ struct LineSums {
 /// local [m].
 [[nodiscard]] Vec3 point_on(const RecordLine& line, double chainage);
 
-/// Whether frames tell what crosses a line: there is one between the first and the last.
+/// Whether frames give the crossings of a line: there is one between the first and the last.
 [[nodiscard]] bool has_frames(const RunFile& run);
 
-/// Adds a run: its blocks, and what crosses by its frames where it has_frames(). Its passages are
+/// Adds a run: its blocks, and the crossings by its frames where it has_frames(). Its passages are
 /// added by add_passages().
 void add_run(LineSums& sums, const RunFile& run, const Trn& trn);
 
 /// Adds rows of passages of the run that add_run() took as number `index`. They may come in several
-/// pieces; without frames they tell what crosses.
+/// pieces; without frames they give the crossings.
 void add_passages(LineSums& sums, const RunFile& run, int index,
                   const std::vector<Passage>& passages);
 

@@ -1,3 +1,4 @@
+// Blocks of a run as whole bodies until they break into their pieces.
 #include "post/profile/whole_bodies.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Volume, fall height and run-out of an event beside published relations.
 #include "post/runout/mobility.hpp"
 
 #include <algorithm>

@@ -41,8 +41,8 @@ struct MobilityEvent {
   double left_share = 1;  ///< of the released mass, that left its source [-]
   bool is_cut = false;    ///< more than a twentieth left the terrain, or still moved at the end
 };
-/// Those of `some` runs in which a mass moved: V is what moved, H and L are those of 95 % of it,
-/// straight, since the relations are of masses and not of single blocks.
+/// Those of `some` runs in which a mass moved: V is the volume that moved, H and L are those of 95
+/// % of it, straight, since the relations are of masses and not of single blocks.
 [[nodiscard]] std::vector<MobilityEvent> mobility_events(const std::vector<RunoutRun>& runs,
                                                          const std::vector<int>& some,
                                                          bool confined);

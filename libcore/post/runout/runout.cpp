@@ -1,3 +1,4 @@
+// Run-out of one run: paths, streamline, H, L, angles of reach, curves over time, energy shares.
 #include "post/runout/runout.hpp"
 
 #include <algorithm>

@@ -30,7 +30,8 @@ struct TimedPath {
 };
 
 /// An impact lies between two frames if the velocity changed by more than 0.5 m/s, and by more than
-/// twice what the weight does, once gravity is taken off: sliding and rolling change it by less.
+/// twice the effect of the weight, once gravity is taken off: sliding and rolling change it by
+/// less.
 [[nodiscard]] TimedPath block_path(const RunFile& run, int block);
 /// Of the centre of mass of all blocks; its speed is that of the mean momentum.
 [[nodiscard]] TimedPath centre_of_mass_path(const RunFile& run);
@@ -51,7 +52,7 @@ struct TimedPath {
 
 /// The angle from a path's first point to each of its points, along the path.
 ///
-/// On a way that flattens it falls from start to end. Where a steeper part comes later it rises
+/// On a path that flattens it falls from start to end. Where a steeper part comes later it rises
 /// again: then the angle at the end is not the smallest one, an energy line of some angles would
 /// have stopped the mass higher up, and Eq. (29) at the toe hides that.
 struct AngleProfile {
@@ -61,7 +62,7 @@ struct AngleProfile {
   /// How far an energy line from the start to a later point runs below the ground at an earlier
   /// one, at most: the head that a mass on that line lacks to come by there [m].
   double missing_head = 0;
-  bool monotone = true;                 ///< falls all the way: no head above `tolerance` is missing
+  bool monotone = true;                 ///< falls throughout: no head above `tolerance` is missing
   [[nodiscard]] double at_end() const;  ///< [rad]; NaN for no path
 };
 /// `tolerance`: a missing head of no more is not told from the error of the points' heights [m].
@@ -97,10 +98,10 @@ struct MassReach {
   [[nodiscard]] double angle() const;  ///< atan(H95 / L95) [rad]
 };
 
-/// What Eq. (29) needs, and what stands beside it.
+/// Input of Eq. (29), and the results beside it.
 ///
-/// Where no block moved (moved.hpp) there is no run-out: no toe block and no streamline, and the
-/// reach of event and centre of mass is NaN.
+/// Where no block moved (moved.hpp) run-out is undefined: there is neither a toe block nor a
+/// streamline, and the reach of event and centre of mass is NaN.
 struct EventReach {
   Moved moved;                      ///< how much of the mass, and how far
   Vec3 top = Vec3::Zero();          ///< highest point of the mass before it moved [m]
@@ -109,7 +110,7 @@ struct EventReach {
   Fate toe_fate = Fate::deposited;  ///< a toe block that still moves goes farther yet
   std::vector<Vec3> streamline;     ///< top, the toe block's path on the ground, toe [m]
   ReachLine event;                  ///< along the streamline
-  MassReach mass;                   ///< of what moved, without its few farthest blocks
+  MassReach mass;                   ///< of the moved mass, without its few farthest blocks
   AngleProfile profile;             ///< along the streamline from the toe block's start
   ReachLine centre_of_mass;         ///< H_cm, L_cm along the path of the centre of mass
   double sum_angle = 0;  ///< atan(sum m H / sum m L) over blocks: tan(phi) for pure sliding [rad]
@@ -121,11 +122,11 @@ struct ReachSettings {
   double rest_speed = 0.05;  ///< [m/s]
 };
 
-/// What the frames and passages of a run tell of its reach.
+/// Reach of a run from its frames and passages.
 [[nodiscard]] RunReach reach_of_frames(const RunFile& run, const Trn& trn,
                                        const ReachSettings& settings);
 
-/// Throws nothing; a run without frames has not moved. Where `run.reach` stands for the frames, the
+/// Throws nothing; a run without frames has not moved. Where `run.reach` replaces the frames, the
 /// settings' tolerance must be that of it.
 [[nodiscard]] EventReach event_reach(const RunFile& run, const Trn& trn,
                                      const ReachSettings& settings);
@@ -145,12 +146,12 @@ struct CurveRow {
 };
 [[nodiscard]] std::vector<CurveRow> curves(const RunFile& run);
 
-/// Where the energy went, as shares of what gravity and the start put in; they sum to 1 but for the
-/// run's own balance error.
+/// Where the energy went, as shares of the input by gravity and at the start; they sum to 1 but for
+/// the run's own balance error.
 struct EnergyShares {
   double put_in = 0;  ///< loss of potential energy + kinetic energy at the start + input [J]
   double friction = 0, impact = 0, contact = 0, breakage = 0, removed = 0, kinetic = 0, elastic = 0;
-  double fence = 0;  ///< taken by panels of fences that gave way
+  double fence = 0;  ///< taken by panels of fences that yielded
   double unaccounted = 0;
 };
 /// Zero everywhere when the run has no health record or nothing was put in.

@@ -1,3 +1,4 @@
+// Fields of the tables of a run-out: blocks, runs, and points of the curves over time.
 #include "post/runout/runout_fields.hpp"
 
 #include "base/units.hpp"
@@ -13,7 +14,7 @@ using Block = const RunBlock&;
 using Run = const RunoutRun&;
 using Point = const CurvePoint&;
 
-// None where nothing moved: there is no run-out.
+// None where nothing moved: run-out is undefined.
 Value if_moved(Run r, Value value) { return r.event.moved.any() ? std::move(value) : Value(); }
 
 }  // namespace

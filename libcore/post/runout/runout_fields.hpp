@@ -1,5 +1,5 @@
 // libcore/post/runout/runout_fields.hpp: public
-// Fields of what a run-out has a row of: blocks, runs, and points of the curves over time.
+// Fields of the tables of a run-out: blocks, runs, and points of the curves over time.
 #pragma once
 
 #include "base/fields.hpp"

@@ -1,3 +1,4 @@
+// Run-out of many runs: the data kept of each, their sums and the spread over them.
 #include "post/runout/runout_runs.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // libcore/post/runout/runout_runs.hpp: public
-// How far many runs came: what is kept of each, their sums and the spread over them.
+// How far many runs came: the data kept of each, their sums and the spread over them.
 // in:    run files one by one, the terrain
 // out:   of each run its reach, balance, paths and footprints; of all the deposit and swept cells
 #pragma once
@@ -20,7 +20,7 @@ struct DrawnValue {
   double value = 0;
 };
 
-/// What of a run crossed a line.
+/// Crossings of a line by a run.
 struct LineReach {
   std::string name;
   double share = 0;   ///< of the weight of its blocks [-]
@@ -29,7 +29,7 @@ struct LineReach {
 /// Of each line that the run recorded.
 [[nodiscard]] std::vector<LineReach> reach_of_lines(const RunFile& run);
 
-/// What is kept of a run once it has been read.
+/// Data kept of a run after it was read.
 struct RunoutRun {
   RunMember member;
   std::vector<DrawnValue> drawn;  ///< where it is known
@@ -59,7 +59,7 @@ struct RunoutRuns {
   Moved moved;       ///< the mass of all runs together, each with its weight
   PassageGrid grid;  ///< of cells and deposit
 };
-/// What runs add as they are read, in the order of their ids. `grid`: of cells and deposit.
+/// Sums of runs as they are read, in the order of their ids. `grid`: of cells and deposit.
 struct RunoutSums {
   PassageGrid grid;
   std::vector<RunoutRun> runs;
@@ -96,7 +96,7 @@ struct RunoutCase {
 [[nodiscard]] Spread spread_over(const std::vector<RunoutRun>& runs, const std::vector<int>& some,
                                  double (*value)(const RunoutRun&));
 
-/// Runs in which a block moved: the others have no run-out.
+/// Runs in which a block moved: run-out is undefined for the rest.
 [[nodiscard]] int n_moved(const std::vector<RunoutRun>& runs);
 /// Runs that are events (moved.hpp); places of them in `runs`.
 [[nodiscard]] std::vector<int> events_among(const std::vector<RunoutRun>& runs,

@@ -1,3 +1,4 @@
+// Sensitivity of results to drawn quantities: rank correlations and first-order indices.
 #include "post/runout/runout_sensitivity.hpp"
 
 #include <algorithm>

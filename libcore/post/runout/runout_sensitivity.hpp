@@ -1,5 +1,5 @@
 // libcore/post/runout/runout_sensitivity.hpp: public
-// What the results of many runs owe to the quantities that they drew.
+// Sensitivity of the results of many runs to the quantities that they drew.
 // in:    run-out, arrivals at lines and drawn values of each run
 // out:   for each result and quantity a rank correlation and a first-order index
 #pragma once

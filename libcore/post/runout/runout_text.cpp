@@ -1,3 +1,4 @@
+// Run-out in words and as tables.
 #include "post/runout/runout_text.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // libcore/post/runout/runout_text.hpp: public
 // How far runs came, in words and as tables.
-// in:    what was kept of the runs (runout_runs.hpp)
+// in:    the data kept of the runs (runout_runs.hpp)
 // out:   a summary of some lines; rows of blocks and of curves over time
 #pragma once
 

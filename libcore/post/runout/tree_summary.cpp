@@ -1,3 +1,4 @@
+// Trees that were hit over many runs: stem by stem, and forest by forest.
 #include "post/runout/tree_summary.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace talus {
 namespace {
 
-// What tells stems apart: of stands that each run draws anew, the place too.
+// Identity of a stem: of stands that each run draws anew, the place too.
 using StemName = std::tuple<std::string, std::int32_t, double, double>;
 
 void add_trees(const RunTrees& run, std::map<StemName, HitStem>& stems,

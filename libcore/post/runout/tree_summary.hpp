@@ -1,7 +1,7 @@
 // libcore/post/runout/tree_summary.hpp: public
 // Which trees were hit over many runs: stem by stem, and forest by forest.
 // in:    hits of trees of run files
-// out:   how often each stem was hit and broken, and what was left of it
+// out:   how often each stem was hit and broken, and its residual strength
 #pragma once
 
 #include <string>
@@ -31,10 +31,10 @@ struct HitStem {
   double least_left = 0;    ///< of its capacity at the end of a run [J]
 };
 
-/// A forest over the runs in which it stood.
+/// A forest over the runs that had it.
 struct ForestSummary {
   std::string name;
-  int n_runs = 0;                         ///< in which it stood
+  int n_runs = 0;                         ///< that had it
   int n_worlds = 0;                       ///< these, or the rocks that each met the whole forest
   double stems = 0, hit = 0, broken = 0;  ///< mean over these runs or rocks
   double work = 0;                        ///< energy taken, mean over them [J]

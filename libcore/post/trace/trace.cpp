@@ -1,3 +1,4 @@
+// Links from source cells to the objects that their blocks hit: how often and how hard.
 #include "post/trace/trace.hpp"
 
 #include <algorithm>

@@ -32,7 +32,7 @@ struct TraceHit {
   Vec2 place = Vec2::Zero();  ///< of the centroid, local; by cells a cell's centre [m]
 };
 
-/// What a source cell released, all runs together.
+/// Releases of a source cell, all runs together.
 struct TraceSource {
   double n = 0, weight = 0, volume = 0;
   double n_none = 0;  ///< blocks that hit no object
@@ -101,7 +101,7 @@ struct SourceLink;
 [[nodiscard]] ObjectTrace object_trace(const TraceSums& sums, int object, const ShareBasis& basis,
                                        const std::vector<SourceLink>& links);
 
-/// What a source cell does to an object.
+/// Hits of an object from a source cell.
 struct SourceLink {
   std::uint32_t source = 0;
   int object = 0;
