@@ -15,7 +15,7 @@
 
 namespace talus {
 
-/// What a block is drawn as.
+/// Appearance of a block in a drawing.
 enum class BlockOutlook : std::uint8_t { goes, stays, holds_others };
 
 struct OutlinedBlock {
@@ -35,7 +35,7 @@ struct ViewedFence {
   double height = 0;  ///< [m]
 };
 
-/// An area with a name: an object, or what could leave on a plane or wedge.
+/// An area with a name: an object, or a mass that could leave on a plane or wedge.
 struct NamedArea {
   std::string name, title;
   std::vector<std::vector<std::vector<Vec2>>> polygons;  ///< polygon, ring, points
@@ -55,16 +55,16 @@ struct CheckView {
 };
 
 /// The part of the terrain that source, fences and fall lines lie in, with a margin, and of objects
-/// what is no farther from these than their extent.
+/// the parts no farther from these than their extent.
 [[nodiscard]] MapGround check_ground(const CheckView& view, const Trn& ground);
 
 /// Whether a point of the object lies in the part that is drawn.
 [[nodiscard]] bool is_drawn(const NamedArea& object, const MapView& part);
 
-/// `part`: what check_ground() gave.
+/// `part`: from check_ground().
 [[nodiscard]] Drawing check_map(const CheckView& view, const Trn& ground, const MapGround& part);
 
-/// A layer or raster that was read: its name, what is in it, and its extent in plan.
+/// A layer or raster that was read: its name, its content, and its extent in plan.
 struct ViewedInput {
   std::string name, title;
   Vec2 low = Vec2::Zero(), high = Vec2::Zero();
@@ -77,8 +77,8 @@ struct ViewedInput {
 /// Inputs that lie so far off the terrain that the map leaves them out.
 [[nodiscard]] bool is_far(const ViewedInput& input, const Trn& ground);
 
-/// Ground and bed along the section, heights and lengths at one scale; no series where there is no
-/// relief.
+/// Ground and bed along the section, heights and lengths at one scale; without series where there
+/// is no relief.
 [[nodiscard]] Chart section_chart(const CheckView& view, const Trn& ground, const Trn& bed);
 
 }  // namespace talus

@@ -54,7 +54,7 @@ DrawnBox drawn_box(const CheckView& view, double spacing) {
     for (const Vec2& p : line) box.add(p);
   for (const OutlinedBlock& block : view.blocks)
     for (const Vec2& p : block.outline) box.add(p);
-  // A road may be long: what lies far off would make all else small.
+  // A road may be long: its far parts would make all else small.
   DrawnBox near = box;
   const Vec2 reach = Vec2::Constant((box.high - box.low).maxCoeff());
   near.add(box.low - reach);
@@ -84,7 +84,7 @@ std::string title_of(const ViewedFence& fence) {
   return (is_dam(fence.line) ? "" : "fence ") + fence.line.name;
 }
 
-// What maps of the page have in common: each thing with a note, and its name beside it.
+// Common parts of the maps of the page: each thing with a note, and its name beside it.
 class CheckMap {
  public:
   CheckMap(Pen& pen, const MapGround& ground) : pen_(pen), ground_(ground) {
@@ -117,7 +117,7 @@ class CheckMap {
     for (const NamedArea& area : areas)
       for (const auto& polygon : area.polygons) rings(polygon, fill, stroke, area.title);
   }
-  // Beside the middle of what is seen of the points.
+  // Beside the middle of the visible points.
   void name(const std::vector<Vec2>& points, const std::string& words, const Colour& colour) {
     Vec2 sum = Vec2::Zero();
     int n = 0;

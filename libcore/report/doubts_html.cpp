@@ -1,3 +1,4 @@
+// Doubts on a page: a numbered line each, by kind, with their remedy.
 #include "report/doubts_html.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // libcore/report/doubts_html.hpp
-// Doubts on a page: a numbered line each, a kind together, with its way out. Places of the kind
+// Doubts on a page: a numbered line each, a kind together, with its remedy. Places of the kind
 // have its number on a map.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace talus {
 
-/// HTML. What was mended, or accepted, says so. `if_none`: what is said without any.
+/// HTML. Doubts that were mended or accepted are marked. `if_none`: the text without any.
 [[nodiscard]] std::string doubts_html(const std::vector<Doubt>& doubts, const std::string& if_none);
 
 /// A place of a doubt, or the corners of its extent, in plan, from `origin` on.

@@ -1,3 +1,4 @@
+// Text and numbers as the parts of a self-contained page: base64, data addresses.
 #include "report/encode.hpp"
 
 #include <array>

@@ -19,7 +19,7 @@ namespace talus {
 /// "data:TYPE;base64,..." of a file's content.
 [[nodiscard]] std::string data_address(const std::string& media_type, std::string_view bytes);
 
-/// A JSON string in its quotes that may also stand inside an HTML script element.
+/// A JSON string in its quotes that may also be inside an HTML script element.
 [[nodiscard]] std::string json_string(std::string_view text);
 
 }  // namespace talus

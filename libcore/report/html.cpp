@@ -1,3 +1,4 @@
+// The HTML elements that a page is put together from.
 #include "report/html.hpp"
 
 #include "report/encode.hpp"

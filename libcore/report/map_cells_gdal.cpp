@@ -1,3 +1,4 @@
+// Rasters of maps as pictures of a page: PNG and values.
 #include "report/map_cells_gdal.hpp"
 
 #include <cpl_conv.h>

@@ -15,7 +15,7 @@ namespace talus {
 
 /// The cells of the band that the style shows, as far as they lie in the view, in its colours.
 /// Values have three digits; of more than 250,000 cells there are none. Throws InputError when the
-/// file is no raster.
+/// file is not a raster.
 [[nodiscard]] CellPicture read_cell_picture(const std::string& path, const std::string& qml,
                                             const MapView& view, const Vec2& origin);
 

@@ -1,6 +1,6 @@
 // libcore/report/map_figures.hpp: public
 // The map layers in a report, each with its caption and legend.
-// in:    what talus-maps wrote beside each raster
+// in:    the files that talus-maps wrote beside each raster
 // out:   HTML, in the order of the table of layers (post/maps/map_layers.hpp)
 #pragma once
 
@@ -30,7 +30,7 @@ struct MapPicture {
 /// Pictures of several cases, by the name of the case.
 using CasePictures = std::vector<std::pair<std::string, std::vector<MapPicture>>>;
 /// A row a layer that has a picture, the cases side by side; of the layers that decisions are made
-/// by, or of all others.
+/// by, or of all the rest.
 [[nodiscard]] std::string case_figures(const Texts& texts, const MapSheet& sheet,
                                        const CasePictures& cases, bool of_decisions);
 

@@ -18,7 +18,8 @@ std::string layer_figure(const Texts& texts, const MapSheet& sheet, const MapLay
                         "]. <code>maps/" + kind.name + ".tif</code>");
 }
 
-// What one looks at first: where blocks come to, how fast, with which energy, and where they stay.
+// Layers that are read first: where blocks come to, how fast, with which energy, and where they
+// stay.
 bool is_of_decisions(const std::string& name) {
   return name == "reach" || name == "velocity" || name == "ke_total" || name == "deposit";
 }

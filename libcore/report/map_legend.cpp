@@ -1,3 +1,4 @@
+// The legend of a map as HTML, from its style.
 #include "report/map_legend.hpp"
 
 #include <algorithm>
@@ -6,8 +7,8 @@
 namespace talus {
 namespace {
 
-// What stands between `name="` and the next quote, its entities as they stand there. A file of a
-// stranger may have signs beside them that XML does not allow.
+// The text between `name="` and the next quote, with its entities as written. A foreign file may
+// have characters beside it that XML does not allow.
 std::string attribute(const std::string& xml, const std::string& name) {
   const std::size_t begin = xml.find(" " + name + "=\"");
   if (begin == std::string::npos) return "";

@@ -26,7 +26,7 @@ struct CellPicture {
   std::vector<std::pair<int, std::string>> labels = {};  ///< of codes; empty: values are numbers
 };
 
-/// What all maps use: an SVG that is not seen itself.
+/// Definitions for all maps: an SVG that is not visible.
 [[nodiscard]] std::string sheet_definitions(const Texts& texts, const MapSheet& sheet);
 
 /// Strokes on the sheet, to be between ground and places.
@@ -35,7 +35,7 @@ struct CellPicture {
 /// Ground, `between`, places, marks.
 [[nodiscard]] std::string sheet_svg(const MapSheet& sheet, const std::string& between,
                                     const std::string& alt);
-/// The cells by themselves, with their hatches: to be between.
+/// The cells alone, with their hatches: to be put between other groups.
 [[nodiscard]] std::string cells_group(const MapSheet& sheet, const MapCells& cells);
 /// A map of cells, with the value at the cursor where the page's script runs.
 [[nodiscard]] std::string cells_svg(const MapSheet& sheet, const CellPicture& picture,

@@ -1,10 +1,10 @@
 // libcore/report/page_template.hpp: public
-// A page from a template with holes: HTML stands in the template, words in texts, values in data.
+// A page from a template with holes: HTML is in the template, words in texts, values in data.
 // in:    a template, a part a section of the page; data as JSON; texts
 // out:   HTML. The marks: docs/tools/talus-report.md#the-page
 //
 //   {{path}} {{path|format}}   a value: escaped text, a number with three digits, a dash for none
-//   {{=key name=path|format}}  a text of the page with values; others it takes from the data
+//   {{=key name=path|format}}  a text of the page with values; the rest is taken from the data
 //   {{=group.@path}}           the text whose last name is the value, translated where none is
 //   {{*key lnn}}               heads of a table, letters say which columns are numbers
 //   {{#path}} ... {{/}}        once for each entry of a list; within an object

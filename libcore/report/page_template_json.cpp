@@ -50,7 +50,7 @@ std::vector<std::string> split(const std::string& words, char at) {
   return out;
 }
 
-// An entry that a block stands for.
+// The entry that a block is filled from.
 struct Scope {
   const Json* value;
   Json key;

@@ -1,3 +1,4 @@
+// Steps from the first files to the results, as rows of a page.
 #include "report/provenance.hpp"
 
 #include <algorithm>
@@ -57,9 +58,9 @@ bool holds_runs(const RunArtifact& file) {
   return file.role == "run" || file.role == "without" || file.role == "part";
 }
 
-// Without what results do not depend on: the registry, which is another one for runs that were
+// Without the options that results do not depend on: the registry, which differs for runs that were
 // computed in shards, and how talus-batch started a run. With one name for all runs of an option,
-// which may be named by parts of them: they stand beside it.
+// which may be named by parts of them: they are listed beside it.
 std::string short_command(const RunRecord& step) {
   std::set<fs::path> runs;
   for (const RunArtifact& file : step.inputs)

@@ -20,13 +20,13 @@ struct StepFile {
 
 struct ProvenanceStep {
   std::string command, version, run_id;
-  std::vector<std::string> notes;  ///< what it said of its inputs: how they were reprojected
+  std::vector<std::string> notes;  ///< its remarks on its inputs: how they were reprojected
   std::vector<StepFile> read, wrote;
 };
 
 /// So that shards and one make give the same steps, a command names its runs and parts by
 /// RUN.h5..., and neither the registry nor inputs of the role "part" are shown: the runs of a part
-/// stand beside it.
+/// are listed beside it.
 [[nodiscard]] std::vector<ProvenanceStep> provenance_steps(const std::vector<RunRecord>& steps,
                                                            const std::string& site_file);
 

@@ -1,3 +1,4 @@
+// XML of the parts of a QGIS project: layers, their tree, styles and words.
 #include "report/qgis_project.hpp"
 
 #include <algorithm>
@@ -55,7 +56,7 @@ std::string nodes_xml(const QgisLayer& layer) {
   return n == 0 ? "" : node_order_xml(order);
 }
 
-// What the properties of a layer show of it.
+// Metadata for the properties of a layer.
 std::string metadata_xml(const QgisProject& project, const QgisLayer& layer) {
   std::string about;
   for (const std::string& words : {project.remark, layer.about, project.run})
@@ -85,7 +86,7 @@ std::size_t end_of_tag(const std::string& xml, std::size_t at) {
   return std::string::npos;
 }
 
-// Whether all elements that begin in a text end in it, and no others. Comments and orders to a
+// Whether all elements that begin in a text end in it, and only these. Comments and orders to a
 // program count as none.
 bool is_whole_xml(const std::string& xml) {
   std::vector<std::string> open;
@@ -107,8 +108,8 @@ bool is_whole_xml(const std::string& xml) {
   return open.empty();
 }
 
-// What stands between <qgis ...> and </qgis> of a style file. It stands within the project then,
-// and a stranger's style must not end what stands around it: one that might is left out.
+// The text between <qgis ...> and </qgis> of a style file. It is put into the project, and a
+// foreign style must not end the elements around it: a style that might is left out.
 std::string inner_of(const std::string& qml) {
   const std::size_t open = qml.find("<qgis");
   const std::size_t begin = open == std::string::npos ? open : qml.find('>', open);
@@ -160,7 +161,7 @@ std::string aliases_xml(const QgisLayer& layer) {
   return out + "</aliases>\n";
 }
 
-// To choose from in the list of styles; the shown one stands in the layer itself.
+// To choose from in the list of styles; the shown one is in the layer itself.
 std::string other_styles_xml(const QgisLayer& layer) {
   if (layer.other_styles.empty()) return "";
   std::string out = "<map-layer-style-manager current=\"" + xml_escaped(layer.shown) +

@@ -1,3 +1,4 @@
+// A QGIS project from a template with placeholders.
 #include "report/qgis_template_gdal.hpp"
 
 #include <cpl_minixml.h>
@@ -59,7 +60,7 @@ CPLXMLNode* literal(const std::string& xml) {
   return CPLCreateXMLNode(nullptr, CXT_Literal, xml.c_str());
 }
 
-// Ready XML before what stands in the element.
+// Puts ready XML before the content of the element.
 void put_first(CPLXMLNode* parent, const std::string& xml) {
   CPLXMLNode* const node = literal(xml);
   CPLXMLNode** at = &parent->psChild;
@@ -91,7 +92,7 @@ double round_length(double largest) {
 }
 
 // XML reads a line break in an attribute as a space, so it is written as &#xa;. GDAL writes it as
-// it is: until then this private letter stands for it.
+// it is: until then this private letter replaces it.
 constexpr const char* line_break = "\xee\x80\x80";
 
 std::string replaced(std::string words, const std::string& what, const std::string& by) {
@@ -142,7 +143,7 @@ class Filler {
 
   // --- words -------------------------------------------------------------------------------------
 
-  // Values in place of {name}. QGIS evaluates what stands between [% and %]: none may stand there,
+  // Values in place of {name}. QGIS evaluates text between [% and %]: no value may be there,
   // and none may make such a pair with its neighbours.
   [[nodiscard]] std::string filled(const std::string& text, const std::string& item,
                                    bool is_html = false) const {
@@ -248,7 +249,7 @@ class Filler {
     }
   }
 
-  // Returns the width of what it shows [m].
+  // Returns the width of the shown ground [m].
   [[nodiscard]] double fill_map(CPLXMLNode* item, const std::string& where) const {
     const std::string size = value_of(item, "size");  // "192,152,mm"
     const std::size_t comma = size.find(','), end = size.find(',', comma + 1);
@@ -279,7 +280,7 @@ class Filler {
 
   // --- the project -------------------------------------------------------------------------------
 
-  // A template has no coordinate system of its own, or one that does not count.
+  // A template has no coordinate system, or one that is ignored.
   void fill_crs(CPLXMLNode* node) const {
     for (CPLXMLNode* child = node->psChild; child != nullptr; child = child->psNext) {
       if (child->eType != CXT_Element) continue;

@@ -22,7 +22,8 @@ struct QgisTemplate {
 /// The template with the site's words, CRS, extent and layers; its own layers stay, below those of
 /// the site or around the group {layers}. Every map item of its layouts shows the site's extent,
 /// grids and scale bars get round steps. Words are never evaluated as expressions of QGIS. Throws
-/// InputError for what is no project, has no layout or no map item, and for an unknown {name}.
+/// InputError for a text that is not a project or lacks a layout or a map item, and for an unknown
+/// {name}.
 [[nodiscard]] std::string qgis_project_xml(const QgisProject& project, const QgisTemplate& from);
 
 }  // namespace talus

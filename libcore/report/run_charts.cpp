@@ -1,3 +1,4 @@
+// Charts of a run over time: speeds, paths, health, energy.
 #include "report/run_charts.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ std::string run_colour(std::size_t i) {
   return colours[i % 8];
 }
 
-// At a time between two points; what has ended keeps its last value.
+// At a time between two points; a series that has ended keeps its last value.
 double value_at(const ChartSeries& line, double x) {
   const auto behind = std::upper_bound(line.x.begin(), line.x.end(), x);
   const auto i = static_cast<std::size_t>(behind - line.x.begin());

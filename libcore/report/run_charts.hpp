@@ -23,8 +23,8 @@ namespace talus {
                                  const std::string& title, const std::string& unit,
                                  double HealthRow::*field);
 
-/// Where the energy of a run is [MJ]: what moves and what was spent adds up to what the fall, the
-/// start and the motion of the base gave.
+/// Energy of a run by kind [MJ]: kinetic and spent energy add up to the input by the fall, the
+/// start and the motion of the base.
 [[nodiscard]] Chart energy_chart(const Texts& texts, const RunFile& run);
 
 }  // namespace talus

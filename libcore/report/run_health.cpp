@@ -1,3 +1,4 @@
+// Tables of the limits and the numerical health of runs.
 #include "report/run_health.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // libcore/report/run_health.hpp: public
-// Whether runs kept to their limits, and what went on inside of them.
+// Whether runs kept to their limits, and their numerical health.
 // in:    checks of the registry, health of the run files
 // out:   rows of tables, each with the list of its fields
 #pragma once
@@ -29,7 +29,7 @@ void add_limits(const std::vector<RunCheck>& checks, std::vector<LimitOverRuns>&
 [[nodiscard]] bool all_pass(const std::vector<RunFile>& runs,
                             const std::vector<LimitOverRuns>& limits);
 
-/// How far a run came, its steps, and what was not as it should be.
+/// How far a run came, its steps, and its faults.
 struct RunHealth {
   const std::string& name;
   const RunInfo& info;

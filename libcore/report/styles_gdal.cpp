@@ -1,3 +1,4 @@
+// The layers of a GeoPackage and the styles that it holds for them.
 #include "report/styles_gdal.hpp"
 
 #include <gdal_priv.h>

@@ -1,3 +1,4 @@
+// The words of a page by key, with values filled in, and their translations.
 #include "report/texts.hpp"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ std::size_t n_fixed(const std::string& pattern) {
   return n;
 }
 
-// What stands in `words` where `pattern` has each {name}; none where they differ otherwise.
+// Parts of `words` where `pattern` has each {name}; none where they differ otherwise.
 std::optional<std::map<std::string, std::string>> values_in(const std::string& words,
                                                             const std::string& pattern) {
   std::map<std::string, std::string> values;
@@ -61,7 +62,7 @@ std::optional<std::map<std::string, std::string>> values_in(const std::string& w
   return values;
 }
 
-// Of a text like 0.2.0, which is no number.
+// Of a text like 0.2.0, which is not a number.
 bool is_version(const std::string& text, std::size_t at) {
   constexpr const char* of_numbers = "0123456789.";
   const std::size_t before = text.find_last_not_of(of_numbers, at),

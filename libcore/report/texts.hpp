@@ -24,31 +24,32 @@ class Texts {
     int line = 0;  ///< of the file
   };
 
-  /// None yet; `path` is the file that they stand in.
+  /// None yet; `path` is the file of the texts.
   explicit Texts(std::string path) : path_(std::move(path)) {}
   /// Throws InputError for a brace that begins no {name}.
   void add(const std::string& key, Entry entry);
 
   /// Takes the texts of `other` in place of its own. Returns the keys that `other` lacks. Throws
   /// InputError for a key (but in [said]), a kind, a length of a list or a {name} that is not here
-  /// too. `page.sections` may have any length: what it leaves out is not shown.
+  /// too. `page.sections` may have any length: sections that it lacks are not shown.
   std::vector<std::string> replace_by(const Texts& other);
 
   /// Where rocks fall one by one: each text KEY_rocks takes the place of KEY.
   void speak_of_rocks();
 
-  /// {name} and what stands in its place, as HTML.
+  /// {name} and its value, as HTML.
   using Values = std::initializer_list<std::pair<std::string_view, std::string>>;
   [[nodiscard]] std::string of(const std::string& key, Values values = {}) const;
-  /// The same; `value_of` gives what stands in the place of a name.
+  /// The same; `value_of` gives the value of a name.
   [[nodiscard]] std::string filled(
       const std::string& key, const std::function<std::string(const std::string&)>& value_of) const;
   [[nodiscard]] bool has(const std::string& key) const { return entries_.contains(key); }
 
   /// Words of a result in the page's language. Section [said] has them, in English with {name}
-  /// where they differ, each with its translation; what it lacks stays as it is.
+  /// where they differ, each with its translation; words that it lacks stay in English.
   [[nodiscard]] std::string said(const std::string& words) const;
-  /// A number as this language writes it: [number] has the decimal sign and what parts thousands.
+  /// A number as this language writes it: [number] has the decimal sign and the separator of
+  /// thousands.
   [[nodiscard]] std::string number(const std::string& text) const;
 
   /// One of two texts by a number, which is their {n}.
@@ -62,7 +63,7 @@ class Texts {
 };
 
 /// Of a file's content. A line break within a text counts as a space. Throws InputError with the
-/// line for what is no TOML, no text, or a brace that begins no {name}.
+/// line for content that is not TOML, a value that is not text, or a brace that begins no {name}.
 [[nodiscard]] Texts parse_texts(const std::string& content, const std::string& path);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// A run as JSON for the 3-D viewer (tools/report/viewer.js).
 #include "report/viewer_scene.hpp"
 
 #include <algorithm>
@@ -152,7 +153,7 @@ PackedFrames packed_frames(const RunFile& run, double z_origin) {
   return packed;
 }
 
-// A block whose words never change stands in the first frame alone.
+// A block whose words never change is in the first frame alone.
 std::string frames_json(const RunFile& run, double z_origin, std::size_t max_bytes) {
   const auto n = static_cast<std::size_t>(n_blocks(run));
   const auto count = static_cast<std::size_t>(n_frames(run.frames));

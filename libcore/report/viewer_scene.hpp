@@ -22,7 +22,7 @@ struct ViewerLimits {
   std::size_t max_path_points = 8000;    ///< of trajectories: those of the shortest are left out
 };
 
-/// What is drawn beside the run.
+/// Places that are drawn beside the run.
 struct ViewerPlaces {
   std::vector<double> fence_height;            ///< one a line of the run, 0 hides it [m]
   std::vector<std::vector<Vec3>> trails = {};  ///< of all runs, local [m]

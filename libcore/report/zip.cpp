@@ -1,3 +1,4 @@
+// Writes a ZIP archive of a few small files, stored without compression.
 #include "report/zip.hpp"
 
 #include <array>
@@ -29,7 +30,7 @@ void put(std::string& out, std::uint32_t value, int n_bytes) {
 constexpr std::uint32_t version = 20, utf8 = 0x0800, stored = 0;
 constexpr std::uint32_t first_day = 0x0021;  // 1980-01-01, the earliest there is
 
-// What the local header and the central directory say alike of a file.
+// Fields that the local header and the central directory have in common.
 void put_description(std::string& out, const std::string& name, const std::string& content) {
   put(out, version, 2);
   put(out, utf8, 2);

@@ -1,6 +1,6 @@
 // libcore/report/zip.hpp: public
 // A ZIP archive of a few small files, stored without compression (PKWARE APPNOTE 6.3, sections 4.3
-// and 4.4): what QGIS calls a .qgz. No time stamps, so equal content gives equal bytes.
+// and 4.4): a .qgz of QGIS. No time stamps, so equal content gives equal bytes.
 #pragma once
 
 #include <string>
