@@ -1,3 +1,4 @@
+// A scene of some rocks of another scene, for rocks that fall one by one.
 #include "run/batch_scene.hpp"
 
 #include "scene/make_scene.hpp"

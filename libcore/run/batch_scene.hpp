@@ -9,7 +9,7 @@
 
 namespace talus {
 
-/// The scene without rocks, and what of it belongs to a rock left empty.
+/// The scene without rocks, and the parts that belong to a rock left empty.
 [[nodiscard]] Scene without_rocks(const Scene& scene);
 
 /// Puts rocks [first, end) of `scene` into `batch` (of without_rocks), in the place of those there.

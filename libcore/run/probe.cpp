@@ -1,3 +1,4 @@
+// The first seconds of a run: how far each block comes, and the share of the mass that moves.
 #include "run/probe.hpp"
 
 #include <algorithm>

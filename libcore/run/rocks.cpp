@@ -1,3 +1,4 @@
+// Computes rocks that fall one by one, a few at a time, in threads.
 #include "run/rocks.hpp"
 
 #include <algorithm>
@@ -119,7 +120,7 @@ void add_hits(const std::vector<Hit>& from, int first, int n_rocks, std::vector<
   }
 }
 
-// What reports and limits read of the rocks of a batch.
+// Data of the rocks of a batch for reports and limits.
 void add_state(Batch& batch, int n_rocks, State& state) {
   State& from = batch.state;
   const auto put = [&batch](auto& of_batch, auto& of_all) {
@@ -159,7 +160,7 @@ void add_rows(const std::vector<Row>& from, int first, std::vector<Row>& rows) {
   }
 }
 
-// Into the columns of its rocks; those that are not done stand at their start.
+// Into the columns of its rocks; those that are not done are at their start.
 void add_frames(const Batch& batch, Runner& runner) {
   RunFrames& frames = runner.file.frames;
   const RunFrames& from = batch.file.frames;

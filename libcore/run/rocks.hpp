@@ -1,6 +1,6 @@
 // libcore/run/rocks.hpp
-// Rocks that fall one by one: a few at a time from start to end, in threads. What is kept of a rock
-// that is done is what the run file says of it, and its bits depend on no thread.
+// Rocks that fall one by one: a few at a time from start to end, in threads. Of a finished rock
+// only its part of the run file is kept; its bits do not depend on threads.
 // in:    a Runner of such rocks
 // out:   the same with more rocks done
 #pragma once

@@ -1,5 +1,5 @@
 // libcore/run/run_data.hpp
-// What a run is asked for, and what it holds while it is under way.
+// Options of a run, and its data while it is under way.
 // filled by: run/runner.hpp, and run/rocks.hpp for rocks that fall one by one
 #pragma once
 
@@ -24,7 +24,7 @@
 
 namespace talus {
 
-/// Limits of a run's health; what breaks one fails the run.
+/// Limits of a run's health; a run that breaks one fails.
 struct RunLimits {
   double max_penetration = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none [m]
   /// Mechanical energy gained, or lost where all hits return almost all, share of the fall energy.
@@ -52,10 +52,10 @@ struct RunOptions {
       is_stopped;  ///< asked by any thread before the next few rocks; may be empty
 };
 
-/// A run under way. `file` holds what is complete; update_file() adds the rest.
+/// A run under way. `file` holds the complete part; update_file() adds the rest.
 ///
 /// Rocks that fall one by one are computed from start to end, a few at a time (run/rocks.hpp):
-/// `state` and `file` then tell of those before `n_done`, and the rest stand at their start.
+/// `state` and `file` then hold those before `n_done`, and the rest are at their start.
 struct Runner {
   const Scene& scene;
   RunOptions options;

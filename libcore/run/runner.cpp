@@ -1,3 +1,4 @@
+// A run from its start, or from a checkpoint, to its end: steps, health and record.
 #include "run/runner.hpp"
 
 #include <algorithm>
@@ -136,7 +137,7 @@ bool rests(const Runner& runner) {
                       [](const DeepBlock& deep) { return deep.is_deep; });
 }
 
-// What step() does where nothing moves.
+// A step where nothing moves.
 StepReport rest(Runner& runner) {
   runner.work.segments.clear();
   runner.state.time += runner.scene.settings.dt;
@@ -155,7 +156,7 @@ void sort_by_time(RunFile& file) {
                    [](const CrushedBlock& a, const CrushedBlock& b) { return a.time < b.time; });
 }
 
-// What the blocks fell and were given up to a row [J].
+// Energy input to the blocks by falling and otherwise, up to a row [J].
 double turned_over(const Runner& runner, const HealthRow& row) {
   double weight = 0, potential_start = 0;
   const Blocks& blocks = runner.scene.blocks;
@@ -173,11 +174,11 @@ double turned_over(const Runner& runner, const HealthRow& row) {
                   least_fall * weight);
 }
 
-// Energy from nowhere up to a row, as a share of what the blocks fell and were given.
+// Energy from nowhere up to a row, as a share of the energy input to the blocks.
 double energy_gain(const Runner& runner, const HealthRow& row) {
   const double now = row.translation + row.rotation + row.potential + row.elastic;
-  // What is gone into friction and impacts came from somewhere too. The ledger of law paper leaves
-  // out what its integrator damps.
+  // Energy lost in friction and impacts was put in before. The ledger of law paper leaves
+  // out the damping of its integrator.
   double known = now - runner.energy_start - row.base - row.water;
   if (!runner.law)
     known += std::max(0.0, row.friction + row.impact + row.contact + row.fence + row.rolling +
@@ -216,7 +217,7 @@ double unconverged_share(const Runner& runner) {
          static_cast<double>(std::max<std::int64_t>(1, counters.steps));
 }
 
-// The worst of what the rows of health say, and when that was.
+// The worst value in the rows of health, and its time.
 struct Worst {
   double value = 0, time = 0;
 
@@ -432,7 +433,7 @@ bool stands(const Runner& runner) {
   if (shakes(scene.base)) return false;
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<std::size_t>(b);
-    if (state.phase[i] == Phase::unborn) continue;  // the whole block stands for its fragments
+    if (state.phase[i] == Phase::unborn) continue;  // the whole block represents its fragments
     if (state.phase[i] != Phase::near_ground && state.phase[i] != Phase::asleep) return false;
     const Motion& motion = state.motion[i];
     const Vec3 moved = motion.pose.position - scene.blocks.rest[i].position;

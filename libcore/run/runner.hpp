@@ -1,5 +1,5 @@
 // libcore/run/runner.hpp: public
-// A run from its start, or from a checkpoint, to its end: steps, and what is recorded of them.
+// A run from its start, or from a checkpoint, to its end: steps, and their record.
 // in:    a Scene, lines, limits
 // out:   a RunFile, complete at any moment
 #pragma once
@@ -12,12 +12,12 @@
 
 namespace talus {
 
-/// One limit and how the run stands to it.
+/// One limit and the run's value against it.
 struct HealthCheck {
   std::string name;
   double value = 0, limit = 0;
   bool pass = true;
-  bool ends_run = false;  ///< no sense in going on once it is broken
+  bool ends_run = false;  ///< not worth continuing once it is broken
   std::string where;      ///< which block, in what, when, where, its share; empty: nothing to name
 };
 
@@ -25,8 +25,9 @@ struct HealthCheck {
 /// watched. `scene` must outlive it.
 [[nodiscard]] Runner begin_run(const Scene& scene, const RunOptions& options,
                                std::vector<RecordLine> lines, RunFile file);
-/// A run where the checkpoint in `file` left it: what follows equals, bit for bit, what would have
-/// followed. Throws InputError naming `path` when the checkpoint does not belong to the scene.
+/// A run where the checkpoint in `file` left it: the continuation equals, bit for bit, the run that
+/// would have followed. Throws InputError naming `path` when the checkpoint does not belong to the
+/// scene.
 [[nodiscard]] Runner resume_run(const Scene& scene, const RunOptions& options,
                                 std::vector<RecordLine> lines, RunFile file,
                                 const std::string& path);
@@ -38,15 +39,15 @@ bool advance(Runner& runner);
 [[nodiscard]] bool is_over(const Runner& runner);
 /// How much of the run is computed, 0 to 1.
 [[nodiscard]] double done_share(const Runner& runner);
-/// Whether the mass stands and may be left: `standing_after_s` have passed, no block is farther
-/// than `standing_within_m` from where it began or faster than `standing_speed_m_s`, none flies,
-/// and nothing shakes the ground. A mass that loosens is faster.
+/// Whether the mass is stable and the run may end: `standing_after_s` have passed, no block is
+/// farther than `standing_within_m` from where it began or faster than `standing_speed_m_s`, none
+/// flies, and nothing shakes the ground. A mass that loosens is faster.
 inline constexpr double standing_after_s = 3, standing_within_m = 0.1, standing_speed_m_s = 2e-3;
 [[nodiscard]] bool stands(const Runner& runner);
-/// Records what is still under way (flights, the last frame, the last interval of health).
+/// Records open flights, the last frame and the last interval of health.
 void finish(Runner& runner);
 
-/// Brings `runner.file` up to date; with a checkpoint to go on from, or without.
+/// Brings `runner.file` up to date; with a checkpoint to resume from, or without.
 void update_file(Runner& runner, bool with_checkpoint);
 
 /// The limits, at the last row of health.
@@ -58,7 +59,7 @@ void update_file(Runner& runner, bool with_checkpoint);
 [[nodiscard]] double lost_share(const Scene& scene, const State& state);
 
 /// The blocks of a scene as a run file stores them; faces of the shells from the block set, whose
-/// vertices stand in the same order.
+/// vertices are in the same order.
 [[nodiscard]] RunBlocks run_blocks(const Scene& scene, const BlockSet& set);
 
 }  // namespace talus

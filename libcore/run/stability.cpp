@@ -1,3 +1,4 @@
+// Factor of safety of a mass and of its blocks by strength reduction.
 #include "run/stability.hpp"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ struct Reducer {
   SafetyFactor factor_of(double share) {
     const auto moves = [&](double factor) { return at(factor).moved_share > share; };
     SafetyFactor found{0, no_limit};
-    for (const ReducedRun& run : runs) {  // by factor: what a stronger run did counts first
+    for (const ReducedRun& run : runs) {  // by factor: the smallest that moves counts
       if (run.moved_share > share) found.moves = run.factor;
       if (found.moves < no_limit) break;
       found.holds = run.factor;
@@ -99,7 +100,7 @@ Scene with_strength_reduced(Scene scene, double factor) {
 
 namespace {
 
-// Blocks that move before the ground shakes: what has come to rest after it is not what holds.
+// Blocks that move before the ground shakes: a block at rest after it has not held.
 std::vector<bool> moves_before(Scene scene, double factor, const StabilitySettings& settings) {
   if (!shakes(scene.base)) return std::vector<bool>(scene.blocks.mass.size(), false);
   scene.base = {};
@@ -119,7 +120,7 @@ ReducedRun run_reduced(const Scene& scene, double factor, const StabilitySetting
   const std::vector<bool> gone = moves_before(scene, factor, settings);
   ReducedRun run;
   run.factor = factor;
-  // way of an acceleration a in the last quarter: a T^2 / 2 (1 - 9 / 16)
+  // path of an acceleration a in the last quarter: a T^2 / 2 (1 - 9 / 16)
   const double least = least_acceleration * scene.gravity.norm() * T * T * 7 / 32;
   double all = 0, moved = 0;
   for (size_t b = 0; b < at[0].size(); ++b) {

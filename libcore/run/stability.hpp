@@ -1,13 +1,13 @@
 // libcore/run/stability.hpp: public
-// Factor of safety by strength reduction: what tan(friction), cohesion and tensile strength of all
-// joints and grounds may be divided by before blocks move.
-// in:    a Scene at rest; water in its joints stays as it is at the start. What happens to it while
-//        its ground shakes (Scene::base) is let happen first
+// Factor of safety by strength reduction: the largest divisor of tan(friction), cohesion and
+// tensile strength of all joints and grounds before blocks move.
+// in:    a Scene at rest; water in its joints stays as it is at the start. Motion while
+//        its ground shakes (Scene::base) is computed first
 // out:   the factor of the blocks that go first, of the mass, and of each block
 // refs:  Matsui and San 1992 (strength reduction); docs/tools/talus-stability.md
 //
 // A block moves when it is farther from where it was in the last quarter of a short run than in the
-// quarter before, and accelerates by more than 5e-4 of gravity: what settles onto its
+// quarter before, and accelerates by more than 5e-4 of gravity: a block that settles onto its
 // contacts slows down. Where the ground shakes, the run begins when that has ended, and a block
 // that is farther from its place than its own size, or moved before, has moved, too.
 #pragma once
@@ -21,7 +21,7 @@
 
 namespace talus {
 
-/// Of the mass: what goes first is more than a splinter; with half of it the mass goes.
+/// Of the mass: the first part is more than a splinter; with half of it the mass goes.
 constexpr double share_of_first = 0.01, share_of_mass = 0.5;
 
 struct StabilitySettings {
@@ -40,8 +40,8 @@ struct ReducedRun {
 
 /// A factor between those of two runs.
 struct SafetyFactor {
-  double holds = 0;  ///< largest factor tried that what it is asked of outlasts; 0: none
-  double moves = 0;  ///< smallest that it does not; infinity: none
+  double holds = 0;  ///< largest factor tried at which it holds; 0: none
+  double moves = 0;  ///< smallest at which it moves; infinity: none
   [[nodiscard]] double value() const { return (holds + moves) / 2; }
 };
 
