@@ -72,8 +72,7 @@ struct ShareBasis {
 /// Of the share of runs in which something happened, each with its weight; each run its own unit,
 /// or none of them was hit.
 [[nodiscard]] Interval run_share_interval(const ShareBasis& basis, double share);
-Interval run_share_interval(const ShareBasis& basis,
-                            int n_runs) = delete;  // no share
+Interval run_share_interval(const ShareBasis& basis, int n_runs) = delete;  // a count: no share
 /// Of share_of_runs().
 [[nodiscard]] Interval run_share_interval(const ShareBasis& basis,
                                           std::span<const BlockWeight> blocks);
