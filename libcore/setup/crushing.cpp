@@ -1,3 +1,4 @@
+// Load through a block at which it is crushed, by its point load strength.
 #include "setup/crushing.hpp"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // libcore/setup/crushing.hpp
-// How much load a block bears that is pressed through it before it is crushed: the strength of a
-// lump between two points.
+// Load through a block at which it is crushed: the strength of a lump between two points.
 // in:    the blocks as cut, the strength of their rock
 // out:   Scene::crush_load
 // ISRM 1985 (point load strength) and Brook 1985, Int. J. Rock Mech. Min. Sci. 22(2): a lump fails
@@ -33,7 +32,7 @@ struct Crushing {
 
 /// Load that crushes each block, infinite for those that are not crushed [N]; empty where none is.
 /// `crushing`: by material of `set`. The median is that of the first `n_released`: pieces of blocks
-/// that are still whole stand behind them.
+/// that are still whole come after them.
 [[nodiscard]] std::vector<double> crush_loads(const BlockSet& set, const Blocks& blocks,
                                               std::span<const Crushing> crushing, int n_released);
 

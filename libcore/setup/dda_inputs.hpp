@@ -1,5 +1,5 @@
 // libcore/setup/dda_inputs.hpp: public
-// What a run is set up from: terrain, blocks and what stands on the ground, relative to one origin.
+// Inputs of a run: terrain, blocks and the structures on the ground, relative to one origin.
 #pragma once
 
 #include <string>
@@ -14,14 +14,14 @@ namespace talus {
 
 struct DdaFiles {
   std::string trn, blocks;
-  bool settle = false;  ///< lift blocks that stand in the ground, move small overlaps apart
+  bool settle = false;  ///< lift blocks that are in the ground, move small overlaps apart
 };
 
 struct DdaInputs {
   SceneParts parts;
   std::vector<RecordLine> lines;      ///< of [fence.*], on the ground
   std::vector<RecordObject> objects;  ///< of [object.*]
-  std::vector<ForestInfo> forests;    ///< of [forest.*] that stand, set by check_start()
+  std::vector<ForestInfo> forests;    ///< of active [forest.*], set by check_start()
   std::string crs_wkt;
   Vec3 origin = Vec3::Zero();  ///< of the TRN: everything is relative to it
   std::string trn_sha256, trn_digest;

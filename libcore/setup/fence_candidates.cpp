@@ -1,3 +1,4 @@
+// Candidate lines for a fence uphill of an object: contours, or lines of equal distance.
 #include "setup/fence_candidates.hpp"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ double ground_at_nearest(const std::vector<Vec3>& samples, const Vec2& p) {
   return z;
 }
 
-// The grid about the object, no finer than the terrain, and what is contoured on it.
+// The grid about the object, no finer than the terrain, and the contoured values on it.
 SampledField value_grid(const Trn& trn, const RecordObject& object,
                         const std::vector<Vec3>& samples, const CandidateSettings& settings) {
   Vec2 low = samples.front().head<2>(), high = low;
@@ -89,7 +90,7 @@ bool crosses_itself(const std::vector<Vec2>& line) {
   return !meetings.crossings.empty() || !meetings.touches.empty();
 }
 
-// The pieces of a line that a fence can stand on.
+// The pieces of a line where a fence can be built.
 void add_pieces(const Trn& trn, const RecordObject& object, const std::vector<Vec2>& line,
                 const CandidateSettings& settings, FenceCandidates& out) {
   std::vector<Vec2> piece;

@@ -1,12 +1,12 @@
 // libcore/setup/fence_candidates.hpp
-// Lines that a fence may stand on, uphill of an object.
-// in:    terrain, the object in plan, what a fence can stand on
+// Lines along which a fence may be built, uphill of an object.
+// in:    terrain, the object in plan, the limits of ground for a fence
 // out:   open lines with corners a post spacing apart: contours of the ground, or lines of equal
 //        distance from the object
 //
 // A place is in the zone where its distance from the object lies between two limits and the ground
 // is higher than at the nearest point of the object. Lines end where the zone does, where the
-// ground is too steep to stand on, and where the line itself climbs too much.
+// ground is too steep to build on, and where the line itself climbs too much.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// Stems and canopies of [forest.*], from polygons, rasters and lists.
 #include "setup/forest_inputs_gdal.hpp"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ using std::size_t;
 constexpr double most_stems = 1e6;
 constexpr double overlap_tolerance = 1e-3;  // that rounding and stored files explain [m]
 
-// --- what goes together ------------------------------------------------------------------------
+// --- valid combinations ------------------------------------------------------------------------
 
 void check_list_keys(const ForestSection& s) {
   for (const char* key : {"polygon", "polygon_file", "stems_per_ha", "dbh_mean_cm", "dbh_std_cm",
@@ -69,7 +70,7 @@ void check_drag_keys(const ForestSection& s) {
     s.refuse("does not say where it drags", "give polygon or polygon_file");
 }
 
-// --- where it stands ---------------------------------------------------------------------------
+// --- its place --------------------------------------------------------------------------------
 
 // In local coordinates; none where only rasters say it.
 std::optional<Area> area_of(const ForestSection& s) {
@@ -195,7 +196,7 @@ double share_within(const Area& area, const Area& other, const Trn& trn) {
   return n == 0 ? 0 : static_cast<double>(n_within) / n;
 }
 
-// Two sections may share ground on purpose, species or layers of a wood. A stand that is there
+// Two sections may share ground on purpose, species or layers of a wood. A stand that is listed
 // twice counts twice. Borders that were drawn twice share slivers.
 void add_stand(const ForestSection& s, const std::optional<Area>& area,
                std::vector<StandArea>& stands) {
@@ -300,7 +301,7 @@ std::vector<Stem> listed_stems(const ForestSection& s) {
   return each_place_once(s, std::move(stems));
 }
 
-// Stems of a section that stand where those of sections before it do: a list given twice.
+// Stems of a section at places of stems of sections before it: a list given twice.
 void check_apart(const ForestSection& s, const std::vector<Stem>& stems,
                  const StandingForests& before) {
   std::vector<Vec3> feet;
@@ -319,7 +320,7 @@ void check_apart(const ForestSection& s, const std::vector<Stem>& stems,
 
 // --- stems in blocks ---------------------------------------------------------------------------
 
-/// The blocks where they start, to be asked for what stands in them.
+/// The blocks where they start, to find stems in them.
 struct StartBlocks {
   Hulls hulls;
   PlacedHulls placed;
@@ -333,7 +334,7 @@ struct StartBlocks {
     grid = make_body_grid(blocks.centroid, hulls.radius);
   }
 
-  // The first block that a stem stands in, -1: none.
+  // The first block that contains a stem, -1: none.
   int block_at(const Stem& stem, std::vector<int>& near) const {
     const VerticalCylinder cylinder{stem.foot.head<2>(), stem.radius, stem.foot.z() + stem.height};
     const Vec3 around = Vec3::Constant(stem.radius);

@@ -1,4 +1,4 @@
-// Magnitudes of what stands in a forest, which show a unit that was not meant: forest_section.hpp.
+// Magnitudes of a forest's stems, which show a mistaken unit: forest_section.hpp.
 #include <array>
 #include <cmath>
 #include <utility>
@@ -34,7 +34,7 @@ std::string words_of(const Spread& spread) {
   return words_of(spread.median) + (spread.low == spread.high ? "" : " (" + range + ")");
 }
 
-// What in a median of implausible centimetres would be a stem, read in another unit.
+// The unit in which a median of implausible centimetres would be a stem.
 std::string in_another_unit(double median_cm) {
   constexpr std::array<std::pair<const char*, double>, 4> units = {
       {{"metres", 100}, {"millimetres", 0.1}, {"inches", 2.54}, {"feet", 30.48}}};

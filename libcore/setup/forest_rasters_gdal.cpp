@@ -20,7 +20,7 @@ std::optional<ValueRaster> read_beside(const ForestSection& s, const char* key,
   return raster;
 }
 
-// Value of a cell, or of the section's key where there is no such raster or nothing known.
+// Value of a cell, or of the section's key where that raster is missing or unknown.
 double value_at(const std::optional<ValueRaster>& raster, size_t cell, double otherwise, double low,
                 double high, const char* expected) {
   if (!raster) return otherwise;

@@ -46,8 +46,8 @@ struct StockedCell {
   Stocking stocking;
 };
 
-/// The cells of nrtrees_raster that `box` meets and that hold trees; what the other rasters do not
-/// say, the keys of the section do. Throws InputError for rasters of other cells or another CRS,
+/// The cells of nrtrees_raster that `box` meets and that hold trees; values without a raster are
+/// those of the section's keys. Throws InputError for rasters of other cells or another CRS,
 /// beside the box, and for values that no trees have.
 [[nodiscard]] std::vector<StockedCell> cells_of_rasters(const ForestSection& section,
                                                         const MapBox& box);

@@ -1,3 +1,4 @@
+// Ground class of each cell of the terrain, from the polygons and rasters of [ground.*].
 #include "setup/ground_class_inputs_gdal.hpp"
 
 #include <map>

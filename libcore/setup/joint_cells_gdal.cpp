@@ -1,3 +1,4 @@
+// Cells that [joints.*] cut in rock far from its surface: the forms of single rocks.
 #include "setup/joint_cells_gdal.hpp"
 
 #include <algorithm>
@@ -17,10 +18,10 @@ constexpr int n_cubes = 16;
 constexpr double n_cells_wanted = 500;  ///< of a cube
 /// Where whole cells hold less of the cubes, most cells are larger than a cube.
 constexpr double least_share_whole = 0.1;
-/// Mean spacings: a cube with the first joint of a set in it would hold more joints than others.
+/// Mean spacings: a cube with the first joint of a set in it would hold more joints than the rest.
 constexpr double first_joint_beside = 10;
 
-// A cube of rock below a level ground that goes on around it.
+// A cube of rock below a level ground that continues around it.
 void make_cube(double side, BlocksWork& work) {
   Trn& ground = work.ground;
   ground.n_rows = ground.n_cols = 2;
@@ -65,7 +66,7 @@ double weight_of(const BlockSet& set, int block, double side) {
   return 1 / (Vec3::Ones() - (high - low) / side).prod();
 }
 
-// Alone, a rock has no joint faces.
+// A rock alone is without joint faces.
 Body body_of(const BlockSet& set, int block) {
   Body body;
   for (int p = set.convex_part_begin[block]; p < set.convex_part_begin[block + 1]; ++p)

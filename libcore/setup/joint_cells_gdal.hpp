@@ -1,8 +1,8 @@
 // libcore/setup/joint_cells_gdal.hpp: public
-// Blocks that [joints.*] of a site cut in rock far from its surface: what single rocks are drawn
-// from.
+// Blocks that [joints.*] of a site cut in rock far from its surface: the source of single rocks
+// that are drawn.
 // in:    the site, a seed
-// out:   whole cells of cubes of rock, each with the share of all cells that it stands for
+// out:   whole cells of cubes of rock, each with the share of all cells that it represents
 // refs:  Miles 1974; Lantuejoul 1980 (a window holds large cells less often than small ones)
 #pragma once
 

@@ -1,5 +1,5 @@
 // libcore/setup/observed.hpp: public
-// What was observed on a slope, in local coordinates.
+// Observations on a slope, in local coordinates.
 #pragma once
 
 #include <limits>
@@ -22,7 +22,7 @@ struct ObservedPoint {
 
 [[nodiscard]] inline bool has_start(const ObservedPoint& point) { return point.start.allFinite(); }
 
-/// What one event, or one test, left.
+/// Traces of one event, or of one test.
 struct ObservedEvent {
   std::string name;
   std::vector<ObservedPoint> boulders, scars;

@@ -1,3 +1,4 @@
+// Reads the observations of [observed.*] and checks them.
 #include "setup/observed_inputs_gdal.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace talus {
 namespace {
 
-// What the points of a layer say of their size.
+// Field of a layer with the size of its points.
 struct SizeField {
   const char* name;
   double least, most;

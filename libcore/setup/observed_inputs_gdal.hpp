@@ -1,5 +1,5 @@
 // libcore/setup/observed_inputs_gdal.hpp: public
-// What was observed on a slope, as [observed.*] of a site name it: read, checked, in local
+// Observations on a slope, as [observed.*] of a site name them: read, checked, in local
 // coordinates.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Odd settings of a run: refused, or reported to the user.
 #include "setup/run_settings.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // libcore/setup/run_settings.hpp: public
-// What is odd about the settings of a run: refused, or said to the user.
+// Odd settings of a run: refused, or reported to the user.
 #pragma once
 
 #include <string>

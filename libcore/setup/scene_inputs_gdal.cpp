@@ -1,3 +1,4 @@
+// Reads the inputs of a run and checks them against one another.
 #include "setup/scene_inputs_gdal.hpp"
 
 #include <algorithm>
@@ -148,7 +149,7 @@ std::string text_of(const StartOverlap& start, const DdaInputs& inputs) {
          text(at.z(), 6);
 }
 
-// What the pairs that overlap say of themselves; empty when there is none. Throws for those that
+// Message on pairs of blocks that overlap; empty without any. Throws for those that
 // are not to be moved apart.
 std::string overlap_finding(const Site& site, const DdaInputs& inputs, const DdaFiles& files,
                             const std::vector<StartOverlap>& found) {
@@ -176,7 +177,7 @@ std::string overlap_finding(const Site& site, const DdaInputs& inputs, const Dda
   return finding;
 }
 
-// Moving may bring blocks into a fence, and so may blocks that stand too closely not come apart.
+// Moving may bring blocks into a fence, and blocks that are too close may not come apart.
 void check_settled(const Settled& settled, const DdaInputs& inputs, const DdaFiles& files,
                    bool among_blocks) {
   const std::vector<StartOverlap> left =

@@ -1,5 +1,5 @@
 // libcore/setup/scene_inputs_gdal.hpp: public
-// What a run is set up from, read and checked against one another before anything is computed.
+// Inputs of a run, read and checked against one another before anything is computed.
 #pragma once
 
 #include "base/input_log.hpp"
@@ -17,7 +17,7 @@ void check_start(InputLog& log, const Site& site, DdaInputs& inputs, const DdaFi
 
 /// Reads TRN, blocks, ground classes, base motion and fences. Throws InputError for blocks of
 /// another CRS, off the terrain or in the ground (unless files.settle), ground without a class, and
-/// a base motion that ends early. Fences that are active stand, with law talus. Warns of a TRN that
+/// a base motion that ends early. Active fences are built, with law talus. Warns of a TRN that
 /// the blocks were not made for.
 [[nodiscard]] DdaInputs read_dda_inputs(InputLog& log, const Site& site, const DdaFiles& files);
 

@@ -1,3 +1,4 @@
+// Candidate lines of [fence_search.*], the same in every tool.
 #include "setup/search_lines.hpp"
 
 #include <algorithm>
@@ -48,7 +49,7 @@ void check_settings(const Site& site, const FenceSearchSettings& search) {
                      "give one price for each of classes_kj");
 }
 
-// Why there is no line, and what to change.
+// Why a line is not found, and the remedy.
 [[noreturn]] void refuse_no_room(const Site& site, const FenceSearchSettings& search,
                                  const FenceCandidates& found, double least_length) {
   const std::string between = text(search.between_m[0]) + " to " + text(search.between_m[1]) +

@@ -23,7 +23,7 @@ struct SearchCandidates {
 [[nodiscard]] int protected_object(const Site& site, const FenceSearchSettings& search);
 
 /// Throws InputError for settings that contradict each other, and for a search without room: no
-/// line between its distances on ground that it may stand on. Warns where the step had to grow.
+/// line between its distances on ground for a fence. Warns where the step had to grow.
 [[nodiscard]] SearchCandidates search_candidates(InputLog& log, const Site& site, const Trn& trn,
                                                  const FenceSearchSettings& search,
                                                  const std::vector<RecordObject>& objects);

@@ -1,3 +1,4 @@
+// Digest of sections of a site file with the files that they name.
 #include "setup/section_state_gdal.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // libcore/setup/section_state_gdal.hpp: public
-// What sections of a site file say, with the files that they name: results bear it, and a report
+// State of sections of a site file, with the files that they name: results record it, and a report
 // compares it.
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace talus {
 
-/// Digest of the effective values of `sections` ("object" stands for all [object.*]), of all files
-/// of the data sets that they name, and of the features of layers that stand for them
+/// Digest of the effective values of `sections` ("object" means all [object.*]), of all files
+/// of the data sets that they name, and of the features of layers that define them
 /// (site_layers.hpp).
 [[nodiscard]] std::string section_state(const Site& site, const std::vector<std::string>& sections);
 

@@ -1,3 +1,4 @@
+// Sets up a scene from a site and the files of its terrain and blocks.
 #include "setup/set_up_gdal.hpp"
 
 #include <cstdint>

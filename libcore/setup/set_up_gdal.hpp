@@ -12,7 +12,7 @@ namespace talus {
 
 struct SetUpRequest {
   DdaFiles files;
-  bool full_plan = false;       ///< compute also what the scene could do without
+  bool full_plan = false;       ///< compute also parts that the scene does not need
   bool surfaces_later = false;  ///< of make_site_scene()
 };
 
@@ -23,7 +23,7 @@ struct SetUp {
   BlockSet blocks;  ///< that the scene was made of, with the pieces they may break into
 };
 
-/// What the scene of these parts has to compute.
+/// Plan of the parts that this scene has to compute.
 [[nodiscard]] ScenePlan plan_of(const Site& site, const SceneParts& parts, bool full);
 
 /// Reads the inputs and plans the scene. Throws InputError as check_times() and read_dda_inputs().

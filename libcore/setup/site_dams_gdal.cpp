@@ -1,3 +1,4 @@
+// Burns the [dam.*] of a site into its terrain.
 #include "setup/site_dams_gdal.hpp"
 
 #include <cmath>
@@ -63,7 +64,7 @@ Doubt doubt_on_cells(const Where& where, const std::string& key, const std::stri
   return doubt;
 }
 
-// What the cells cannot represent, and what the line makes of the height.
+// Doubts: shapes that the cells cannot represent, and heights along the line that differ.
 std::vector<Doubt> doubts_on(const BuiltDam& built, const Where& where, const Trn& trn) {
   const DamShape& shape = built.dam.shape;
   const DamBurn& burn = built.burn;

@@ -29,8 +29,8 @@ struct BuiltDam {
 };
 
 /// Burns all that are active into `trn`, each laid on the ground that was there before all of
-/// them. Tells the log what cells of this size cannot represent. Throws InputError as dams_of(),
-/// for a dam that cannot be built where it is (DamFault), and for two that share a node.
+/// them. Tells the log which dams cells of this size cannot represent. Throws InputError as
+/// dams_of(), for a dam that cannot be built where it is (DamFault), and for two that share a node.
 std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn);
 
 /// The two lines that a run watches for a dam in the ground of `trn`, with a point every ten

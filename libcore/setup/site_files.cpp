@@ -1,3 +1,4 @@
+// Files that a site file names.
 #include "setup/site_files.hpp"
 
 #include <set>

@@ -12,7 +12,7 @@ namespace talus {
 /// Text of a TOML string without its quotes.
 [[nodiscard]] std::string unquoted(const std::string& toml);
 
-/// The file that a value names, without what stands in it (a layer, a member of an archive); ""
+/// The file that a value names, without its part (a layer, a member of an archive); ""
 /// where it names none, or one that GDAL alone knows.
 [[nodiscard]] std::string file_named(const Site& site, const EffectiveValue& value);
 

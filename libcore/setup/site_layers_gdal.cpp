@@ -1,3 +1,4 @@
+// Reads the layers of a site.gpkg that define sections of the site file.
 #include "setup/site_layers_gdal.hpp"
 
 #include <algorithm>
@@ -87,7 +88,7 @@ struct Reader {
     return sections.back();
   }
 
-  // Several features of a section may each leave a value to the others, but not contradict them.
+  // Several features of a section may leave a value to one another, but not contradict.
   static void take(LayerSection& section, const std::string& key, const std::string& value,
                    const std::string& place) {
     for (const LayerSection::Value& known : section.values) {

@@ -1,3 +1,4 @@
+// Places of a site file in the local coordinates of the terrain.
 #include "setup/site_places_gdal.hpp"
 
 #include <algorithm>

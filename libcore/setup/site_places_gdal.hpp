@@ -26,7 +26,7 @@ namespace talus {
 [[nodiscard]] std::vector<RecordObject> site_objects(InputLog& log, const Site& site,
                                                      const Trn& trn);
 
-/// The area of an object: its outlines, and what lies within its radius of lines and points;
+/// The area of an object: its outlines, and the ground within its radius of lines and points;
 /// polygon, ring, points, local [m].
 [[nodiscard]] std::vector<std::vector<std::vector<Vec2>>> polygons_of(const RecordObject& object);
 

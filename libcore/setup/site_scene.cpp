@@ -1,3 +1,4 @@
+// Makes the scene of a run from a site file, its terrain and its blocks.
 #include "setup/site_scene.hpp"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ void set_roughness(const Section& drawn, GroundClass& made) {
   made.residual = or_none(drawn.friction_deg) * degree;
 }
 
-// What ground that gives way does.
+// Parameters of yielding ground.
 void set_yielding(const GroundSettings& drawn, GroundClass& made) {
   made.half_speed = or_none(drawn.cor_half_speed_m_s);
   made.half_energy = 1e3 * or_none(drawn.cor_half_energy_kj);
@@ -46,8 +47,8 @@ bool weakens(const SolverSettings& solver) {
   return solver.friction == "weakening" && solver.law == "talus";
 }
 
-// Friction at rest stays that of the sections where it is smaller: what is said to fail must not be
-// held.
+// Friction at rest stays that of the sections where it is smaller: a joint that is said to fail
+// must not be held.
 double weakened(double friction) { return std::min(friction, weakening().at_rest); }
 
 void weaken(GroundSettings& ground) {
@@ -99,7 +100,7 @@ JointClasses joint_classes(const Site& site, const BlockSet& blocks,
   return classes;
 }
 
-/// Materials in the order of the block set's names: what blocks weigh, and what their faces do.
+/// Materials in the order of the block set's names: densities, and the laws of their faces.
 struct Rock {
   std::vector<Material> materials;
   std::vector<GroundClass> classes;

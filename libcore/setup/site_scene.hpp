@@ -16,15 +16,15 @@
 
 namespace talus {
 
-/// What a site file's settings refer to, read by the caller.
+/// Inputs that a site file's settings refer to, read by the caller.
 struct SceneParts {
   Trn trn;
   std::vector<std::uint8_t> cell_class;  ///< index into [ground.*]; empty: one class   (n_cells)
   BlockSet blocks;                       ///< in the TRN's local coordinates
   std::vector<Fragment> fragments;       ///< of add_fragments(), which has changed `blocks`
   AccelerationRecord base;
-  std::vector<StandingFence> fences;    ///< that stand in the run
-  std::vector<Stem> stems;              ///< of the forests that stand in it
+  std::vector<StandingFence> fences;    ///< that are built in the run
+  std::vector<Stem> stems;              ///< of its active forests
   std::vector<GroundClass> stem_faces;  ///< by Stem::section
   std::vector<Canopy> canopies;         ///< of the forests that drag
   std::optional<JointWater> water;      ///< of [water]
@@ -40,24 +40,24 @@ struct SceneParts {
 /// The law of a section [ground.*].
 [[nodiscard]] GroundClass ground_class(const GroundSettings& ground);
 
-/// The ground classes of a site with the friction and restitution that its seed draws, within what
-/// they can be.
+/// The ground classes of a site with the friction and restitution that its seed draws, within the
+/// range that they can be.
 [[nodiscard]] std::vector<GroundSettings> drawn_grounds(const Site& site);
 
 /// The scene with the settings of the site and the decisions of the plan. Scatter of friction and
 /// restitution and the jitter of the start are drawn from [solver] seed. Throws InputError for a
-/// block material that the site file does not know, and what check_scene() refuses.
+/// block material that the site file does not know, and a scene that check_scene() refuses.
 ///
-/// `surfaces_later`: rocks that fall a few at a time have no surfaces, which whoever runs the scene
-/// makes of the block set (RunOptions::surfaces).
+/// `surfaces_later`: rocks that fall a few at a time have no surfaces, which the caller that runs
+/// the scene makes of the block set (RunOptions::surfaces).
 [[nodiscard]] Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts,
                                     bool surfaces_later = false);
 
 /// How blocks are cut for [fragmentation]; `set`: before that.
 [[nodiscard]] SplitSettings split_settings(const Site& site, const BlockSet& set);
 
-/// A value of the site file that can be computed with but is far from what rock and its models
-/// have.
+/// A value of the site file that can be computed with but is far from the values that rock and its
+/// models have.
 struct UnusualValue {
   std::string key;      ///< "material.rock.density_kg_m3"
   std::string finding;  ///< "is 260 kg/m3; rock has ..."

@@ -1,3 +1,4 @@
+// Shapes of sections of a site file: points written there, and vector files.
 #include "setup/site_shapes_gdal.hpp"
 
 #include <cmath>
@@ -17,7 +18,7 @@ namespace {
 
 // --- objects -----------------------------------------------------------------------------------
 
-// What the keys of a section name: where, and of which kind.
+// Place and kind of the shapes that the keys of a section name.
 VectorKind kind_of(const Site& site, const ObjectSettings& object) {
   const int n = !object.polygon.empty() + !object.line.empty() + !object.position_m.empty() +
                 !object.file.empty();
@@ -45,7 +46,7 @@ VectorKind kind_of(const Site& site, const ObjectSettings& object) {
 
 // --- files -------------------------------------------------------------------------------------
 
-// Of a layer that stands for sections its features count; a GIS changes the bytes of the file when
+// Of a layer that defines sections its features count; a GIS changes the bytes of the file when
 // it only looks at it.
 std::string state_of(const Site& site, const std::string& file) {
   const std::string path = resolved(site, file);

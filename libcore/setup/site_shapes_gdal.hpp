@@ -17,18 +17,18 @@
 
 namespace talus {
 
-/// What a section says of a place.
+/// A place as a section gives it.
 struct SitePlace {
   std::string section;  ///< "fence.valley", "source"
   std::string layer;    ///< of talus-import: docs/reference/formats.md#inputs
   VectorKind kind = VectorKind::areas;
   std::string file;               ///< as the section has it; empty: none
-  std::vector<Vec3> points = {};  ///< written in the section, map coordinates; points stand alone
+  std::vector<Vec3> points = {};  ///< written in the section, map coordinates; points are alone
   std::string points_key = {};    ///< "polygon"
   std::vector<std::string> fields = {};  ///< attributes to read of points
 };
 
-/// Where the section stands in the site file.
+/// Where the section is in the site file.
 [[nodiscard]] Where where_of_object(const Site& site, const ObjectSettings& object);
 
 [[nodiscard]] SitePlace place_of(const SourceSettings& source);
@@ -47,8 +47,8 @@ struct SitePlace {
 /// without a radius.
 [[nodiscard]] SitePlace place_of(const Site& site, const ObjectSettings& object);
 
-/// All that stands on the ground of the site, in files and in the site file itself, to be read
-/// together: what talus-import is asked for.
+/// All shapes on the ground of the site, in files and in the site file, to be read
+/// together: the request to talus-import.
 [[nodiscard]] std::vector<RequestedLayer> layers_of(const Site& site);
 
 /// A raster that the site names.
@@ -60,8 +60,9 @@ struct SiteRaster {
 [[nodiscard]] std::vector<SiteRaster> rasters_of(const Site& site);
 
 /// The shapes in local coordinates: those written in the section first, with z as it is written.
-/// Their files are told to the log, with the layer, number and area of what was taken. Throws
-/// InputError as read_vectors(), and where Site::inputs is older than what the site names.
+/// Their files are told to the log, with the layer, number and area of the shapes taken. Throws
+/// InputError as read_vectors(), and where Site::inputs is older than the files that the site
+/// names.
 [[nodiscard]] VectorShapes local_shapes(InputLog& log, const Site& site, const Trn& ground,
                                         const SitePlace& place);
 
@@ -71,7 +72,7 @@ struct SiteRaster {
                                                             const SitePlace& place);
 
 /// Points of the site file (map coordinates in the CRS of [site]) as local ones; z NaN stays NaN.
-/// `key` of `section` is where they stand. Throws InputError as read_vectors().
+/// `key` of `section` is where they are written. Throws InputError as read_vectors().
 [[nodiscard]] std::vector<Vec3> local_points(InputLog& log, const Site& site, const Trn& ground,
                                              std::vector<Vec3> points, const std::string& section,
                                              const std::string& key);

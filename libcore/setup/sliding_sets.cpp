@@ -1,3 +1,4 @@
+// Joint sets that a daylighting failure surface may lie on, and why the rest offer none.
 #include "setup/sliding_sets.hpp"
 
 #include <algorithm>

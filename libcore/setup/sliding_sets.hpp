@@ -1,6 +1,6 @@
 // libcore/setup/sliding_sets.hpp: public
-// The failure surface "daylighting": which joint sets it may lie on, why others offer none, and
-// what to change.
+// The failure surface "daylighting": which joint sets it may lie on, why the rest offer none, and
+// the remedy.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +24,12 @@ namespace talus {
 /// Throws InputError when [source] sliding_set names no set, or more than two.
 void check_sliding_set(const Site& site, const FailurePlanes& found);
 
-/// That no set offers a plane and no pair a wedge: of each why, and what to change.
+/// That no set offers a plane and no pair a wedge: the reason for each, and the remedy.
 [[nodiscard]] InputError no_plane_daylights(const Site& site, const FailurePlanes& found,
                                             const std::vector<FailureWedge>& wedges);
 
-/// What a set needs for a mass to slide off on it: "dips 28 to 41 degrees towards 322 to 22"; that
-/// there is no such dip, where the slope is no steeper than the friction angle.
+/// Dip that a set needs for a mass to slide off on it: "dips 28 to 41 degrees towards 322 to 22";
+/// that such a dip does not exist, where the slope is no steeper than the friction angle.
 [[nodiscard]] std::string what_would_go(const FailurePlanes& found);
 
 /// A number with at most one decimal ("28.4").

@@ -1,3 +1,4 @@
+// Finds the mass of [source] above its failure surface and cuts it into blocks by [joints.*].
 #include "setup/source_cut_gdal.hpp"
 
 #include <algorithm>
@@ -69,7 +70,7 @@ SourceOptions daylighting_surface(InputLog& log, BlocksWork& work) {
   return source_on_wedge(work.wedges[work.wedge]);
 }
 
-// C of the cells at hand, from what [source] says of the curvature of its base level.
+// C of the cells at hand, from the keys of [source] on the curvature of its base level.
 double base_level_curvature(InputLog& log, const BlocksWork& work) {
   const SourceSettings& source = work.site.source;
   const bool has_curvature = work.site.sources.count("source.slbl_curvature_m") > 0;
@@ -135,7 +136,7 @@ DaylightDirection daylight_direction(const BlocksWork& work) {
   return direction;
 }
 
-// Leaves out what the mass would lean on.
+// Leaves out the part that the mass would lean on.
 void lift_to_daylight(InputLog& log, BlocksWork& work) {
   if (work.site.source.daylight.empty()) return;
   const DaylightDirection direction = daylight_direction(work);
@@ -187,7 +188,7 @@ double least_share_covered(const BlocksWork& work) {
   return comes_out ? 0.75 : 0.97;
 }
 
-// What is most likely not meant.
+// Warnings of values that are most likely mistakes.
 void warn_of_mass(InputLog& log, const BlocksWork& work, const MassMeasure& measure) {
   const SourceMass& mass = work.mass;
   if (mass.area < least_share_covered(work) * mass.polygon_area)
@@ -274,7 +275,7 @@ std::string why_in_one_piece(const BlocksWork& work) {
   return "the joints that cross it leave no piece large enough to stand alone";
 }
 
-// Azimuths that are not taken as they stand.
+// Azimuths that are not taken as written.
 void say_turn(InputLog& log, const JointNorth& north) {
   if (north.declination_deg == 0 && north.convergence_deg == 0) return;
   log.info("[joints]: azimuths turned by " + text(north.turn_deg(), 6) +

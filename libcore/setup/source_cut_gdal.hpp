@@ -21,7 +21,7 @@ void find_planes(InputLog& log, BlocksWork& work);
 /// The wedges of pairs of `work.sets`, into `work.wedges`; after find_planes().
 void find_wedges(BlocksWork& work);
 
-/// Where the polygon of [source] stands.
+/// Where the polygon of [source] is written.
 [[nodiscard]] Where where_of_area(const BlocksWork& work);
 
 /// Draws the joints of `work.sets`, cuts the mass by them and puts the blocks into `work.blocks`,
@@ -31,7 +31,7 @@ void cut_by_joints(InputLog& log, bool exact, const MassMeasure& measure, double
                    BlocksWork& work);
 
 /// Finds the mass, draws the joints and puts the blocks into `work.blocks`, as they are cut
-/// (`exact`) or made convex. Warns of what was left out or lies below the limits. Throws InputError
+/// (`exact`) or made convex. Warns of parts left out or below the limits. Throws InputError
 /// for more blocks than source.max_blocks, and where none is left.
 void cut_source(InputLog& log, bool exact, BlocksWork& work);
 

@@ -1,5 +1,5 @@
 // libcore/setup/source_work.hpp: public
-// What a run of talus-blocks works on.
+// Data that a run of talus-blocks works on.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct BlocksWork {
   SourceMass mass;
   std::vector<Joint> joints;  ///< drawn, all that cross the mass
   AssembleOptions limits;     ///< of slivers and edges; whether blocks stay as they are cut
-  AssembleReport cut;         ///< what was made of the pieces
+  AssembleReport cut;         ///< its result for the pieces
   double expected = 0;        ///< number of blocks that the joints should cut
   BlockSet blocks;
 

@@ -1,3 +1,4 @@
+// Depth of blocks in the ground before anything moves.
 #include "setup/start_depth.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // libcore/setup/start_depth.hpp
-// How deep blocks stand in the ground before anything moves, and moving them as a set holds them.
+// Depth of blocks in the ground before anything moves, and moving them as a set holds them.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 namespace talus {
 
 /// Depth of each block below the ground: how far it has to be lifted until no point of it lies
-/// below. Exact for convex parts on known ground: the largest overlap along the vertical stands at
+/// below. Exact for convex parts on known ground: the largest overlap along the vertical is at
 /// a vertex, at a terrain node, or where an edge crosses one of the terrain's. <= 0: above [m];
 /// -infinity where no ground is known below.                                       (n_blocks)
 [[nodiscard]] std::vector<double> depths_below_ground(const Trn& trn, const BlockSet& blocks);

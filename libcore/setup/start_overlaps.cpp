@@ -1,3 +1,4 @@
+// Finds blocks that overlap before anything moves, and moves them apart.
 #include "setup/start_overlaps.hpp"
 
 #include <algorithm>
@@ -11,8 +12,8 @@ namespace {
 using std::size_t;
 
 constexpr int most_rounds = 1000;
-/// Of lifts alone. What still overlaps leans on one another in a circle, which lifts would raise
-/// for ever.
+/// Of lifts alone. Blocks that still overlap lean on one another in a circle, which lifts would
+/// raise for ever.
 constexpr int lifting_rounds = 60;
 /// A pair whose normal rises by more than this (60 degrees from the vertical) lies on each other.
 constexpr double least_rise = 0.5;
@@ -30,9 +31,10 @@ double thickness_of(const Hulls& hulls, int body) {
                            hulls.thickness.begin() + hulls.part_begin[i + 1]);
 }
 
-// Adds what parts one pair: z is how far a block is lifted, by whatever lifts it most. `risen` is
-// how far the blocks were lifted so far [m]. The upper block is also lifted off a steep face where
-// that face's own rise made the overlap: so what is wedged between others goes with its neighbours.
+// Adds the displacement that parts one pair: z is how far a block is lifted, by the pair that lifts
+// it most. `risen` is how far the blocks were lifted so far [m]. The upper block is also lifted off
+// a steep face where that face's own rise made the overlap: so a wedged block goes with its
+// neighbours.
 void add_ways(const BlockOverlap& overlap, const std::vector<double>& risen,
               std::vector<Vec3>& ways) {
   const bool a_is_upper = overlap.normal.z() > 0;

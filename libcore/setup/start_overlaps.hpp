@@ -40,11 +40,11 @@ struct Settled {
 };
 
 /// Moves blocks until none is deeper than `tolerance` [m] in the ground or (`among_blocks`) in
-/// another one, in rounds over all blocks and pairs. What is in the ground is lifted out of it. Of
+/// another one, in rounds over all blocks and pairs. A block in the ground is lifted out of it. Of
 /// two blocks that lie on each other the upper one is lifted and the lower one stays, so that a
-/// lift carries what lies on it; two that stand side by side move apart level, both by half. Blocks
-/// that lean on one another in a circle would rise for ever: what 60 rounds leave moves apart along
-/// the normals. Blocks keep their shape and attitude.
+/// lift carries what lies on it; two that are side by side move apart level, both by half. Blocks
+/// that lean on one another in a circle would rise for ever: overlaps left after 60 rounds move
+/// apart along the normals. Blocks keep their shape and attitude.
 Settled settle(BlockSet& blocks, const Trn& trn, bool among_blocks, double tolerance);
 
 }  // namespace talus

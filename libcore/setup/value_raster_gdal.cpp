@@ -1,3 +1,4 @@
+// Reads rasters of values that a section of the site file names.
 #include "setup/value_raster_gdal.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // libcore/setup/value_raster_gdal.hpp: public
-// Rasters of values that a section of the site file names, over a part of the terrain: what stands
-// in a cell, no elevations.
+// Rasters of values that a section of the site file names, over a part of the terrain: properties
+// of cells, not elevations.
 #pragma once
 
 #include <string>
@@ -26,7 +26,7 @@ struct ValueRaster {
                            const std::string& hint) const;
 };
 
-/// What is read: a key of a section, in the system of the terrain.
+/// The key of a section that is read, in the system of the terrain.
 struct ValueRasterContext {
   InputLog& log;
   const Site& site;
@@ -34,14 +34,14 @@ struct ValueRasterContext {
   std::string section;  ///< "forest.upper"
 };
 
-/// Throws InputError where the file is no raster with one band, is in another system than the
+/// Throws InputError where the file is not a raster with one band, is in another system than the
 /// terrain, or lies outside of the box.
 [[nodiscard]] ValueRaster read_values(const ValueRasterContext& of, const char* key,
                                       const std::string& file, const MapBox& box);
 
-/// What a raster has at the nodes of the terrain, NaN where it is unknown; `role` is the key that
-/// names `file`. Throws InputError where it is no raster with one band or is in another system than
-/// the terrain; where it `has_elevations`, in another system of heights, too.
+/// Values of a raster at the nodes of the terrain, NaN where it is unknown; `role` is the key that
+/// names `file`. Throws InputError where it is not a raster with one band or is in another system
+/// than the terrain; where it `has_elevations`, in another system of heights, too.
 [[nodiscard]] std::vector<double> read_at_nodes(InputLog& log, const Site& site, const Trn& ground,
                                                 const std::string& role, const std::string& file,
                                                 bool has_elevations);

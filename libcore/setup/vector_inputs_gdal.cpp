@@ -1,3 +1,4 @@
+// Reads vector files that a site file names, and reports which shapes were taken.
 #include "setup/vector_inputs_gdal.hpp"
 
 #include <algorithm>

@@ -15,11 +15,11 @@ void read_members(InputLog& log, const std::string& role, const std::string& pat
 /// InputLog::read_also() of a data set and of these.
 void read_data(InputLog& log, const std::string& role, const std::string& path);
 
-/// "1 polygon of 140 m2 in all", and facts for programs on what was taken from the source `role`.
+/// "1 polygon of 140 m2 in all", and facts for programs on the shapes taken from the source `role`.
 [[nodiscard]] std::string parts_of(const LayerReading& taken);
 [[nodiscard]] LayerRead facts_on(const LayerReading& taken, const std::string& role);
 
-/// Says what was passed over; the digest of what was taken counts as read.
+/// Reports the shapes passed over; the digest of those taken counts as read.
 void note_shapes(InputLog& log, const VectorShapes& found);
 
 /// Reads shapes for the key `role` of a site file ("source", "ground.scree", "fence.upper"). Says

@@ -1,3 +1,4 @@
+// Reads [water]: the height of water in the joints of blocks.
 #include "setup/water_inputs_gdal.hpp"
 
 #include <Eigen/Dense>
