@@ -1,3 +1,4 @@
+// Motion of the ground by an earthquake: a record of accelerations from a CSV, or a harmonic one.
 #include "site/base_motion.hpp"
 
 #include <cmath>

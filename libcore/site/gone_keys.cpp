@@ -1,3 +1,4 @@
+// Table of keys that a release no longer reads, and their replacements.
 #include "site/gone_keys.hpp"
 
 namespace talus {

@@ -1,5 +1,5 @@
 // libcore/site/gone_keys.hpp
-// Keys that a release no longer reads, and what to write instead. A row stays for one release.
+// Keys that a release no longer reads, and their replacement. A row stays for one release.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace talus {
 
-/// What to write instead of a key that is gone from `section` ("source", "fence.upper"); empty: it
-/// never was one.
+/// Replacement of a key that is gone from `section` ("source", "fence.upper"); empty: the key never
+/// existed.
 [[nodiscard]] std::string written_instead(const std::string& section, std::string_view key);
 
 }  // namespace talus

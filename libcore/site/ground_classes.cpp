@@ -1,3 +1,4 @@
+// Ground class of each cell by the sections [ground.*] and their areas.
 #include "site/ground_classes.hpp"
 
 #include <algorithm>

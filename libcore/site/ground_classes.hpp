@@ -23,8 +23,8 @@ inline constexpr std::int32_t no_class = std::numeric_limits<std::int32_t>::min(
 /// raster values. Throws InputError when there are two of them, or none.
 [[nodiscard]] int ground_elsewhere(const Site& site);
 
-/// Index of the section that each value of the raster stands for. Throws InputError for values that
-/// are no whole numbers, that stand for two sections, and that stand there without a raster.
+/// Index of the section of each value of the raster. Throws InputError for values that
+/// are not whole numbers, that name two sections, and that are given without a raster.
 [[nodiscard]] std::map<std::int32_t, int> classes_of_values(const Site& site);
 
 /// Classes of the cells by the values of the raster at `path`, `elsewhere` where it has no_class.
@@ -40,7 +40,7 @@ struct GroundArea {
 };
 
 /// Gives the cells of `trn` whose centre lies inside an area the class of the last such area.
-/// `classes` holds the others'.                                                     (n_cells)
+/// `classes` holds the rest.                                                        (n_cells)
 void paint_areas(const Trn& trn, const std::vector<GroundArea>& areas,
                  std::vector<std::uint8_t>& classes);
 

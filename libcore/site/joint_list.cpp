@@ -1,3 +1,4 @@
+// Reads lists of measured orientations as point clouds and stereonets write them.
 #include "site/joint_list.hpp"
 
 #include <algorithm>
@@ -117,7 +118,7 @@ std::string in_degrees(const ColumnText& list, const std::string& word, int colu
   return factor != 1 && parse_number(list, word, value) ? text(factor * value) : word;
 }
 
-// Where the orientation stands in the columns.
+// Columns of the orientation.
 struct NamedPair {
   Notation notation = Notation::direction_dip;
   int first = -1, second = -1;
@@ -170,7 +171,7 @@ Vec3 pole_of_normal(const ColumnText& list, std::size_t row, const std::array<in
   return pole(plane.dip, plane.dip_direction);
 }
 
-// How many joints a line stands for.
+// Number of joints that a line represents.
 int quantity_of(const ColumnText& list, std::size_t row, int column) {
   if (column < 0) return 1;
   const std::string& word = word_at(list, row, column);
@@ -227,7 +228,7 @@ OrientationList read_named(const ColumnText& list) {
 
 // --- lists without names -------------------------------------------------------------------------
 
-// 045/60 in one word, or two words, whatever stands between them.
+// 045/60 in one word, or two words, with any separator.
 std::vector<std::string> pair_of_words(const ColumnText& list, std::size_t row) {
   std::vector<std::string> words = list.rows[row];
   const std::size_t mark = words.size() == 1 ? words[0].find_first_of("/,; \t") : std::string::npos;

@@ -2,7 +2,7 @@
 // Measured orientations as point clouds and stereonets write them: columns by name, or pairs of dip
 // direction and dip.
 // in:    the text of a list
-// out:   upward unit poles, azimuths as they stand in the list; what was taken, to be said
+// out:   upward unit poles, azimuths as written in the list; a remark on what was taken
 #pragma once
 
 #include <string>
@@ -21,8 +21,8 @@ struct OrientationList {
 
 /// Columns are found by their names: dip and dip direction, strike and dip (right-hand rule unless
 /// the name says left), trend and plunge of the pole, or the normal; a column Quantity repeats.
-/// Without names each line is dip direction, dip. Angles are numbers, degrees or what a name says:
-/// "Dip [gon]".
+/// Without names each line is dip direction, dip. Angles are numbers, in degrees or in the unit of
+/// the name: "Dip [gon]".
 ///
 /// Throws InputError with the line: text, other numbers of columns, angles out of their range.
 [[nodiscard]] OrientationList read_orientations(const std::string& text, const std::string& file);

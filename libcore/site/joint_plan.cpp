@@ -1,3 +1,4 @@
+// Joint sets, source options and limits of cutting, from the sections of the site file.
 #include "site/joint_plan.hpp"
 
 #include <algorithm>
@@ -197,7 +198,7 @@ SourceOptions plan_source(const Site& site, const Vec3& origin) {
 AssembleOptions plan_limits(const Site& site, const std::vector<PlannedSet>& sets,
                             double mass_volume, double expected_cells) {
   AssembleOptions options;
-  // Where the joints stand wider than the mass is large, the mass itself is the measure.
+  // Where the spacing of joints exceeds the size of the mass, the mass itself is the measure.
   double smallest = std::cbrt(mass_volume);
   for (const PlannedSet& planned : sets) smallest = std::min(smallest, planned.set.mean_spacing);
   const SourceSettings& source = site.source;

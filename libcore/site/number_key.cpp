@@ -1,3 +1,4 @@
+// Numeric keys of a site by name, for draws to read and set.
 #include "site/number_key.hpp"
 
 #include <cmath>

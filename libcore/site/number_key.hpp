@@ -1,6 +1,5 @@
 // libcore/site/number_key.hpp
-// Keys of the site file by their names, as numbers: what a draw may read and set. Within the
-// module.
+// Keys of the site file by their names, as numbers that a draw may read and set. Within the module.
 #pragma once
 
 #include <optional>
@@ -11,13 +10,13 @@
 
 namespace talus {
 
-/// A key that stands in the site.
+/// A key of the site.
 struct NumberKey {
   enum Kind { number, whole_number, other } kind = other;
   double value = not_given;
   KeyRange range;
 };
-/// "ground.scree.friction_deg"; none when there is no such section or key.
+/// "ground.scree.friction_deg"; none for an unknown section or key.
 [[nodiscard]] std::optional<NumberKey> number_key(const Site& site, const std::string& path);
 
 /// Sets a number; whole numbers are rounded. The key must be there, and hold one.

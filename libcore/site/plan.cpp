@@ -1,3 +1,4 @@
+// Decides which parts of a run are computed and which are omitted, with the reasons.
 #include "site/plan.hpp"
 
 #include <algorithm>

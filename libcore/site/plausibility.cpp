@@ -1,3 +1,4 @@
+// Doubts about values of a site that are valid but most likely mistakes.
 #include "site/plausibility.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace talus {
 namespace {
 
 std::string metres(double value) { return text(value, 3) + " m"; }
-// A value that should stay below `warn`, and cannot be meant from `refuse` on.
+// A value that should stay below `warn`, and is implausible from `refuse` on.
 struct Upper {
   double warn, refuse;
 };

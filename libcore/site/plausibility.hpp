@@ -1,6 +1,6 @@
 // libcore/site/plausibility.hpp: public
-// Numbers of a site that can be computed with and are most likely not meant.
-// in:    what was measured of the source, its blocks and the time that they need
+// Numbers of a site that are valid but most likely mistakes.
+// in:    measures of the source, its blocks and the time that they need
 // out:   doubts, each with the key to change
 #pragma once
 
@@ -23,7 +23,7 @@ struct PlausibilityFacts {
   std::string depth_key = "source.depth_m";    ///< that sets the depth
   double relief = none;                        ///< of the ground over the mass [m]
   double normal_depth = none;                  ///< depth_m, where it counts along the normal [m]
-  double width = none;                         ///< shorter way across the source [m]
+  double width = none;                         ///< shorter extent of the source [m]
   double terrain_area = none;                  ///< known ground [m2]
   double cell_size = none;                     ///< [m]
   double smallest_spacing = none;              ///< of the joint sets [m]
@@ -41,7 +41,7 @@ struct PlausibilityFacts {
 /// In a fixed order, of the keys that change them. Limits: docs/tools/talus-check.md
 [[nodiscard]] std::vector<Doubt> doubts_of(const PlausibilityFacts& facts);
 
-/// What the probe says of the whole mass.
+/// Result of the probe for the whole mass.
 enum class Outlook { stands, goes_in_part, goes };
 [[nodiscard]] Outlook outlook_of(double moved_share);
 [[nodiscard]] const char* text(Outlook outlook);

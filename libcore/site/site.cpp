@@ -1,3 +1,4 @@
+// Where values of a site file were given, and the paths of files that it names.
 #include "site/site.hpp"
 
 #include <filesystem>
@@ -16,7 +17,7 @@ Where where_of(const Site& site, const std::string& key) {
 std::string resolved(const Site& site, const std::string& path) {
   const bool is_whole = path.empty() || path[0] == '/' || site.folder.empty();
   if (is_whole) return path;
-  const std::size_t end = path.find('|');  // what follows may be a filter, with any signs
+  const std::size_t end = path.find('|');  // a filter with any characters may follow
   const std::filesystem::path file = std::filesystem::path(site.folder) / path.substr(0, end);
   return file.lexically_normal().string() + (end == std::string::npos ? "" : path.substr(end));
 }

@@ -24,12 +24,12 @@ inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 /// [site]
 struct SiteInfo {
   std::string name;  ///< of the site; the name of its folder when not given
-  std::string crs;   ///< e.g. "EPSG:31287"; what the coordinates in this file are in
+  std::string crs;   ///< e.g. "EPSG:31287"; system of the coordinates in this file
   std::string description;
-  std::string layers;  ///< GeoPackage whose layers stand for sections; empty once they were taken
+  std::string layers;  ///< GeoPackage whose layers define sections; empty once they were taken
 };
 
-/// [terrain]: what talus-tin and talus-trn are called with.
+/// [terrain]: settings of talus-tin and talus-trn.
 struct TerrainSettings {
   std::string contours, elevation_field;
   std::string breaklines, spots;
@@ -55,7 +55,7 @@ struct SourceSettings {
   double slbl_max_depth_m = not_given;
   double slbl_sag_m = not_given;  ///< instead of slbl_curvature_m
   std::string slbl_scenario;      ///< instead of both
-  std::string daylight;           ///< what stands before the mass along this direction is left out
+  std::string daylight;           ///< rock in front of the mass along this direction is left out
   std::string material;           ///< of the blocks; the only one when there is one
   std::int64_t seed = 1;
   std::int64_t max_blocks = 20000;
@@ -86,7 +86,7 @@ struct JointSettings {
   double persistence = 1;              ///< share of each joint plane that is open
   double disc_diameter_m = not_given;  ///< not given: 10 spacings
   double offset_m = 0;         ///< of the first plane from the source's middle, along the normal
-  std::vector<Vec3> measured;  ///< dip direction, dip pairs that stand for the set(s)
+  std::vector<Vec3> measured;  ///< dip direction, dip pairs that represent the set(s)
   std::string measured_file;
   std::int64_t n_sets = 1;
   double friction_deg = not_given, cohesion_pa = 0, tension_pa = 0;
@@ -107,8 +107,8 @@ struct MaterialSettings {
   double crush_below = 0.01;  ///< share of the median volume below which blocks are crushed
 };
 
-/// [ground.NAME]: what blocks slide on; a polygon or `raster_values` say where, one section without
-/// both holds elsewhere.
+/// [ground.NAME]: ground under blocks; a polygon or `raster_values` give its area, one section
+/// without both holds elsewhere.
 struct GroundSettings {
   std::string name;
   int line = 0;
@@ -140,7 +140,7 @@ struct SolverSettings {
   double normal_stiffness_n_m = not_given;
   std::string strain = "auto";
   bool end_when_standing = true;  ///< a run in which nothing moves ends after some seconds
-  double accuracy = 0.005;        ///< of the way of what moves: see Settings
+  double accuracy = 0.005;        ///< of the displacement of moving blocks: see Settings
   std::int64_t seed = 1, n_runs = 1;
   double start_jitter_m_s = 0;
   double friction_scatter_deg = 0, cor_scatter = 0;
@@ -178,7 +178,7 @@ struct DamSettings {
   bool active = true;
 };
 
-/// [forest.NAME]: stems that stand in the way, drawn or from a list; or drag without stems.
+/// [forest.NAME]: stems that stop or slow blocks, drawn or from a list; or drag without stems.
 struct ForestSettings {
   std::string name;
   int line = 0;
@@ -255,7 +255,7 @@ struct BodySettings {
   std::int64_t seed = 1;
 };
 
-/// [blocks.NAME]: bodies that stand and move together.
+/// [blocks.NAME]: bodies that rest on one another and move together.
 struct PlacedSettings : BodySettings {
   bool in_place = false;  ///< the mesh has map coordinates
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
@@ -280,14 +280,14 @@ struct RockfallSettings : BodySettings {
   double frequency_per_m2_a = not_given;  ///< of sloping area, instead
 };
 
-/// [hazard]: what hazard classes are made by.
+/// [hazard]: settings of hazard classes.
 struct HazardSettings {
   std::string recipe = "switzerland_ti";  ///< a name of share/hazard, or a file
-  std::string author, date, name_space;   ///< of what is filed; all of them, or none
+  std::string author, date, name_space;   ///< of the filed map; all of them, or none
 };
 
-/// [hazard.class.NAME]: how often what was simulated for a class of volumes happens. One of the
-/// three ways, or none: then the sources say it, see RockfallSettings.
+/// [hazard.class.NAME]: frequency of the simulated events of a class of volumes. One of the
+/// three forms, or none: then the sources give it, see RockfallSettings.
 struct HazardClassSettings {
   std::string name;
   int line = 0;
@@ -296,7 +296,7 @@ struct HazardClassSettings {
   double failure_probability = not_given, in_years = not_given;
 };
 
-/// [object.NAME]: what is endangered; it stops nothing.
+/// [object.NAME]: an endangered object; it does not stop blocks.
 struct ObjectSettings {
   std::string name;
   int line_number = 0;
@@ -340,7 +340,7 @@ struct UncertaintySettings {
   std::int64_t seed = 1;
   std::int64_t n_samples = 0;    ///< of a hypercube
   std::int64_t sample = 0;       ///< of this run, from 1; 0: nothing is drawn
-  std::int64_t rock_masses = 0;  ///< sets of blocks that are cut; 0: one, of what the file says
+  std::int64_t rock_masses = 0;  ///< sets of blocks that are cut; 0: one, with the file's values
   double terrain_rmse_m = 0, terrain_correlation_m = not_given;
   double max_failed_share = 0.02;  ///< of the runs, that may be left out
   std::string file;                ///< of further quantities; empty once they were taken
@@ -362,7 +362,7 @@ struct QuantitySettings {
   std::string source;                   ///< of these numbers
 };
 
-/// [observed.NAME]: what an event or a test left, in vector files.
+/// [observed.NAME]: traces of an event or a test, in vector files.
 struct ObservedSettings {
   std::string name;
   int line = 0;
@@ -381,9 +381,9 @@ struct PlaceSettings {
   double half_width = 0.05;  ///< wanted, of the interval of the share of blocks
 };
 
-/// [variant.NAME]: what differs from the site. With a weight it is an alternative of nature,
-/// counted together with the others; without one a measure, whose results stand beside those of the
-/// site.
+/// [variant.NAME]: differences from the site. With a weight it is an alternative of nature,
+/// counted together with the rest; without one a measure, whose results are listed beside those of
+/// the site.
 struct VariantSettings {
   std::string name;
   int line = 0;
@@ -452,8 +452,8 @@ struct Site {
   HazardSettings hazard;
   std::vector<HazardClassSettings> hazard_classes;
   std::vector<VariantSettings> variants;
-  std::map<std::string, ValueSource> sources;  ///< "joints.J1.dip_deg" -> where it came from
-  std::vector<std::string> sections;           ///< that stand in the file
+  std::map<std::string, ValueSource> sources;  ///< "joints.J1.dip_deg" -> its origin
+  std::vector<std::string> sections;           ///< of the file
 };
 
 /// Whether each block moves as if it were alone: [solver] blocks, or rocks of [rockfall.*].
@@ -462,22 +462,22 @@ struct Site {
 /// Reads and checks a site file.
 ///
 /// Throws InputError with file:line for text that is not TOML, an unknown section or key (naming
-/// the nearest known one), a wrong type, a number out of its range, a name that repeats. What is
-/// uncertain is checked by check_uncertainty().
+/// the nearest known one), a wrong type, a number out of its range, a name that repeats. Values of
+/// [uncertainty.*] are checked by check_uncertainty().
 [[nodiscard]] Site read_site(const std::string& path);
-/// The same from text; `path` is what messages say.
+/// The same from text; `path` is named in messages.
 [[nodiscard]] Site parse_site(const std::string& text, const std::string& path);
 
-/// Where the key of "section.key=value" ends. A name may hold the sign too, so that the first one
-/// counts that a key of the site stands before; else the first one. npos: there is none.
+/// Where the key of "section.key=value" ends. A name may hold the sign too, so the first one counts
+/// that follows a key of the site; else the first one. npos: none.
 [[nodiscard]] std::size_t end_of_key(const Site& site, const std::string& words);
 
 /// Sets "section.key" from the command line, e.g. ("solver.duration_s", "30"). The value is TOML,
 /// or plain text where the key takes text. Throws InputError as read_site does.
 void override_value(Site& site, const std::string& key, const std::string& value);
 
-/// Makes the site what [variant.`name`] makes of it. Throws InputError where there is none, where
-/// it names what is not there, changes what runs draw, or may not be an alternative.
+/// Changes the site as [variant.`name`] says. Throws InputError where it does not exist, where
+/// it names an unknown key, changes keys that runs draw, or may not be an alternative.
 void apply_variant(Site& site, const std::string& name);
 /// Applies each variant to a copy of the site, and looks at the weights. Throws InputError.
 void check_variants(const Site& site);
@@ -486,14 +486,14 @@ void check_variants(const Site& site);
 /// meadow (field test)", "sample 7 of uncertainty.friction".
 struct EffectiveValue {
   std::string section, key, value, source;  ///< value is empty when not given
-  std::string note = {};                    ///< where what it stands for is from; mostly empty
+  std::string note = {};                    ///< origin of its value; mostly empty
 };
 [[nodiscard]] std::vector<EffectiveValue> effective_values(const Site& site);
 
 /// The effective values as TOML, each with a comment that says where it came from.
 [[nodiscard]] std::string print_config(const Site& site);
 
-/// Place of a key, for messages of later checks; the file alone when it does not stand there.
+/// Place of a key, for messages of later checks; the file alone when it is not in the file.
 [[nodiscard]] Where where_of(const Site& site, const std::string& key);
 
 /// `path` as it is when absolute or virtual, else below the site file's folder.

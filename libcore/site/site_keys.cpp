@@ -1,3 +1,4 @@
+// The table of keys of the site file.
 #include "site/site_keys.hpp"
 
 #include <cmath>

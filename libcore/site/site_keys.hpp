@@ -15,7 +15,7 @@
 
 namespace talus {
 
-/// What a number may be, in the unit of its key; ends are included unless `open`.
+/// Range of a number, in the unit of its key; ends are included unless `open`.
 struct KeyRange {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -26,8 +26,8 @@ struct KeyRange {
 /// "above 0 to below 90", "at least 1", "a finite number".
 [[nodiscard]] std::string text_of(const KeyRange& range);
 
-/// One key: the field that it sets, what it may hold (numbers: range; text: choices separated by |;
-/// lists: how many entries), what it means, and how to mend it.
+/// One key: the field that it sets, its allowed values (numbers: range; text: choices separated by
+/// |; lists: how many entries), its meaning, and the remedy for a mistake.
 template <class Section>
 struct SiteKey {
   using Field = std::variant<double Section::*, std::int64_t Section::*, bool Section::*,
@@ -74,7 +74,7 @@ template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of();
 template <> const std::vector<SiteKey<VariantSettings>>& keys_of();
 // clang-format on
 
-/// A field of a section that stands in the site, by its type.
+/// A field of a section of the site, by its type.
 template <class... T>
 using PointerTo = std::variant<T*...>;
 using Field = PointerTo<double, std::int64_t, bool, std::string, std::vector<double>,
@@ -83,7 +83,7 @@ using ConstField =
     PointerTo<const double, const std::int64_t, const bool, const std::string,
               const std::vector<double>, const std::vector<Vec3>, const std::vector<std::string>>;
 
-/// A key as of SiteKey, with the field that it sets. What is done with a key is written for all
+/// A key as of SiteKey, with the field that it sets. Code that uses a key is written for all
 /// sections at once, and compiled once.
 template <class FieldType>
 struct KeyOf {
@@ -142,7 +142,7 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("variant", site.variants);
 }
 
-/// A section that stands in the site; the name of a single one is empty.
+/// A section of the site; the name of a single one is empty.
 template <class FieldType>
 struct SectionOf {
   std::string group, name;

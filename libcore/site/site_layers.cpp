@@ -1,3 +1,4 @@
+// Tables of the layers that define sections of the site file.
 #include "site/site_layers.hpp"
 
 namespace talus {

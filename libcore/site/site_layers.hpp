@@ -1,6 +1,6 @@
 // libcore/site/site_layers.hpp: public
-// Layers that stand for sections of the site file: what is drawn and edited in a GIS, a feature a
-// place. Fields have the names of keys. Page: docs/guide/site-layers.md
+// Layers that define sections of the site file: drawn and edited in a GIS, a feature a place.
+// Fields have the names of keys. Page: docs/guide/site-layers.md
 #pragma once
 
 #include <string>
@@ -19,18 +19,18 @@ struct SiteLayer {
   std::string prefix;               ///< of the key that names the file: "polygon_"
   std::string title;                ///< for people
   std::vector<std::string> fields;  ///< keys that the layer is made with; more may be added
-  /// What each feature says of itself, which is no key: features of a section need not share it.
+  /// Attributes of each feature that are not keys: features of a section need not share them.
   std::vector<KeyDescription> attributes = {};
 };
 [[nodiscard]] const std::vector<SiteLayer>& site_layers();
 
-/// Names of what each feature of a layer says of itself; none of most layers.
+/// Names of the attributes of each feature of a layer; most layers have none.
 [[nodiscard]] std::vector<std::string> attributes_of(const std::string& layer);
 
-/// Whether each feature has a name, which stands for [fence.NAME]; the features of [source] do not.
+/// Whether each feature has a name, which is that of [fence.NAME]; the features of [source] do not.
 [[nodiscard]] bool has_names(const SiteLayer& layer);
 
-/// What a layer says of one section.
+/// Values of a layer for one section.
 struct LayerSection {
   struct Value {
     std::string key, text;  ///< text as in --set; without quotes

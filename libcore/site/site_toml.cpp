@@ -49,8 +49,8 @@ const char* type_name(toml::node_type type) {
   }
 }
 
-// Parts of the longest dotted key ("a.b.c": 3), as far as the text has any: the parser, and what
-// frees its tables, go as deep. Text between quotes is a part of its own.
+// Parts of the longest dotted key ("a.b.c": 3), as far as the text has any: the parser, and the
+// code that frees its tables, go as deep. Text between quotes is a part of its own.
 int longest_dotted_key(const std::string& text, int& line) {
   int longest = 0, parts = 1, here = 1;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -70,7 +70,7 @@ int longest_dotted_key(const std::string& text, int& line) {
   return longest;
 }
 
-// Throws InputError besides what the parser throws.
+// Throws InputError besides the errors of the parser.
 toml::table parsed(const std::string& text, const std::string& path) {
   constexpr int deepest = 1000;
   int line = 0;
@@ -82,7 +82,7 @@ toml::table parsed(const std::string& text, const std::string& path) {
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
-// A value being read: where it stands and what messages call it.
+// A value being read: its place and its name in messages.
 struct Place {
   Where where;
   std::string key;
@@ -159,7 +159,7 @@ struct Reader {
     for (const toml::node& entry : list_of(node, place, key.n_min, key.n_max))
       field->push_back(number_of(entry, key.range, place));
   }
-  // One text may stand without the list.
+  // One text may be given without the list.
   void operator()(Texts* field) const {
     field->clear();
     const auto add = [&](const toml::node& entry) {
@@ -170,7 +170,7 @@ struct Reader {
     if (node.is_string()) return add(node);
     for (const toml::node& entry : list_of(node, place, key.n_min, key.n_max)) add(entry);
   }
-  // One point may stand without the outer list.
+  // One point may be given without the outer list.
   void operator()(Points* field) const {
     field->clear();
     const toml::array& list = list_of(node, place, 1, key.n_max);
@@ -191,7 +191,7 @@ Texts key_names(const auto& keys) {
   return names;
 }
 
-// "depth" for depth_m: the entries that begin with the name, as units are left away.
+// "depth" for depth_m: the entries that begin with the name, as units are often omitted.
 std::string without_its_unit(std::string_view name, const Texts& known) {
   std::string words;
   for (const std::string& entry : known)
@@ -275,14 +275,14 @@ int& line_field(auto& section) {
     return section.line;
 }
 
-// Keys of a group that stand beside its named sections; none in most groups.
+// Keys of a group beside its named sections; none in most groups.
 Texts keys_beside(const std::string& group) {
   if (group == "joints") return key_names(keys_of<JointNorth>());
   if (group == "uncertainty") return key_names(keys_of<UncertaintySettings>());
   return {};
 }
 
-// A value where a named section should stand.
+// A value where a named section is expected.
 [[noreturn]] void refuse_value(const std::string& file, const std::string& group,
                                const std::string& name, const toml::node& node,
                                const Texts& beside) {
@@ -295,7 +295,7 @@ Texts keys_beside(const std::string& group) {
                       : "did you mean " + nearest + "? A section is written [" + group + ".NAME]");
 }
 
-// A name stands in messages, tables, pages and commands.
+// A name is used in messages, tables, pages and commands.
 void check_name(const std::string& group, const std::string& name, const Where& where) {
   const bool is_seen = printable(name) == name && name.find_first_of("\n\t") == std::string::npos;
   if (is_seen && !name.empty()) return;
@@ -305,7 +305,7 @@ void check_name(const std::string& group, const std::string& name, const Where& 
                    "use letters of any alphabet, digits, blanks and signs");
 }
 
-// --- variants: what they change ---
+// --- variants: their changes ------
 
 struct Group {
   std::string name;  // "fence", "hazard.class"
@@ -510,7 +510,7 @@ toml::array parsed_value(const std::string& value) {
   return toml::array{value};
 }
 
-// As parsed_value(); what a key that takes text is given without quotes is text, also 2024 or true.
+// As parsed_value(); a value without quotes of a key that takes text is text, also 2024 or true.
 toml::array value_for(const KeyOf<Field>& key, const std::string& value) {
   toml::array parsed = parsed_value(value);
   const bool takes_text = std::holds_alternative<std::string*>(key.field);
@@ -519,7 +519,7 @@ toml::array value_for(const KeyOf<Field>& key, const std::string& value) {
 
 // --- layers ------------------------------------------------------------------------------------
 
-// Databases have no list and often no truth value: text that is TOML where the key is no text.
+// Databases lack lists and often truth values: they hold TOML as text unless the key is a text.
 toml::array layer_value(const Field& field, const std::string& words) {
   if (std::holds_alternative<std::string*>(field)) return toml::array{words};
   const bool is_truth = std::holds_alternative<bool*>(field);
@@ -528,7 +528,7 @@ toml::array layer_value(const Field& field, const std::string& words) {
                                                  : words);
 }
 
-// Calls take(keys) for a section; a named one is added where it does not stand.
+// Calls take(keys) for a section; a named one is added where it is missing.
 struct SectionFinder {
   const std::string &group, &name;
   const std::function<void(const Keys<Field>&)>& take;
@@ -590,7 +590,7 @@ struct SectionTaker {
   }
 };
 
-// What to do about a file that is not TOML.
+// Remedy for a file that is not TOML.
 std::string way_to_toml(const std::string& finding, const std::string& text,
                         const std::string& path) {
   const auto says = [&finding](const char* words) {
@@ -679,7 +679,7 @@ void override_value(Site& site, const std::string& key, const std::string& value
 
 namespace {
 
-// Keys that stand for one another, as where something is: the one that a variant gives counts.
+// Keys that replace one another, such as those of a place: the one that a variant gives counts.
 const std::vector<Texts>& instead_of_one_another() {
   static const std::vector<Texts> families = {
       {"line", "polygon", "position_m", "file"}, {"polygon", "polygon_file"}, {"contours", "dem"}};
@@ -694,8 +694,7 @@ Texts names_in(const Site& site, const std::string& group) {
   return names;
 }
 
-// Why runs of the site and of the variant would not be comparable, and the way out; empty: they
-// are.
+// Why runs of the site and of the variant would not be comparable, and the remedy; empty: they are.
 struct Refusal {
   std::string why, hint;
 };

@@ -1,3 +1,4 @@
+// Kinds of ground by name, with values of the keys of [ground.*] and their sources.
 #include "site/soils.hpp"
 
 #include <algorithm>
@@ -56,7 +57,7 @@ std::string key_of(const GroundSettings& ground, const char* key) {
   return "ground." + ground.name + "." + key;
 }
 
-// What an earlier soil filled is not given.
+// Removes the values that an earlier soil filled.
 void take_back(Site& site, GroundSettings& ground) {
   const GroundSettings defaults;
   for (const SoilKey& key : keys) {

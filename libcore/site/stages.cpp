@@ -1,3 +1,4 @@
+// Sections and keys of the site file that each stage of the pipeline reads.
 #include "site/stages.hpp"
 
 #include <algorithm>
@@ -6,7 +7,7 @@ namespace talus {
 namespace {
 
 // Sections and keys that a stage reads. An entry is "section", "section.key" or, for a key that the
-// stage does not read, "-section.key"; a section stands for all of its names ("joints" for
+// stage does not read, "-section.key"; a section means all of its names ("joints" for
 // [joints.J1]).
 struct Stage {
   std::string name;

@@ -1,5 +1,5 @@
 // libcore/site/stages.hpp: public
-// Which stage of the pipeline reads what of the site file.
+// Sections and keys of the site file that each stage of the pipeline reads.
 #pragma once
 
 #include <string>

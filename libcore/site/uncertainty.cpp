@@ -1,3 +1,4 @@
+// Checks and draws the quantities of [uncertainty.*].
 #include "site/uncertainty.hpp"
 
 #include <Eigen/Geometry>
@@ -17,7 +18,7 @@
 namespace talus {
 namespace {
 
-constexpr double most_cut = 0.01;    // of a distribution, by what a key may hold
+constexpr double most_cut = 0.01;    // of a distribution, by the range of a key
 constexpr double least_kept = 1e-6;  // of one that is truncated
 
 // --- keys --------------------------------------------------------------------------------------
@@ -43,7 +44,7 @@ Where where_in(const Site& site, const QuantitySettings& q, const char* key) {
   throw InputError(where_in(site, q, key), "[uncertainty." + q.name + "]: " + finding, hint);
 }
 
-// What runs of one site must share to be evaluated together, or what follows from the run.
+// Why a key is not drawn: runs must share it to be evaluated together, or it follows from the run.
 std::string why_not_drawn(const std::string& path) {
   const std::string group = group_of(path), key = last_word(path);
   if (group == "site" || group == "output" || group == "place" || group == "observed" ||
@@ -119,7 +120,7 @@ NumberKey checked_key(const Site& site, const QuantitySettings& q, const std::st
   return *key;
 }
 
-// An azimuth goes on beyond 360 degrees.
+// An azimuth continues beyond 360 degrees.
 bool is_azimuth(const KeyRange& range) { return range.low == 0 && range.high == 360; }
 
 // --- distributions -----------------------------------------------------------------------------
@@ -128,7 +129,7 @@ struct Span {
   double low = -infinity, high = infinity;
 };
 
-// What may be drawn so that all keys hold what they may.
+// Span of draws that keeps all keys in their ranges.
 Span span_of(const Site& site, const QuantitySettings& q) {
   Span span;
   for (const std::string& path : q.keys) {
@@ -181,7 +182,7 @@ void refuse_others(const Site& site, const QuantitySettings& q) {
              "take it out, or choose another distribution");
 }
 
-// The mean that is not given: the key's own value, or what changes nothing.
+// The mean that is not given: the key's own value, or the value that changes nothing.
 double mean_of(const Site& site, const QuantitySettings& q) {
   if (!std::isnan(q.mean)) return q.mean;
   if (q.apply != "set") return q.apply == "add" ? 0 : 1;
@@ -271,7 +272,7 @@ void read_rows(const Site& site, const QuantitySettings& q, Distribution& d) {
   }
 }
 
-// Ends of a bounded distribution, or one of its values, outside of what the keys may hold.
+// Ends of a bounded distribution, or one of its values, outside of the ranges of the keys.
 void check_span(const Site& site, const QuantitySettings& q, const Distribution& d,
                 const Span& span) {
   const bool is_discrete = d.kind == DistributionKind::discrete;
@@ -353,7 +354,7 @@ double concentration_of(const Site& site, const QuantitySettings& q, const std::
 
 // --- draws -------------------------------------------------------------------------------------
 
-// A quantity of the site: where it stands among the coordinates of a point.
+// A quantity of the site: its index among the coordinates of a point.
 struct Drawing {
   const Site& site;
   const QuantitySettings& q;
@@ -374,7 +375,7 @@ struct Drawing {
   }
 };
 
-// Of an open range the end itself is not reached, whatever rounding does.
+// Of an open range the end itself is not reached, whatever the rounding.
 double inside(const KeyRange& range, double value, double towards) {
   if (is_azimuth(range)) {
     const double turned = std::fmod(value, 360);
@@ -403,7 +404,7 @@ void draw_number(const Drawing& drawing, std::vector<DrawnKey>& drawn) {
   }
 }
 
-// The mean turned by what was drawn, as dip and dip direction of the plane that it stands on.
+// The mean turned by the drawn angles, as dip and dip direction of the plane that it is normal to.
 void draw_orientation(const Drawing& drawing, std::vector<DrawnKey>& drawn) {
   for (const std::string& path : drawing.q.keys) {
     const std::string section = section_of(path);
