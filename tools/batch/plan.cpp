@@ -1,3 +1,4 @@
+// Plan of a batch: the wanted runs, their files and commands, and which of them exist.
 #include "tools/batch/plan.hpp"
 
 #include <algorithm>
@@ -48,9 +49,10 @@ BatchPart part_of(const std::string& words) {
   return {static_cast<int>(number), static_cast<int>(n_parts)};
 }
 
-// --- what runs are made with ---------------------------------------------------------------------
+// --- inputs of the runs
+// ---------------------------------------------------------------------------
 
-// What talus-dda says that a run of the case would be made with.
+// Inputs of a run of the case, as talus-dda reports them.
 RunInfo asked(const BatchPlan& plan, const EnsembleMember& member) {
   std::vector<std::string> words = run_words(plan, member);
   for (const char* word : {"--plan", "--json", "--no-db", "-q"}) words.emplace_back(word);

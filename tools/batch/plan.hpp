@@ -50,8 +50,8 @@ struct BatchPlan {
 /// Wants `n_runs` of each case.
 void set_runs(BatchPlan& plan, int n_runs);
 
-/// Asks talus-dda what runs are made with now, and looks at those that are there. With `says` it
-/// tells `tool` what differs where runs are to be made again. Throws InputError where talus-dda
+/// Asks talus-dda the inputs of runs now, and compares the runs that exist. With `says` it
+/// tells `tool` the differences where runs are to be made again. Throws InputError where talus-dda
 /// refuses the site. Without blocks nothing is asked: all runs are to be made.
 void compare_with_now(BatchPlan& plan, Tool& tool, bool says);
 
@@ -69,7 +69,7 @@ void compare_with_now(BatchPlan& plan, Tool& tool, bool says);
 
 /// The words of a tool that is started.
 [[nodiscard]] std::vector<std::string> tool_words(const BatchPlan& plan, const std::string& tool);
-/// What makes a run, up to options that all runs have.
+/// Command that makes a run, up to options that all runs have.
 [[nodiscard]] std::vector<std::string> run_words(const BatchPlan& plan,
                                                  const EnsembleMember& member);
 

@@ -1,3 +1,4 @@
+// Starts the tools of a batch and reads their messages; they end with it.
 #include "tools/batch/processes.hpp"
 
 #include <fcntl.h>
@@ -16,7 +17,7 @@
 namespace talus {
 namespace {
 
-// Reads from what is returned; `output` is the one that the child writes it to.
+// Reads from the returned descriptor; `output` is the one that the child writes it to.
 int start(const std::vector<std::string>& words, int output, pid_t& pid) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -112,7 +113,7 @@ bool Process::read(const std::function<void(const std::string&, const std::strin
       progress_ = json["progress"].get<double>();
       continue;
     }
-    // what starts the tool, or the system, has words of its own
+    // the starter of the tool, or the system, writes plain lines
     const std::string level = is_object ? json.value("level", "info") : "info",
                       text = is_object ? json.value("text", "") : line;
     if (level == "error") last_error_ = text;

@@ -12,7 +12,7 @@
 
 namespace talus {
 
-/// What a tool with --json prints. Throws InputError with its last error where it fails.
+/// Output of a tool with --json. Throws InputError with its last error where it fails.
 [[nodiscard]] Json output_of(const std::vector<std::string>& words);
 
 /// A tool at work.
@@ -26,14 +26,14 @@ class Process {
 
   /// For poll(): where its messages come from.
   [[nodiscard]] int messages() const { return messages_; }
-  /// Reads what it has said; `take` gets level and text. Returns false once it has ended.
+  /// Reads its messages; `take` gets level and text. Returns false once it has ended.
   bool read(const std::function<void(const std::string& level, const std::string& text)>& take);
   void stop() const;  ///< as an interruption does
   [[nodiscard]] double progress() const { return progress_; }
-  /// Once it has ended: why there is no result, in the words of its last error or of the system.
+  /// Once it has ended: why the result is missing, in the words of its last error or of the system.
   [[nodiscard]] std::string why() const;
   [[nodiscard]] int exit_code() const;  ///< -1: it was killed
-  /// It did not end by itself: was killed or interrupted.
+  /// It was killed or interrupted.
   [[nodiscard]] bool was_cut_off() const { return exit_code() < 0 || exit_code() > 3; }
 
  private:

@@ -146,7 +146,7 @@ class Batch {
  public:
   Batch(Tool& tool, BatchPlan& plan, int n_jobs) : tool_(tool), plan_(plan), n_jobs_(n_jobs) {}
 
-  /// Makes the runs that lack, of the part; `is_cut_off` once one did not end by itself.
+  /// Makes the runs that lack, of the part; `is_cut_off` once one was killed or interrupted.
   void make_runs() {
     std::vector<std::size_t> left = to_make_here(plan_);
     std::reverse(left.begin(), left.end());
@@ -304,11 +304,11 @@ void reduce(Tool& tool, const BatchPlan& plan) {
   run_through(tool, words);
 }
 
-// What [place.*] want, told by the runs that are there.
+// Runs that [place.*] need, from the runs that exist.
 struct RunsThatLack {
   int n = 0;
-  bool help = true;  // else no number of runs makes the intervals narrow enough
-  std::string over;  // what intervals are made over
+  bool help = true;  // else more runs do not make the intervals narrow enough
+  std::string over;  // unit of the intervals
 };
 RunsThatLack runs_that_lack(const BatchPlan& plan) {
   Ensemble now = plan.ensemble;
@@ -408,8 +408,9 @@ void make_part_or_all(Tool& tool, BatchPlan& plan, int n_jobs) {
   reduce(tool, plan);
 }
 
-// Blocks of further runs that draw their own, which make did not know of. What is older than those
-// of the first run, which make has just looked at, is made again: the same bytes where it is right.
+// Blocks of further runs that draw their own, which make did not know of. Blocks older than those
+// of the first run, which make has just checked, are made again: the same bytes where they are
+// right.
 void make_blocks(Tool& tool, const BatchPlan& plan) {
   const std::int64_t first = mass_of(plan, plan.ensemble.members.front());
   const std::string of_first = rock_file(plan, "blocks", ".h5", first);
@@ -432,8 +433,8 @@ void make_blocks(Tool& tool, const BatchPlan& plan) {
   }
 }
 
-// 50, 100, 200 ... runs; of rocks one by one, which need no number of runs for an interval, from
-// n_runs on. The width of the intervals alone decides, never what was found.
+// 50, 100, 200 ... runs; of rocks one by one, whose intervals do not need several runs, from
+// n_runs on. The width of the intervals alone decides, never the result.
 int first_runs(const Site& site, int most) {
   return std::min(site.rockfalls.empty() ? 50 : static_cast<int>(site.solver.n_runs), most);
 }

@@ -1,3 +1,4 @@
+// Bodies of [blocks.*] and [rockfall.*] from meshes and shapes, set on the ground.
 #include "tools/blocks/bodies.hpp"
 
 #include <algorithm>
@@ -77,8 +78,8 @@ Polyhedron shape_of(const BodySection& section, Random& random) {
 
 namespace {
 
-// Bodies of a file that stand in each other: an inside-out one in another is a cavity, which bodies
-// cannot have; the rest is a warning.
+// Bodies of a file that are inside one another: an inside-out one in another is a cavity, which
+// bodies cannot have; the rest is a warning.
 void check_apart(const BodySection& section, const std::string& path,
                  const std::vector<Body>& bodies, const std::vector<std::string>& names,
                  const std::vector<bool>& were_turned) {

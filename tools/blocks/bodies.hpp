@@ -34,7 +34,7 @@ void check_number(const BodySection& section, double n_bodies);
 /// Throws InputError for a size that makes no body.
 [[nodiscard]] Polyhedron shape_of(const BodySection& section, Random& random);
 
-/// The bodies of the section's mesh file, as they stand in it; with `in_place` in the coordinates
+/// The bodies of the section's mesh file, as written in it; with `in_place` in the coordinates
 /// of the ground. Throws InputError as read_mesh() and make_solid().
 [[nodiscard]] std::vector<Body> mesh_bodies(const BodySection& section, bool in_place);
 

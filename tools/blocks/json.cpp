@@ -1,3 +1,4 @@
+// Properties of blocks as JSON and in words: volumes, sizes, shapes, the cut and its joints.
 #include "tools/blocks/json.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // tools/blocks/json.hpp
-// What blocks are like, as talus-blocks writes it to JSON and says it to the user: volumes, sizes,
+// Properties of blocks, as talus-blocks writes them to JSON and to the user: volumes, sizes,
 // shapes, the cut and its joints.
 #pragma once
 

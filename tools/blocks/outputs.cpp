@@ -1,3 +1,4 @@
+// Writes the files of talus-blocks.
 #include "tools/blocks/outputs.hpp"
 
 #include <algorithm>

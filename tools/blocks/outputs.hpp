@@ -14,7 +14,7 @@ struct BlocksOutputs {
   std::string blocks, trn, report, footprints, stereonet, size_curve;
 };
 
-/// Writes what is asked for.
+/// Writes the outputs that are asked for.
 void write_outputs(Tool& tool, const BlocksOutputs& files, const BlocksWork& work,
                    const Json& report);
 

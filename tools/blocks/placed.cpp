@@ -1,3 +1,4 @@
+// Bodies of the [blocks.*] sections, put where they start.
 #include "tools/blocks/placed.hpp"
 
 #include <cmath>
@@ -11,7 +12,7 @@
 namespace talus {
 namespace {
 
-// Bodies of a mesh as they stand in it, in map coordinates.
+// Bodies of a mesh as written in it, in map coordinates.
 std::vector<Body> bodies_in_place(const BodySection& section) {
   if (section.body.file.empty()) throw InputError(section.where(), "in_place needs a mesh file");
   std::vector<Body> bodies = mesh_bodies(section, true);
@@ -29,7 +30,7 @@ std::vector<Body> bodies_in_place(const BodySection& section) {
   return bodies;
 }
 
-// What stands at each place, about its centre of mass; empty for a shape, of which each is new.
+// Bodies at each place, about their centre of mass; empty for a shape, of which each is new.
 std::vector<Body> bodies_to_copy(const BodySection& section) {
   if (section.body.file.empty()) return {};
   std::vector<Body> meshes = mesh_bodies(section, false);

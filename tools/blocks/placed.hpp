@@ -1,6 +1,6 @@
 // tools/blocks/placed.hpp
-// The [blocks.*] sections of the site file: bodies from meshes and shapes that stand together, put
-// where they start.
+// The [blocks.*] sections of the site file: bodies from meshes and shapes that rest on one another,
+// put where they start.
 #pragma once
 
 #include "tools/blocks/bodies.hpp"

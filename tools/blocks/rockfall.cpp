@@ -1,3 +1,4 @@
+// Rocks of the [rockfall.*] sections: release places, forms and frequencies.
 #include "tools/blocks/rockfall.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ namespace {
 /// A place that releases rocks.
 struct ReleasePlace {
   Vec3 position;                ///< local; z NaN: on the ground
-  double area = not_given;      ///< of sloping ground that it stands for [m2]
+  double area = not_given;      ///< of sloping ground that it represents [m2]
   Vec3 extents = Vec3::Zero();  ///< of its rocks, by rasters [m]; 0: as the section says
   int shape = 0;                ///< of blshape_raster; 0: as the section says
 };
@@ -155,7 +156,7 @@ void add_cells(const RockfallSection& section, Random& random, std::vector<Relea
   }
 }
 
-// A place that is named twice is one place. Those of areas and cells are others in another run.
+// A place that is named twice is one place. Those of areas and cells differ in another run.
 std::vector<ReleasePlace> places_of(const RockfallSection& section) {
   std::vector<ReleasePlace> places;
   std::vector<Vec3> points = local_points(section.tool, section.site, section.ground,
@@ -198,7 +199,7 @@ void check_frequency(const RockfallSection& section) {
                      "rocks are weighed by their frequencies: give one to each section");
 }
 
-// Rocks a year that each rock of a place stands for; 1 where no frequency is given.
+// Rocks a year that each rock of a place represents; 1 where no frequency is given.
 double weight_of(const RockfallSection& section, const ReleasePlace& place, std::size_t n_places) {
   const RockfallSettings& s = section.settings;
   if (!has_frequency(s)) return 1;
@@ -227,7 +228,7 @@ void check_sizes(const RockfallSection& section) {
         "volume_m3 is the smallest volume of the power law, below volume_max_m3");
 }
 
-// What rocks with a form of their own are drawn from: bodies of a mesh, all alike, or joint cells.
+// Source of rocks with a form of their own: bodies of a mesh, all alike, or joint cells.
 JointCells forms_of(const RockfallSection& section) {
   const RockfallSettings& s = section.settings;
   const bool of_cells = s.shape == "joint_cell";

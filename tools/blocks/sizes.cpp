@@ -1,3 +1,4 @@
+// talus-blocks --sizes: design volumes from a list of blocks.
 #include "tools/blocks/sizes.hpp"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ std::vector<double> edges_of(const std::string& path) {
   return edges;
 }
 
-// Sections that talus-hazard reads: each class stands for what lies between two design volumes.
+// Sections that talus-hazard reads: each class represents the volumes between two design volumes.
 std::string scenario_text(const std::array<double, 3>& volumes, const std::string& list) {
   std::string out = "# from the blocks of " + list + " by talus-blocks --sizes\n";
   for (std::size_t i = 0; i < periods_a.size(); ++i) {

@@ -91,7 +91,7 @@ void add_terrain_error(Tool& tool, BlocksWork& work) {
             text(correlation) + " m");
 }
 
-// What is needed unless a list of sizes is looked at.
+// Checks the options that are needed unless a list of sizes is evaluated.
 void check_given(const SiteOptions& site, const Options& o) {
   for (const auto& [name, value] :
        {std::pair{"site", site.file()}, {"--trn", o.trn}, {"--out", o.files.blocks}})

@@ -1,3 +1,4 @@
+// Observations beside results, as layers and as JSON.
 #include "tools/calibrate/layers.hpp"
 
 #include <utility>

@@ -1,5 +1,5 @@
 // tools/calibrate/layers.hpp
-// Observations beside what was computed, as layers and as JSON. Keys:
+// Observations beside results, as layers and as JSON. Keys:
 // docs/tools/talus-calibrate.md
 #pragma once
 

@@ -1,5 +1,5 @@
 // tools/calibrate/talus_calibrate.cpp
-// Runs beside what was observed, and the values that this does not contradict. Page:
+// Runs beside observations, and the values that these do not contradict. Page:
 // docs/tools/talus-calibrate.md
 #include <algorithm>
 
@@ -25,7 +25,7 @@ const RunParts wanted{.crossings = false,
                       .only_faults = true,
                       .trees = false};
 
-// What a run drew; nothing of one whose settings this version does not read.
+// Values that a run drew; none where this version does not read its settings.
 std::vector<DrawnKey> drawn_by(const RunInfo& info) {
   try {
     const Site site = parse_site(info.config, info.run_id);

@@ -1,3 +1,4 @@
+// Inputs of a site's results, as extents to draw over the ground.
 #include "tools/check/inputs.hpp"
 
 #include <algorithm>
@@ -68,7 +69,7 @@ std::vector<ViewedInput> viewed_inputs(const Look& look, const std::vector<Json>
   }
   for (const Stem& stem : look.inputs.parts.stems) points.emplace_back(stem.foot.head<2>());
   inputs.add("stems", std::exchange(points, {}));
-  const Site& site = look.work.site;  // what a refused look did not come to, or keeps as cells
+  const Site& site = look.work.site;  // inputs that a refused look did not reach, or keeps as cells
   if (!site.info.crs.empty() &&
       !same_crs(crs_from_user(site.info.crs, "site.crs"), look.work.ground.crs_wkt))
     return std::move(inputs.list);

@@ -1,5 +1,5 @@
 // tools/check/inputs.hpp
-// What a site's results are made from, as extents to draw over the ground.
+// Inputs of a site's results, as extents to draw over the ground.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 namespace talus {
 
 /// The layers that the reports of the import list, then what the look has found of source, blocks,
-/// fences, objects and stems, then what else the site file itself writes; in local coordinates.
+/// fences, objects and stems, then the rest that the site file itself gives; in local coordinates.
 [[nodiscard]] std::vector<ViewedInput> viewed_inputs(const Look& look,
                                                      const std::vector<Json>& reports);
 

@@ -1,3 +1,4 @@
+// The look at a site before anything is computed: mass, fall lines, fences, objects, doubts.
 #include "tools/check/look.hpp"
 
 #include <algorithm>
@@ -83,7 +84,7 @@ double width_of(const Area& area, double azimuth) {
   return width;
 }
 
-// What a user changes to have another depth.
+// Key that a user changes for another depth.
 std::string depth_key(const SourceSettings& source) {
   const std::string& surface = source.failure_surface;
   if (surface == "plane") return "source.plane_point_m";
@@ -179,7 +180,7 @@ void look_at_source(Tool& tool, const std::vector<std::uint8_t>& classes, Look& 
   look_at_joints(look);
 }
 
-// --- the way down ------------------------------------------------------------------------------
+// --- fall lines ---------------------------------------------------------------------------------
 
 // Some sixty places spread over the source, or where the blocks are.
 std::vector<Vec2> starts_of(const Look& look) {
@@ -325,7 +326,7 @@ double known_area(const Trn& trn) {
   return n * trn.cell_size * trn.cell_size / 2;
 }
 
-// On what stands in the middle of these points.
+// On the object in the middle of these points.
 void add_doubt(Look& look, const std::string& key, const std::vector<Vec2>& points,
                const std::string& found, const std::string& hint) {
   Doubt doubt;

@@ -23,14 +23,14 @@ struct CheckFiles {
   bool settle = false;  ///< as the runs will be
 };
 
-/// The volume of the mass in three ways [m3].
+/// The volume of the mass by three methods [m3].
 struct ThreeVolumes {
   double cut = 0;    ///< of the blocks
   double prism = 0;  ///< between ground and bed inside the polygon, exact
   double nodes = 0;  ///< area of the polygon times the mean depth at its nodes
 };
 
-/// What of the fall lines comes to a fence.
+/// Fall lines at a fence.
 struct FenceLook {
   RecordLine line;
   double height = 0;          ///< [m]
@@ -39,15 +39,15 @@ struct FenceLook {
   double low = 0, high = 0;   ///< of its base, local z [m]
   int n_fall_lines = 0;       ///< that cross it
   double nearest = 0;         ///< distance of the nearest fall line; 0 where one crosses it [m]
-  bool is_in_source = false;  ///< a post stands in the source
+  bool is_in_source = false;  ///< a post is in the source
 };
 
-/// What of the fall lines comes to an object.
+/// Fall lines at an object.
 struct ObjectLook {
   RecordObject object;
   double distance = 0;        ///< in plan, from the nearest block [m]
   int n_fall_lines = 0;       ///< that come onto it
-  bool is_in_source = false;  ///< a block stands on it
+  bool is_in_source = false;  ///< a block is on it
 };
 
 struct Look {
@@ -72,7 +72,7 @@ struct Look {
   PeelOff peel;
   std::vector<OutlinedSurface> surfaces;  ///< that the mass could leave on
 
-  // the way down
+  // fall lines
   std::vector<SliderPath> slides;
   double travel_duration = 0;  ///< that they ask for [s]
   std::vector<FenceLook> fences;
@@ -83,13 +83,13 @@ struct Look {
   Probe probe;
   double probe_cpu_s = 0;
 
-  Json stability;  ///< what talus-stability found; null: nobody asked
+  Json stability;  ///< result of talus-stability; null: not asked for
 
   std::vector<Doubt> doubts;
 };
 
-/// Reads the files and looks at everything but the engine. What was found before an InputError
-/// stays.
+/// Reads the files and looks at everything but the engine. Results before an InputError
+/// stay.
 void look_at(Tool& tool, const Site& site, const CheckFiles& files, Look& look);
 
 /// Adds the probe: `duration` s of the run.

@@ -1,3 +1,4 @@
+// The page of talus-check, with its pictures.
 #include "tools/check/page.hpp"
 
 #include <algorithm>
@@ -164,7 +165,7 @@ CheckView view_of(const Look& look, const std::vector<Doubt>& doubts) {
   return view;
 }
 
-// What the map shows, and no more.
+// Key of the things that the map shows, and only these.
 std::string map_key(const CheckView& view) {
   const auto has = [&](BlockOutlook outlook) {
     return std::ranges::any_of(view.blocks, [&](const auto& b) { return b.outlook == outlook; });

@@ -1,5 +1,5 @@
 // tools/check/page.hpp
-// What a look found, as one page with its pictures.
+// Results of a look at a site, as one page with its pictures.
 #pragma once
 
 #include <string>

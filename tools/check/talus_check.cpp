@@ -1,5 +1,5 @@
 // tools/check/talus_check.cpp
-// A look at a site before anything is computed: a picture, and what numbers say of it. Page:
+// A look at a site before anything is computed: a picture, numbers and doubts. Page:
 // docs/tools/talus-check.md
 #include "base/read_file.hpp"
 #include "base/text.hpp"
@@ -56,7 +56,7 @@ void declare(Tool& tool, Options& o) {
       "check.html");
 }
 
-// Also where the site is refused: the page is what shows why.
+// Also where the site is refused: the page shows why.
 void write(Tool& tool, const std::string& path, const std::string& content) {
   const auto* const bytes = reinterpret_cast<const unsigned char*>(content.data());
   write_bytes(tool.stage_also_if_refused(path), {bytes, content.size()});
@@ -75,7 +75,7 @@ double probe_duration(const Options& o, const Look& look) {
   return 4 * second <= most_cpu_s ? 4 : second <= most_cpu_s ? 1 : 0;
 }
 
-// With what the stages before found, then what this one did.
+// With the doubts of the stages before, then those of this one.
 CheckPage page_of(Tool& tool, const Options& o, const std::vector<Doubt>& last) {
   CheckPage page;
   for (const std::string& file : o.reports) {
@@ -91,7 +91,7 @@ CheckPage page_of(Tool& tool, const Options& o, const std::vector<Doubt>& last) 
   return page;
 }
 
-// What cannot be looked at is drawn as far as it was read.
+// A site that is refused is drawn as far as it was read.
 void look_or_show(Tool& tool, const Options& o, const Site& site, Look& look) {
   try {
     look_at(tool, site, o.files, look);

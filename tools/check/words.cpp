@@ -1,3 +1,4 @@
+// Results of a look at a site, as JSON and as lines for a terminal.
 #include "tools/check/words.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 namespace talus {
 namespace {
 
-// Volumes found in several ways are compared: a digit more.
+// Volumes by several methods are compared: a digit more.
 std::string cubic(double volume) { return grouped_text(volume, 4) + " m3"; }
 double azimuth_deg(double azimuth) { return std::fmod(azimuth / degree + 360, 360); }
 

@@ -1,5 +1,5 @@
 // tools/check/words.hpp
-// What a look found, as JSON and as lines for a terminal.
+// Results of a look at a site, as JSON and as lines for a terminal.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// Outcome of a run: the JSON of talus-dda, its one line, and the health of the run.
 #include "tools/dda/report.hpp"
 
 #include <algorithm>
@@ -47,8 +48,8 @@ Vec3 mean_displacement(const RunFile& file) {
   return sum / mass;
 }
 
-// Panels that stood, and those that broke, when and by which block; of rocks that fell one by one
-// as they were at the start, and as each rock left those that it pushed.
+// Panels of built fences, and those that broke, when and by which block; of rocks that fell one by
+// one as they were at the start, and as each rock left those that it pushed.
 Json fences_on(const Runner& runner) {
   Json list = Json::array();
   for (const PanelRow& row : runner.file.panels) {
@@ -99,7 +100,8 @@ std::string fence_summary(const Json& report, const RunFile& file) {
          broken_panels(panels);
 }
 
-// Stems that stood, that were hit, and that broke; of rocks that fell one by one rock by rock.
+// Stems of the run, those that were hit, and those that broke; of rocks that fell one by one rock
+// by rock.
 Json trees_on(const RunFile& file) {
   std::set<std::tuple<int, int, int>> hit, broken;  // world, forest, stem
   const std::vector<int> worlds = worlds_of(file);
@@ -131,7 +133,7 @@ std::string tree_summary(const Json& report, const RunFile& file) {
          trees["n_stems_broken"].dump() + " broken";
 }
 
-// What a user must not miss, where there is any.
+// Faults that a user must not miss, if any.
 std::string trouble_summary(const Json& report) {
   const auto said = [&report](const char* key, const std::string& of, const std::string& what) {
     const auto n = report[key].get<std::int64_t>();
@@ -142,7 +144,7 @@ std::string trouble_summary(const Json& report) {
          said("unconverged", "block step", " accepted unconverged");
 }
 
-// The way out of a broken limit, by what its name says.
+// The remedy for a broken limit, by its name.
 std::string health_hint(const std::string& check) {
   const auto is_of = [&check](const char* word) { return check.find(word) != std::string::npos; };
   if (is_of("more than a tenth") || is_of("in the toe"))
@@ -157,7 +159,7 @@ std::string health_hint(const std::string& check) {
   return "";
 }
 
-// Blocks that were deep in something: which, in what, when, where, how deep.
+// Blocks that were deep in something: which block, inside which body, when, where, how deep.
 Json deep_blocks_of(const RunFile& file) {
   Json list = Json::array();
   for (const DeepRow& row : file.deep) {
@@ -178,7 +180,7 @@ Json deep_blocks_of(const RunFile& file) {
   return list;
 }
 
-// What the run says of them in one line: those that matter first, then the heaviest.
+// Warning of them in one line: those that matter first, then the heaviest.
 std::string deep_warning(const RunFile& file) {
   constexpr size_t most = 3;
   const std::vector<DeepRow> rows = by_weight(file.deep);
@@ -190,7 +192,7 @@ std::string deep_warning(const RunFile& file) {
   return words + (rows.size() > most ? "; all stand in deep_blocks of the run" : "");
 }
 
-// Blocks that were crushed: which, when, where, by what load.
+// Blocks that were crushed: which, when, where, by which load.
 Json crushed_blocks_of(const RunFile& file) {
   Json list = Json::array();
   for (const CrushedBlock& row : file.crushed) {
@@ -206,7 +208,7 @@ Json crushed_blocks_of(const RunFile& file) {
   return list;
 }
 
-// What the run says of them in one line.
+// Warning of them in one line.
 std::string crushed_warning(const RunFile& file) {
   double volume = 0, mass = 0, all = 0;
   for (const CrushedBlock& row : file.crushed) volume += row.volume, mass += row.mass;
@@ -223,7 +225,7 @@ std::string crushed_warning(const RunFile& file) {
          text(at.z(), 5) + "; all stand in crushed_blocks of the run)";
 }
 
-// Pieces of blocks that broke, and what their breaking took.
+// Pieces of blocks that broke, and the energy of their breaking.
 Json fragments_of(const RunFile& file) {
   const FragmentSizes sizes = fragment_sizes(file);
   double fracture = 0;

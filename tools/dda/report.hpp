@@ -1,5 +1,5 @@
 // tools/dda/report.hpp
-// What a run came to: talus-dda's answer, its one line, and its health.
+// Outcome of a run: talus-dda's answer, its one line, and its health.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace talus {
 
-/// What was left out of a scene, with the rule and its reason.
+/// Parts left out of a scene, with the rule and its reason.
 [[nodiscard]] Json plan_json(const ScenePlan& plan);
 
 /// Counters, largest speed, mean displacement, panels and health of a run, which took `cpu_s` from

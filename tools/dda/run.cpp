@@ -1,3 +1,4 @@
+// A run of talus-dda from its scene to its outputs: checkpoints, signals, the report.
 #include "tools/dda/run.hpp"
 
 #include <algorithm>
@@ -69,7 +70,7 @@ RunFile new_file(Tool& tool, const Site& site, const SetUp& setup) {
 
 std::string part_of(const DdaOptions& o) { return o.out + ".part"; }
 
-// The checkpoint takes the place of what a stopped run left, and is removed at the end.
+// The checkpoint takes the place of the files that a stopped run left, and is removed at the end.
 void declare_outputs_beside(Tool& tool, const DdaOptions& o) {
   for (const char* end : {"", ".new"}) tool.write_also(part_of(o) + end, true);
 }
@@ -177,7 +178,7 @@ int n_threads(const Scene& scene, const DdaOptions& o) {
   return o.threads > 0 ? o.threads : threads_by_default();
 }
 
-// To the end, to a broken limit, to where the mass stands, or to a signal.
+// To the end, to a broken limit, to a stable mass, or to a signal.
 void compute(Tool& tool, Runner& runner, const std::string& part, double interval_s,
              bool may_end_standing) {
   Checkpoints checkpoints(tool, part, interval_s);

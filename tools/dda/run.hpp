@@ -17,15 +17,15 @@ struct DdaOptions {
 };
 
 /// Declares the files beside the outputs. Throws InputError or UsageError where an option lacks or
-/// has no sense, and for what a stopped run left behind unless it is to be resumed or replaced.
+/// makes no sense, and for files that a stopped run left unless it is to be resumed or replaced.
 void check_options(Tool& tool, const DdaOptions& options);
 
-/// To the end, to a broken limit, to where the mass stands, or to a signal (Interrupted, after a
+/// To the end, to a broken limit, to a stable mass, or to a signal (Interrupted, after a
 /// checkpoint); stages the outputs. `cpu_start_s`: processor_seconds() when the tool began.
 void compute_run(Tool& tool, const Site& site, const SetUp& setup, const DdaOptions& options,
                  double cpu_start_s);
 
-/// Once the run is in place, what it could have been resumed from is of no more use.
+/// Once the run is in place, its checkpoints are not needed any more.
 void remove_checkpoints(const DdaOptions& options);
 
 }  // namespace talus

@@ -38,8 +38,8 @@ void declare(Tool& tool, SiteOptions& site, DdaOptions& o) {
   tool.footer(
       "Example:\n  talus-dda site.toml --trn bed.tif --blocks blocks.h5 -o run.h5\n"
       "A run that was stopped leaves run.h5.part: a readable run, and where --resume goes on.");
-  // All that was given or read counts for the run's id, but for what a resumed run may differ in.
-  // The site file counts by its effective values.
+  // All that was given or read counts for the run's id, but for settings in which a resumed run may
+  // differ. The site file counts by its effective values.
   tool.leave_out_of_run_id(site.names());
   tool.leave_out_of_run_id(
       {"resume", "threads", "output.checkpoint_interval_s", "output.frames", "output.whole_share"});

@@ -93,7 +93,7 @@ void check_terrain(const Trn& trn, const BlockSet& set, const Options& o) {
                      "give the terrain that talus-blocks was given, or its --trn-out");
 }
 
-// What runs and block sets have in common.
+// Common part of runs and block sets.
 template <class Blocks>
 BlockScene scene_of(const Blocks& blocks, const Vec3& origin, const std::string& crs_wkt,
                     const Options& o) {

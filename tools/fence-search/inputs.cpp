@@ -1,3 +1,4 @@
+// Reads the runs of a fence search: those that watched candidate lines, and those that verify.
 #include "tools/fence-search/inputs.hpp"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double same_place = 0.01;  // of posts, in plan [m]
 
-// With passages: their grid is what runs that are read later must agree with.
+// With passages: runs that are read later must have their grid.
 const RunParts wanted{.checkpoint = false,
                       .only_last_frame = true,
                       .only_faults = true,
@@ -117,7 +118,7 @@ void add_search_run(SearchCase& of, const RunFile& run, int index, const std::st
   of.on_object.push_back(touched);
 }
 
-// What a run of each class counts so that all count by how often their events happen, 1 on average
+// Weight of a run of each class by the frequency of its events, 1 on average
 // over all runs; `n`: runs of each. A run of rocks is as many events as their weight.
 std::vector<double> class_factors(const std::vector<HazardRuns>& classes,
                                   const std::vector<int>& n) {
@@ -145,7 +146,7 @@ void weigh_classes(RunInputs& runs, std::vector<HazardRuns>& classes,
   std::vector<double> factor;  // by run
   for (std::size_t c = 0; c < classes.size(); ++c)
     factor.insert(factor.end(), static_cast<std::size_t>(n[c]), factors[c]);
-  for (std::size_t c = 0; c < classes.size(); ++c) {  // shares of what is weighed below
+  for (std::size_t c = 0; c < classes.size(); ++c) {  // shares of the samples weighed below
     ShareBasis& basis = classes[c].basis;
     for (double& weight : basis.clusters.weight) weight *= factors[c];
     basis.over.whole *= factors[c];
@@ -163,7 +164,7 @@ void weigh_classes(RunInputs& runs, std::vector<HazardRuns>& classes,
         hit.arrival.weight *= factor[static_cast<std::size_t>(hit.arrival.run)];
 }
 
-// The same for runs in which a fence stood, by their cases; by run.
+// The same for runs with a fence, by their cases; by run.
 std::vector<double> verified_factors(const std::vector<RunMember>& members,
                                      const std::vector<HazardRuns>& classes) {
   if (classes.size() < 2) return std::vector<double>(members.size(), 1.0);

@@ -1,6 +1,6 @@
 // tools/fence-search/inputs.hpp
-// What talus-fence-search reads: runs that watched the candidate lines, and runs in which a
-// proposal stood.
+// What talus-fence-search reads: runs that watched the candidate lines, and runs with a
+// proposed fence.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@
 
 namespace talus {
 
-/// One [fence_search.*] with what the runs say of it.
+/// One [fence_search.*] with its results from the runs.
 struct SearchCase {
   const FenceSearchSettings* settings = nullptr;
   RecordObject object;
-  SearchSettings what;  ///< can be built, and what it costs
+  SearchSettings what;  ///< can be built, and its cost
   DesignCode code;
   std::string code_sha256;
   double step = 0;  ///< of the candidates [m]
@@ -33,21 +33,21 @@ struct SearchCase {
                                                    const std::string& only, const Trn& trn);
 
 /// Reads the runs into all cases. Runs of several classes count by how often their events happen.
-/// Warns of fences that stood. Throws InputError for runs that did not watch the lines of a search,
-/// or its object.
+/// Warns of fences that were built. Throws InputError for runs that did not watch the lines of a
+/// search, or its object.
 void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
                       std::vector<SearchCase>& cases);
 
-/// What comes to an object behind a fence that stands.
+/// Hits of an object behind a built fence.
 struct VerifiedFence {
   int n_runs = 0;
   double residual = 0;  ///< share of runs with a block on the object
   Interval interval;    ///< 95 %
   double hits_a_run = 0;
 };
-/// Reads runs in which `fences` stood, by their names; of several classes those of class C are of
-/// case C. Throws InputError where the fences did not stand there, for runs that are
-/// among those of the search or have the seed of one, and for runs of no class.
+/// Reads runs in which `fences` were built, by their names; of several classes those of class C are
+/// of case C. Throws InputError where the fences were not built there, for runs that are
+/// among those of the search or have the seed of one, and for runs without a class.
 [[nodiscard]] VerifiedFence read_verified(RunInputs& runs, const std::string& name,
                                           const std::vector<std::string>& paths,
                                           const std::vector<Fence>& fences,

@@ -1,3 +1,4 @@
+// Outputs of talus-fence-search: sections of a site file, JSON, layers, a chart.
 #include "tools/fence-search/output.hpp"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ std::string faults_text(const FenceOption& option) {
   return out;
 }
 
-// What the nearest option lacks, with numbers.
+// Demands that the nearest option does not meet, with numbers.
 std::string lacking(const SearchCase& search, const FenceOption& option) {
   std::string out;
   const auto add = [&](const std::string& words) { out += (out.empty() ? "" : "; ") + words; };
@@ -441,7 +442,7 @@ std::string search_chart(const SearchCase& search, const SearchAnswer& answer) {
   }
   ChartSeries curve{"most stopped for its cost", "#3182bd", {0}, {100}};
   for (const FenceOption& option : cost_curve(answer.result.front)) {
-    curve.x.push_back(option.cost);  // a step: what is paid for so far holds until then
+    curve.x.push_back(option.cost);  // a step: the option paid for so far holds until then
     curve.y.push_back(curve.y.back());
     curve.x.push_back(option.cost);
     curve.y.push_back(100 * (1 - option.stopped));

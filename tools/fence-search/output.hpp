@@ -1,5 +1,5 @@
 // tools/fence-search/output.hpp
-// What talus-fence-search writes: proposals as sections of a site file, JSON, layers, a chart.
+// Outputs of talus-fence-search: proposals as sections of a site file, JSON, layers, a chart.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@
 
 namespace talus {
 
-/// An option that does what is asked for, with fences that have names and posts of their own.
+/// An option that meets the demand, with fences that have names and posts of their own.
 struct Proposal {
   std::string name;  ///< "house-1"
   std::vector<Fence> fences;
   FenceOption option;
-  int n_moves = 0;  ///< of the refinement; 0: it stands on its candidate line
+  int n_moves = 0;  ///< of the refinement; 0: it is on its candidate line
   std::optional<VerifiedFence> verified;
 };
 
@@ -28,7 +28,7 @@ struct SearchAnswer {
   int best = -1;  ///< the cheapest of those that hold; -1: none, or nothing was verified
 };
 
-/// How a verified share compares with what was predicted: "as predicted", "better than predicted",
+/// How a verified share compares with the prediction: "as predicted", "better than predicted",
 /// "worse than predicted"; "" where it was not verified or nothing bounds the shares.
 [[nodiscard]] std::string comparison_of(const Proposal& proposal);
 

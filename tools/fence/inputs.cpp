@@ -1,3 +1,4 @@
+// Reads the fences of the site file and the runs at them.
 #include "tools/fence/inputs.hpp"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace talus {
 namespace {
 
-// Throws InputError unless a fence that stood in a run is built as it is now.
+// Throws InputError unless a fence of a run is built as it is now.
 void check_built_alike(const RunFile& run, const FenceSettings& expected, const std::string& file,
                        const std::string& site_file) {
   const Site site = parse_site(run.info.config, file);
@@ -20,7 +21,7 @@ void check_built_alike(const RunFile& run, const FenceSettings& expected, const 
   check_same_fence(*stood, expected, file, site_file);
 }
 
-// What touched a standing fence is told by its panels, or else by the frames alone.
+// Blocks that touched a built fence are known from its panels, or else from the frames alone.
 void check_frames(const RunFile& run, int line, const std::string& file) {
   const bool has_panels = std::any_of(run.panels.begin(), run.panels.end(),
                                       [line](const PanelRow& panel) { return panel.line == line; });

@@ -1,5 +1,5 @@
 // tools/fence/inputs.hpp
-// What talus-fence reads: the fences of the site file, and the runs at them.
+// Inputs of talus-fence: the fences of the site file, and the runs at them.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ namespace talus {
 /// Reads the runs of `inputs` and those `without_files` to compare with. `free_border`: f_min [m];
 /// NaN: that of the code. Throws InputError for runs of other fences than those of the site file
 /// (find_line, check_same_fence, check_one_kind).
-/// Dams of the site that stand, whose lines it adds to those of the fences.
+/// Active dams of the site, whose lines it adds to those of the fences.
 [[nodiscard]] std::vector<DamCase> dam_cases(Tool& tool, const Site& site, const Trn& trn,
                                              std::vector<FenceCase>& lines);
 

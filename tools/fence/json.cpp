@@ -1,3 +1,4 @@
+// Results at fences as the JSON of talus-fence.
 #include "tools/fence/json.hpp"
 
 #include <algorithm>

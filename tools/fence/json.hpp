@@ -13,7 +13,7 @@ namespace talus {
                               const FenceRunGroup& group, const ShareBasis& basis,
                               const FenceCode& code);
 
-/// What comes behind the line of fence number `index` with the fences, without them, and the
+/// Blocks behind the line of fence number `index` with the fences, without them, and the
 /// difference.
 [[nodiscard]] Json dam_json(const DamCase& dam, const DamResult& result, const FenceRunGroup& group,
                             const Fence& crest, const ShareBasis& basis);

@@ -1,3 +1,4 @@
+// Results at fences as layers of the GeoPackage of talus-fence, with their styles.
 #include "tools/fence/layers.hpp"
 
 #include <cmath>

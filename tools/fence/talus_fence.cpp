@@ -1,5 +1,5 @@
 // tools/fence/talus_fence.cpp
-// What fences would meet, what they hold and what they change. Page: docs/tools/talus-fence.md
+// Arrivals at fences, their verdicts and the changes by fences. Page: docs/tools/talus-fence.md
 #include <cmath>
 
 #include "post/fence/fence_fields.hpp"
@@ -55,7 +55,7 @@ void declare(Tool& tool, Options& o) {
       "  talus-fence site.toml with.h5 --without without.h5 --trn slope.tif -o fence.gpkg");
 }
 
-// What a reader of the verdicts at fence i must know.
+// Warnings that a reader of the verdicts at fence i must know.
 void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResult& result,
              const FenceRuns& runs) {
   const std::string name = "fence " + fence.line.name;

@@ -1,5 +1,5 @@
 // tools/frame/build_info.hpp
-// What was built: version and commit, written into the run registry. build_info.cpp is generated.
+// Version and commit of the build, written into the run registry. build_info.cpp is generated.
 #pragma once
 
 namespace talus {

@@ -1,3 +1,4 @@
+// Words of the command line: spelling as in GDAL, checks of values, quoting for a shell.
 #include "tools/frame/command_line.hpp"
 
 #include <CLI/CLI.hpp>

@@ -15,13 +15,13 @@ class App;
 
 namespace talus {
 
-/// The command line is wrong, whatever the files hold (exit code 2).
+/// The command line is wrong, independent of the files (exit code 2).
 class UsageError : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// What `read` makes of words of the command line; an InputError of it becomes a UsageError.
+/// Result of `read` for words of the command line; an InputError of it becomes a UsageError.
 template <class Read>
 auto from_command_line(const Read& read) {
   try {

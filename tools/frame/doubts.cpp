@@ -1,3 +1,4 @@
+// Doubts of a tool: their options, messages and layer; ends the tool where one is refused.
 #include "tools/frame/doubts.hpp"
 
 #include <algorithm>

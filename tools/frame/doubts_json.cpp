@@ -1,3 +1,4 @@
+// Doubts as JSON rows of a report, written and read back.
 #include "tools/frame/doubts_json.hpp"
 
 #include <array>
@@ -35,7 +36,7 @@ Json row_of(const Doubt& doubt) {
   return row;
 }
 
-// What a stranger wrote may be of any type.
+// A value of a foreign file may be of any type.
 std::string words_at(const Json& row, const char* name) {
   return row.contains(name) && row[name].is_string() ? row[name].get<std::string>() : "";
 }

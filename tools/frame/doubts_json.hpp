@@ -9,11 +9,11 @@
 
 namespace talus {
 
-/// Rows of up to 100 of a kind and state, the last of which stands for all others. Form:
+/// Rows of up to 100 of a kind and state, the last of which represents all the rest. Form:
 /// docs/reference/formats.md
 void add_doubts(const std::vector<Doubt>& doubts, Json& report);
 
-/// The rows of a report. None where it has no list of them.
+/// The rows of a report. None where it lacks the list.
 [[nodiscard]] std::vector<Doubt> doubts_of(const Json& report);
 
 }  // namespace talus

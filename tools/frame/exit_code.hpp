@@ -1,5 +1,5 @@
 // tools/frame/exit_code.hpp
-// What a tool tells its caller by the number that it ends with. docs/tools/common.md
+// Exit codes of the tools. docs/tools/common.md
 #pragma once
 
 namespace talus {

@@ -1,3 +1,4 @@
+// Outlines in plan of the mass that could leave on each plane and wedge.
 #include "tools/frame/failure_outlines.hpp"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // tools/frame/failure_outlines.hpp
-// Planes and wedges that a mass could leave on, as areas in plan: what would go with each.
+// Planes and wedges that a mass could leave on, as areas in plan of the mass that would go with
+// each.
 #pragma once
 
 #include <string>

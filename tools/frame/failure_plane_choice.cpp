@@ -1,3 +1,4 @@
+// Planes and wedges that a mass can leave on, in words and as JSON.
 #include "tools/frame/failure_plane_choice.hpp"
 
 #include <cmath>
@@ -37,7 +38,7 @@ Json json_of(const FailurePlane& plane, double friction, const Vec3& origin) {
   return row;
 }
 
-// What the plane does at the foot, and how much of it is steeper than friction.
+// Where the plane daylights at the foot, and how much of it is steeper than friction.
 std::string foot_text(const Json& plane) {
   std::string words = tenths(plane["above_friction_deg"].get<double>()) +
                       " degrees steeper than friction; comes out of the ground along " +

@@ -1,3 +1,4 @@
+// Reads design codes and barrier classes of share/codes for the tools for fences.
 #include "tools/frame/fence_code.hpp"
 
 #include <filesystem>

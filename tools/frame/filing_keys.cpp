@@ -1,3 +1,4 @@
+// Data model by which a hazard map is filed, by the keys of [hazard], and whether it can be.
 #include "tools/frame/filing_keys.hpp"
 
 #include <cstdio>

@@ -19,7 +19,7 @@ inline const std::vector<std::string> swiss_levels = {"residual_hazard", "slight
 [[nodiscard]] inline bool is_filed(const Site& site) {
   return !(site.hazard.author + site.hazard.date + site.hazard.name_space).empty();
 }
-/// "TI" of "ti.ch", which is filed by the Swiss model; empty where it is no canton's.
+/// "TI" of "ti.ch", which is filed by the Swiss model; empty where it is not a canton's.
 [[nodiscard]] std::string canton_of(const Site& site);
 
 /// Throws InputError where one of the three keys is missing or cannot be, and where the recipe or

@@ -1,3 +1,4 @@
+// Table of options that a release no longer has, and their replacements.
 #include "tools/frame/gone_options.hpp"
 
 namespace talus {

@@ -1,3 +1,4 @@
+// Reads the recipe of the hazard classes of a site.
 #include "tools/frame/hazard_recipe.hpp"
 
 #include <algorithm>

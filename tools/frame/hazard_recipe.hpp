@@ -8,8 +8,8 @@
 
 namespace talus {
 
-/// What `[hazard] recipe` names: a file of share/hazard without its suffix, or a path. Throws
-/// InputError where it is neither, and as parse_recipe().
+/// Recipe that `[hazard] recipe` names: a file of share/hazard without its suffix, or a path.
+/// Throws InputError where it is neither, and as parse_recipe().
 [[nodiscard]] Recipe read_recipe(InputLog& log, const Site& site);
 
 }  // namespace talus

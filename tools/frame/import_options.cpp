@@ -1,3 +1,4 @@
+// Options of the tools that import data: systems, units, heights, layers.
 #include "tools/frame/import_options.hpp"
 
 #include <array>
@@ -29,7 +30,7 @@ std::array<NamedLayer, 5> layers_of(ImportOptions& o) {
            {InputRole::boundary, "boundary", &o.boundary}}};
 }
 
-// What an option says of one input: "spots=0.3048", or "0.3048" of the contours.
+// Part of an option for one input: "spots=0.3048", or "0.3048" of the contours.
 std::pair<LayerRef*, std::string> of_input(ImportOptions& o, const std::string& words) {
   for (const NamedLayer& layer : layers_of(o))
     if (words.starts_with(layer.name + "="))
@@ -118,7 +119,7 @@ void refuse_options_beside(const InputsRequest& inputs, const ImportOptions& o) 
 InputsRequest request_of(Tool& tool, ImportOptions& o) {
   if (std::optional<InputsRequest> inputs = canonical_request(o.contours.path)) {
     refuse_options_beside(*inputs, o);
-    tool.leave_out_of_run_id({"contours"});  // its ground counts, not what else stands in the file
+    tool.leave_out_of_run_id({"contours"});  // its ground counts, not the rest of the file
     tool.content_read("contours", inputs->seal);
     tool.content_read("contours.crs", inputs->frame);
     o.of_points = inputs->layers.front().role == InputRole::points;

@@ -1,6 +1,6 @@
-// What people say of the data that they bring: one declaration for the tools that import.
+// Properties of data as users declare them: one declaration for the tools that import.
 // in:    the command line
-// out:   a request; what was read, said and recorded
+// out:   a request; a record of the data read
 #pragma once
 
 #include <string>
@@ -19,10 +19,10 @@ struct CrsOptions {
 };
 void declare_crs_options(Tool& tool, CrsOptions& options);
 
-/// Throws UsageError for what is no system.
+/// Throws UsageError for a name that is not a system.
 [[nodiscard]] SystemsByUser systems_by_user(const CrsOptions& options);
 
-/// A contour map, or points of the ground, and what belongs to it.
+/// A contour map, or points of the ground, and its options.
 struct ImportOptions {
   LayerRef contours, labels, breaklines, spots, boundary;
   bool of_points = false;
@@ -33,15 +33,15 @@ struct ImportOptions {
 /// All but `contours`.
 void declare_import_options(Tool& tool, ImportOptions& options);
 
-/// The layers that are given, with what is said of each; their further files become inputs. Of a
-/// file that talus-import wrote its own layers. Throws UsageError for options beside it, which say
-/// what is settled.
+/// The layers that are given, with the options for each; their further files become inputs. Of a
+/// file that talus-import wrote its own layers. Throws UsageError for options beside it, which give
+/// properties that it settles.
 [[nodiscard]] InputsRequest request_of(Tool& tool, ImportOptions& options);
 
-/// Says and records what was read and done.
+/// Reports and records the data read and the changes to them.
 void say_reading(Tool& tool, const ImportReading& reading);
 
-/// For options in metres: "" for a number above 0, or of 0 or more, else what is wrong.
+/// For options in metres: "" for a number above 0, or of 0 or more, else the fault.
 [[nodiscard]] std::string check_positive(const std::string& word);
 [[nodiscard]] std::string check_not_negative(const std::string& word);
 

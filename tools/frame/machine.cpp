@@ -1,3 +1,4 @@
+// The machine that a run is computed on: its processor, memory and system.
 #include "tools/frame/machine.hpp"
 
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // tools/frame/machine.hpp
-// What a run is computed on.
+// The machine that a run is computed on.
 #pragma once
 
 #include <string>

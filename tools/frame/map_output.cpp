@@ -1,3 +1,4 @@
+// Writes layers of cells as every tool does: raster, style and pages.
 #include "tools/frame/map_output.hpp"
 
 #include <algorithm>
@@ -85,7 +86,7 @@ std::string run_words(const MapTags& tags) {
   return n + (n == "1" ? " run" : " runs");
 }
 
-// Runs, model and limits: what a reader of one page alone must know.
+// Runs, model and limits: facts that a reader of one page alone must know.
 std::vector<std::string> words_of(const MapFrame& frame, const MapTags& tags) {
   const std::string cases = tag(tags, "CASES"), health = tag(tags, "HEALTH");
   return {"Runs: " + run_words(tags) + (cases.empty() ? "" : " of the cases " + cases) + ", set " +
@@ -180,7 +181,7 @@ std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path
   tags.emplace_back("SHOWN_BAND", layer.bands[shown].name);
   if (!frame.pages.words.empty())
     tags.emplace_back("PICTURE_CELLS", window_text(frame.drawn, frame.grid));
-  if (layer.is_codes && layer.bands.size() == 1)  // what a GeoTIFF may have
+  if (layer.is_codes && layer.bands.size() == 1)  // as a GeoTIFF allows
     for (const StyleClass& c : style.classes)
       raster.colours.emplace_back(static_cast<int>(c.upper), c.colour);
   raster.tags = std::move(tags);

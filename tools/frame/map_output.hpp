@@ -34,7 +34,7 @@ struct CellWindow {
   int row_begin = 0, row_end = 0, col_begin = 0, col_end = 0;
 };
 
-/// What all maps of one grid share.
+/// Common part of all maps of one grid.
 struct MapFrame {
   Vec2 corner = Vec2::Zero();  ///< north-west, map coordinates [m]
   PassageGrid grid;
@@ -48,8 +48,8 @@ struct MapFrame {
   std::string law;  ///< of the runs
 };
 /// The cells that the pages of a map of the same cells show at least (tag PICTURE_CELLS), so that
-/// pages of several sets of runs stand side by side. Throws InputError for a map without pages or
-/// of other cells.
+/// pages of several sets of runs can be compared side by side. Throws InputError for a map without
+/// pages or of other cells.
 [[nodiscard]] CellWindow window_of_map(const std::string& path, const PassageGrid& grid,
                                        const Where& where);
 
@@ -60,7 +60,7 @@ struct MapFrame {
                                  const std::vector<std::uint32_t>& touched,
                                  const std::optional<CellWindow>& window = {});
 
-/// Stages `path` (NAME.tif) and what stands beside it. Cells without known ground that nothing
+/// Stages `path` (NAME.tif) and the files beside it. Cells without known ground that nothing
 /// touched hold nodata. Adds the tags SHOWN_BAND and, with pages, PICTURE_CELLS. Returns the band
 /// that the style shows. Throws InputError. `certain`: where its first band is 0 pages are hatched;
 /// null: nowhere.

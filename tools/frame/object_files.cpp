@@ -1,3 +1,4 @@
+// Names of objects as names of files.
 #include "tools/frame/object_files.hpp"
 
 #include <map>

@@ -1,3 +1,4 @@
+// Refuses outputs that cannot or must not be written, before long work.
 #include "tools/frame/output_checks.hpp"
 
 #include <sys/stat.h>
@@ -26,8 +27,8 @@ void check_folder(const fs::path& folder) {
                      "name another output, or mend the folder's permissions");
 }
 
-// What a path would belong to if it were kept beside another file, as formats do: under its whole
-// name (map.tif of map.tif.aux.xml), or with another extension, which is left out then.
+// File that a path would belong to if it were kept beside another file, as formats do: under its
+// whole name (map.tif of map.tif.aux.xml), or with another extension, which is left out then.
 struct Owner {
   std::string file, without_extension;
 };
@@ -101,7 +102,7 @@ void check_output_file(const fs::path& path, const KeptFiles& kept) {
   if (fs::exists(path) && !fs::is_regular_file(path))
     throw InputError({path.string()}, "is no regular file, expected a file name to write",
                      "outputs are written beside it and renamed when they are whole");
-  // Work in progress stands in a folder of a longer name: .NAME.part-HOST-PROCESS-XXXXXX
+  // Work in progress is in a folder of a longer name: .NAME.part-HOST-PROCESS-XXXXXX
   constexpr std::size_t longest = 160;
   if (path.filename().string().size() > longest)
     throw InputError({path.string()},

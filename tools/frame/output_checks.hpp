@@ -14,11 +14,11 @@
 namespace talus {
 
 /// Files that are read, or that the site file names whether or not they are read: no output may be
-/// one of them, by whatever name it goes, nor belong to one (.prj, .aux.xml, -wal).
+/// one of them, under any name, nor belong to one (.prj, .aux.xml, -wal).
 class KeptFiles {
  public:
-  /// `source` as for parse_source_path(); `finding` is what is said of an output that is this file.
-  /// Names of GDAL that no file stands behind are passed over.
+  /// `source` as for parse_source_path(); `finding` is the message for an output that is this file.
+  /// Names of GDAL without a file behind them are passed over.
   void add(const std::string& source, const std::string& finding);
   /// Throws UsageError.
   void refuse(const std::filesystem::path& output) const;
@@ -30,8 +30,8 @@ class KeptFiles {
   std::map<std::pair<dev_t, ino_t>, std::string> by_file_;
 };
 
-/// Throws CLI::ValidationError for an output whose name is empty on the command line: it is no
-/// output left away.
+/// Throws CLI::ValidationError for an output whose name is empty on the command line: it is not
+/// an omitted output.
 void check_output_names(const ToolOptions& options);
 
 /// Throws UsageError for a file that is to be kept, InputError for one that cannot be written.

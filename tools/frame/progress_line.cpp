@@ -1,3 +1,4 @@
+// Progress on standard error: a line on a terminal, lines elsewhere, or JSON objects.
 #include "tools/frame/progress_line.hpp"
 
 #include <algorithm>

@@ -12,7 +12,7 @@ namespace talus {
 /// How it is said: in place on a terminal; a line a minute; a line a second; an object a line.
 enum class ProgressForm { in_place, each_minute, plain, json, none };
 
-/// Of --progress (auto, plain, json, none); what is asked for is said with -q, too.
+/// Of --progress (auto, plain, json, none); a form that is asked for is used with -q, too.
 [[nodiscard]] ProgressForm progress_form(const std::string& asked, bool on_terminal, bool quiet,
                                          bool messages_in_json);
 

@@ -1,3 +1,4 @@
+// Run files and their terrain as every tool that evaluates runs takes them.
 #include "tools/frame/run_inputs.hpp"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ std::uintmax_t bytes_of(const std::vector<std::string>& paths) {
   return sum;
 }
 
-// What results depend on: which runs, and how far each came.
+// Contents that results depend on: which runs, and how far each came.
 std::string content_of(const std::vector<RunMember>& runs) {
   std::vector<std::string> ids;
   for (const RunMember& run : runs)
@@ -47,7 +48,7 @@ RunInputs::RunInputs(Tool& tool, RunUse use) : tool_(tool), use_(use) {
   tool.inputs("run", paths_,
               "runs of talus-dda and parts of talus-reduce (HDF5), in any order, or their folder");
   tool.input("--trn", trn_file, "terrain of the runs (GeoTIFF of talus-trn)").required();
-  // the runs themselves stand for them
+  // the runs themselves replace them
   tool.leave_out_of_run_id({"run", "without", "compare"});
 }
 
@@ -164,7 +165,7 @@ RunInputs::Found RunInputs::look_at(const RunSet& set, const RunParts& parts, bo
   return found;
 }
 
-// What the runs say, unless their ensemble says it.
+// The limit of the runs, unless their ensemble gives one.
 double RunInputs::share_allowed(const RunSet& set, const Found& found) const {
   if (use_ == RunUse::reduced) return 0;
   return std::isnan(set.max_failed_share) ? found.max_failed_share : set.max_failed_share;

@@ -27,7 +27,7 @@ struct PartInput {
   std::vector<int> member;  ///< of each of its runs, in RunInputs::members; -1: left out
 };
 
-/// What runs are read for: to say something of them, by their frames too, or to keep them, with all
+/// Purpose of reading runs: to evaluate them, by their frames too, or to keep them, with all
 /// that failed.
 enum class RunUse { evaluated, evaluated_with_frames, reduced };
 
@@ -37,7 +37,7 @@ struct RunSet {
   std::vector<CaseWeight> weights{};       ///< of the cases, as given
   std::string only_case{};                 ///< of these files the runs of this case; "": all
   int n_missing = 0;                       ///< runs that were wanted and have no result
-  double max_failed_share = std::nan("");  ///< nan: what the first run says
+  double max_failed_share = std::nan("");  ///< nan: as the first run says
 };
 
 /// How the settings of a set of runs compare with those of the sets before it (SettingsCheck).
@@ -55,7 +55,7 @@ class RunInputs {
   /// The terrain. Throws InputError (read_trn).
   [[nodiscard]] const Trn& trn();
 
-  /// Runs by what names them: files, or folders and their ensemble.json. `role`: in the registry.
+  /// Runs by name: files, or folders and their ensemble.json. `role`: in the registry.
   [[nodiscard]] RunSet set_of(const std::vector<std::string>& paths, const std::string& role);
   /// Those that the command line names first.
   [[nodiscard]] const RunSet& runs();
@@ -79,7 +79,7 @@ class RunInputs {
   /// Reads all members once more, in the same order; those of parts without their passages.
   void read_again(const RunParts& parts, const std::function<void(RunFile&, int)>& take);
 
-  /// What stands on maps of the runs read so far: sources, fences and objects of the first run of
+  /// Places for maps of the runs read so far: sources, fences and objects of the first run of
   /// each block set, of a hundred sets at most.
   [[nodiscard]] MapPlaces places() const;
 
@@ -95,7 +95,7 @@ class RunInputs {
   [[nodiscard]] std::string run_set() const;
 
   /// Warns of runs that failed, have not ended or are missing; "" when all are there and whole, or
-  /// those that are not are few, else what pictures and legends say.
+  /// those that are not are few, else the words for pictures and legends.
   [[nodiscard]] std::string remark() const;
 
   /// Of the runs named by RUN.h5... and those missing: left out.
@@ -105,7 +105,7 @@ class RunInputs {
 
   /// The cases of the runs named by RUN.h5... with their shares of the whole.
   [[nodiscard]] const std::vector<CaseWeight>& cases() const { return cases_; }
-  /// Several cases that nobody weighed: what stands for all of them is no probability.
+  /// Several cases without weights: a number over all of them is not a probability.
   [[nodiscard]] bool pools_unasked() const { return cases_.size() > 1 && !is_weighed_; }
 
   /// Warns when blocks were still moving as their runs ended, or had left the known terrain:
@@ -114,7 +114,7 @@ class RunInputs {
 
   std::string trn_file;
   static constexpr double rest_speed_m_s = 0.05;  ///< of deposited blocks, at most
-  double path_tolerance_m = 0.5;                  ///< that lengths of paths are wanted with
+  double path_tolerance_m = 0.5;                  ///< tolerance of the lengths of paths
   int n_missing = 0;                ///< runs that were wanted first and have no result
   std::vector<RunMember> members;   ///< of the files read so far; of one call by run id
   std::vector<RunMember> left_out;  ///< failed runs

@@ -1,3 +1,4 @@
+// Record of a run for the registry, and the id that equal runs share.
 #include "tools/frame/run_record.hpp"
 
 #include <sys/resource.h>
@@ -77,7 +78,7 @@ std::string made_with_text(const RunRecord& record, const RunIdParts& parts,
   for (const RunParam& param : record.params)
     if (!parts.left_out.contains(param.key) && param.key.find('.') == std::string::npos)
       out += "--" + param.key + " = " + param.value + "\n";
-  std::map<std::string, std::string> files;  // several of one role stand in one line
+  std::map<std::string, std::string> files;  // several of one role are in one line
   for (const auto& [role, sha256] : contents_of(record, parts))
     if (!left_out.contains(role)) files[role] += (files[role].empty() ? "" : " ") + sha256;
   for (const auto& [role, digests] : files) out += "file " + role + " = " + digests + "\n";

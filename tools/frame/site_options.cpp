@@ -1,3 +1,4 @@
+// Options of every tool that reads a site file: the file, its layers, --variant, --set.
 #include "tools/frame/site_options.hpp"
 
 #include <utility>
@@ -99,7 +100,7 @@ void SiteOptions::read_quantities(Tool& tool, Site& site) {
   site.quantities_file = std::exchange(site.uncertainty.file, "");
 }
 
-// Also what --set puts others in the place of.
+// Also files that --set replaces.
 void SiteOptions::keep_files(const Site& site) const {
   for (const std::string& file : files_named(site)) tool_.keep(file);
 }

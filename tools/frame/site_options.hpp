@@ -1,6 +1,6 @@
 // tools/frame/site_options.hpp
-// The site file as every tool that reads one takes it: the file, layers that stand for its
-// sections, --variant, --set, and what --print-config shows.
+// The site file as every tool that reads one takes it: the file, layers that define its
+// sections, --variant, --set, and the values for --print-config.
 #pragma once
 
 #include <memory>
@@ -21,12 +21,12 @@ class SiteOptions {
   /// `required`: else the tool has a use without a site file, and load() must not be called for it.
   explicit SiteOptions(Tool& tool, std::optional<DrawScope> draws = {}, bool required = true);
 
-  /// An option of the tool that stands for a key of the site file and wins over it.
+  /// An option of the tool that sets a key of the site file and wins over it.
   void option(Tool& tool, const std::string& name, const std::string& key, const std::string& help);
-  /// Declares --add: files with further sections, as if they stood at the end of the site file.
+  /// Declares --add: files with further sections, as if they were at the end of the site file.
   void take_additions(Tool& tool);
-  /// Declares --inputs: what the site names as talus-import wrote it. Other bytes of that file make
-  /// no other result: what is read of it counts.
+  /// Declares --inputs: files of the site as talus-import wrote them. Other bytes of that file do
+  /// not change results: the content read counts.
   void take_inputs();
 
   /// Throws InputError (read_site, check_variants, check_uncertainty, apply_draws), UsageError

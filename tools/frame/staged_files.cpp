@@ -1,3 +1,4 @@
+// Outputs are written in hidden folders and renamed into place when all of a run are whole.
 #include "tools/frame/staged_files.hpp"
 
 #include <fcntl.h>
@@ -38,7 +39,7 @@ void rename_over(const std::string& from, const std::string& to) {
   if (error) throw InputError({to}, "cannot be put in place: " + error.message());
 }
 
-// What a killed run of this host left under the name that begins so.
+// Removes files that a killed run of this host left under a name that begins so.
 void remove_leftovers(const fs::path& folder, const std::string& begin) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -50,7 +51,7 @@ void remove_leftovers(const fs::path& folder, const std::string& begin) {
   }
 }
 
-// What stands in the hidden folder of a file: the file itself, and what GDAL has put beside it
+// Files in the hidden folder of a file: the file itself, and those that GDAL put beside it
 // (NAME.tif.aux.xml, NAME.tfw, NAME.gpkg-journal). All have their final names already.
 std::vector<std::string> names_in_folder(const StagedFile& file) {
   std::vector<std::string> names;

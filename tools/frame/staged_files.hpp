@@ -18,21 +18,21 @@ struct StagedFile {
 };
 
 /// The name of `path` in a new hidden folder beside it, .NAME.part-HOST-PROCESS-..., that nobody
-/// else can write into: whatever opens a file there by its name meets no link of another user.
+/// else can write into: a file opened there by its name is never a link of another user.
 /// Removes the folders that killed runs of this host left for the same name. Throws InputError.
 [[nodiscard]] std::string temporary_name(const std::filesystem::path& path);
 
 /// The order in which outputs come in place: the one staged first is last, or `main` where it is
-/// one of them. Who finds it, finds the others of the same run beside it.
+/// one of them. Where it exists, the rest of the same run is beside it.
 [[nodiscard]] std::vector<StagedFile> in_order_of_commit(const std::vector<StagedFile>& staged,
                                                          const std::string& main);
 
-/// Where `file` and what GDAL has put beside it will be.
+/// Final names of `file` and of the files that GDAL put beside it.
 [[nodiscard]] std::vector<std::string> final_names(const StagedFile& file);
 
-/// Syncs and renames `files` in their order, with what GDAL has put beside them; `time` becomes the
-/// last change of each, so that make sees none as older than another. What was not written is
-/// passed over. Throws InputError when one cannot be put in place.
+/// Syncs and renames `files` in their order, with the files that GDAL put beside them; `time`
+/// becomes the last change of each, so that make sees none as older than another. Files that were
+/// not written are passed over. Throws InputError when one cannot be put in place.
 void put_in_place(const std::vector<StagedFile>& files, const timespec& time);
 
 /// Removes the temporary files with their folders.

@@ -1,3 +1,4 @@
+// Signals that ask a tool to end early.
 #include "tools/frame/stop_signals.hpp"
 
 #include <atomic>
@@ -17,7 +18,7 @@ void request_stop(int signal) {
   if (signal != SIGHUP) std::signal(signal, SIG_DFL);
 }
 
-// A program started to outlive its terminal (nohup) goes on ignoring that it went.
+// A program started to outlive its terminal (nohup) continues to ignore its hangup.
 void listen_for_hangup() {
   if (std::signal(SIGHUP, request_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }

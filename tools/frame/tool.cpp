@@ -1,3 +1,4 @@
+// The frame of every executable: options, checks, outputs, exit codes, registry, the only catch.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -191,7 +192,7 @@ struct Tool::Impl {
         if (!path.empty()) add_input(key_of(*input.option), path);
   }
 
-  // What in a file an option names ("|layername=a") is a setting like others.
+  // The part of a file that an option names ("|layername=a") is a setting like any.
   void add_parts_of_inputs() {
     for (const InputOption& input : options.inputs)
       for (const std::string& path : input.paths())
@@ -247,7 +248,7 @@ struct Tool::Impl {
     }
   }
 
-  // An output is worth more than its entry: this stands in a registry of its own then.
+  // An output is worth more than its entry, which is then kept in a registry of its own.
   void keep_late_record(const std::string& why) {
     const std::string db = registry_path(options), late = late_registry(db);
     const std::string found = why + "; whatever this run wrote is in place, its entry ";
@@ -261,8 +262,8 @@ struct Tool::Impl {
     }
   }
 
-  // Outputs by their final names, while they still have their temporary ones. Who finds one of them
-  // finds it in the registry. A hidden file is what a tool remembers between its runs, no result.
+  // Outputs by their final names, while they still have their temporary ones. An output that exists
+  // is in the registry. A hidden file is a tool's memory between its runs, not a result.
   void record_outputs(const std::vector<StagedFile>& files) {
     for (const StagedFile& file : files) {
       if (!fs::exists(file.temporary) || fs::path(file.path).filename().string()[0] == '.')
@@ -316,7 +317,8 @@ struct Tool::Impl {
                        [](const RunCheck& check) { return check.pass; });
   }
 
-  // What helps to mend an input that was refused. A failure here must not hide the first one.
+  // Keeps the layer of doubts, which helps to mend an input that was refused. A failure here must
+  // not hide the first one.
   void keep_places() {
     timespec now{};
     clock_gettime(CLOCK_REALTIME, &now);
@@ -502,7 +504,7 @@ void Tool::read_by_content(const std::string& path) {
 
 bool Tool::interrupted() const { return stop_requested(); }
 
-// A sentence a group. What is refused is said as the error that follows.
+// A sentence a group. A refused one is the error that follows.
 void Tool::doubts(const std::vector<Doubt>& found) {
   impl_->doubts.insert(impl_->doubts.end(), found.begin(), found.end());
   const CLI::Option* const layer = app().get_option_no_throw("--doubts");
@@ -623,7 +625,7 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     const int code = impl.app.exit(wanted);
     return std::cout.flush() ? code : input_unusable;
   } catch (const CLI::ParseError& error) {
-    // What was given before or behind the fault has not been read.
+    // Options before or behind the fault have not been read.
     impl.options.messages = word_after("--messages", argc, argv);
     impl.options.label.clear();
     impl.say(error_level, error.what());

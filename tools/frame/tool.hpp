@@ -22,7 +22,7 @@ class Option;
 
 namespace talus {
 
-/// JSON as text that may reach a file or a terminal, whatever bytes its texts came with.
+/// JSON as text that may reach a file or a terminal, with any bytes in its texts.
 [[nodiscard]] std::string json_text(const Json& json, int indent = -1);
 
 /// One effective setting and where it came from: "default", "cli", or a place in the site file.
@@ -45,9 +45,9 @@ class ToolOption {
   const ToolOption& positive() const;
   const ToolOption& not_negative() const;
   const ToolOption& existing_file() const;
-  /// `fault_of` a word: what is wrong with it; empty: nothing.
+  /// `fault_of` a word: its fault; empty: none.
   const ToolOption& check(const std::function<std::string(const std::string&)>& fault_of) const;
-  const ToolOption& without_default() const;  ///< what it is without, its help says in words
+  const ToolOption& without_default() const;  ///< its help describes the default in words
   [[nodiscard]] bool is_given() const;
 
  private:
@@ -60,18 +60,18 @@ class Tool : public InputLog {
   Tool(std::string name, std::string purpose);
   ~Tool() override;
 
-  /// For what the functions below do not cover (sub-commands).
+  /// For uses that the functions below do not cover (sub-commands).
   CLI::App& app();
 
   // --- declare, before run() ---------------------------------------------------------------------
   /// A file read: must exist; hashed into the registry under the option's name. A name without
   /// dashes is positional and required. GDAL's virtual paths (/vsi...) are passed on unchecked;
-  /// what stands behind the file's name ("|layername=a", a member of an archive) is recorded.
+  /// the text behind the file's name ("|layername=a", a member of an archive) is recorded.
   ToolOption input(const std::string& name, std::string& path, const std::string& help);
   ToolOption inputs(const std::string& name, std::vector<std::string>& paths,
                     const std::string& help);
   /// A file written: refused when it exists and --overwrite is not given, when it is also an input,
-  /// or when its folder cannot be written. runs.sqlite stands beside the first one given.
+  /// or when its folder cannot be written. runs.sqlite is beside the first one given.
   ToolOption output(const std::string& name, std::string& path, const std::string& help);
   /// A folder written into, made when missing; refused when not empty without --overwrite.
   ToolOption output_folder(const std::string& name, std::string& path, const std::string& help);
@@ -84,7 +84,7 @@ class Tool : public InputLog {
   /// A value that is taken as it is read.
   ToolOption option(const std::string& name, const std::function<void(const std::string&)>& take,
                     const std::string& help);
-  /// Words: one each time the option is given, or all that stand in this place.
+  /// Words: one each time the option is given, or all words at this place.
   ToolOption list(const std::string& name, std::vector<std::string>& words,
                   const std::string& help);
   ToolOption flag(const std::string& name, bool& value, const std::string& help);
@@ -116,7 +116,7 @@ class Tool : public InputLog {
   // As InputLog: files beside the options' values (named in a site file, member of a set), layers,
   // which become entries of `layers_read` in what --json prints, doubts, which are kept in the
   // registry, in reports and in result(), and notes: both to stderr, not with -q, details with -v
-  // alone. What ends the work is a doubt too.
+  // alone. An error that ends the work is a doubt too.
   void read_also(const std::string& role, const std::string& path) override;
   void read_by_content(const std::string& path) override;
   void content_read(const std::string& role, const std::string& digest) override;
@@ -132,25 +132,25 @@ class Tool : public InputLog {
   [[nodiscard]] const std::vector<Doubt>& doubts_found() const;  ///< of doubts(), in order
   void metric(const std::string& name, double value, const std::string& unit);
   /// A limit of the run's health; a failed one makes the exit code 3 once the outputs are in place,
-  /// and is said with `hint`, the way out.
+  /// and is said with `hint`, the remedy.
   void check(const std::string& name, double value, double limit, bool pass,
              const std::string& hint = "");
-  /// What --json prints; without --json `summary` goes to stdout, not with -q.
+  /// Output of --json; without --json `summary` goes to stdout, not with -q.
   void result(Json result, const std::string& summary);
   /// The same of lines that stay as they are, however long.
   void listing(Json result, const std::string& lines);
   [[nodiscard]] bool overwrite() const;
-  [[nodiscard]] double memory_mb() const;      ///< as given; 0: what is free
+  [[nodiscard]] double memory_mb() const;      ///< as given; 0: the free memory
   [[nodiscard]] bool is_recorded() const;      ///< not with --no-db
   [[nodiscard]] std::string registry() const;  ///< that runs are recorded in, whether or not there
   /// Leaves these out of run_id(): settings by their keys and inputs by their roles that equal
-  /// results may differ in, or that other settings stand for. All others count, and so does every
+  /// results may differ in, or that other settings imply. All the rest count, and so does every
   /// input that was named by read_also() or content_read() before the first call of run_id().
   void leave_out_of_run_id(const std::vector<std::string>& names);
-  /// Digest of tool, version, options and input contents (16 digits); it stands in outputs' tags.
+  /// Digest of tool, version, options and input contents (16 digits); it is in outputs' tags.
   [[nodiscard]] std::string run_id();
-  /// What run_id() counts beside the site file's values, a line each (made_with_text), without
-  /// inputs of these roles.
+  /// Contents that run_id() counts beside the site file's values, a line each (made_with_text),
+  /// without inputs of these roles.
   [[nodiscard]] std::string made_with(const std::set<std::string>& left_out) const;
 
   /// Parse, check, run `body`, put the outputs in place, record; returns the exit code.

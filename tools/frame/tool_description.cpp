@@ -1,3 +1,4 @@
+// The JSON of --describe: options and outputs of a tool, for dialogs and completions.
 #include "tools/frame/tool_description.hpp"
 
 #include <CLI/CLI.hpp>
@@ -13,7 +14,7 @@ bool is_common(const ToolOptions& options, const CLI::Option* option) {
   return std::find(options.common.begin(), options.common.end(), option) != options.common.end();
 }
 
-// What stands behind the option: a file read or written, a folder, a value or a switch.
+// Role of the option: a file read or written, a folder, a value or a switch.
 std::string role_of(const CLI::Option& option, const ToolOptions& options) {
   for (const InputOption& input : options.inputs)
     if (input.option == &option) return "input";
@@ -22,7 +23,7 @@ std::string role_of(const CLI::Option& option, const ToolOptions& options) {
   return option.get_items_expected_max() == 0 ? "flag" : "value";
 }
 
-// CLI11 names types by what they are in C++, with the choices behind a colon.
+// CLI11 names types by their C++ type, with the choices behind a colon.
 std::string type_of(const CLI::Option& option) {
   const std::string name = option.get_type_name();
   if (name.starts_with("FLOAT")) return "number";
@@ -48,7 +49,7 @@ Json choices_of(const CLI::Option& option) {
   return choices;
 }
 
-// How it is written on a command line: the long name; of what has a place of its own, its name.
+// How it is written on a command line: the long name; of a positional one, its name.
 std::string spelling_of(const CLI::Option& option) {
   if (option.get_positional()) return key_of(option);
   return option.get_lnames().empty() ? "-" + option.get_snames()[0] : "--" + option.get_lnames()[0];

@@ -1,5 +1,5 @@
 // tools/frame/tool_description.hpp
-// What a tool takes and gives, for programs that call it (--describe json): dialogs, completions.
+// Options and outputs of a tool, for programs that call it (--describe json): dialogs, completions.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace talus {
 
 /// Name, version, purpose and options, in the order of --help; those of sub-commands apart. The
-/// page docs/tools/common.md says what the members mean.
+/// page docs/tools/common.md explains the members.
 [[nodiscard]] Json description_of(const std::string& tool, const CLI::App& app,
                                   const ToolOptions& options);
 

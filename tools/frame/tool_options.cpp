@@ -1,3 +1,4 @@
+// Options that a tool has declared to CLI11, and the settings in effect.
 #include "tools/frame/tool_options.hpp"
 
 #include <CLI/CLI.hpp>

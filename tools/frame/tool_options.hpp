@@ -1,6 +1,6 @@
 // tools/frame/tool_options.hpp
-// What a tool has declared to CLI11: files read and written, the options of every tool, and the
-// settings that are in effect.
+// Options that a tool has declared to CLI11: files read and written, the options of every tool, and
+// the settings that are in effect.
 #pragma once
 
 #include <functional>
@@ -39,7 +39,7 @@ struct ToolOptions {
   std::string messages = "text";  ///< text or json
   std::string describe;           ///< json, or empty: the tool does its work
   bool network = false;           ///< may be used
-  double memory_mb = 0;           ///< most to take [MB]; 0: what is free
+  double memory_mb = 0;           ///< most to take [MB]; 0: the free memory
 };
 
 /// Adds the options of every tool to `app`, whose values go to `options`.
@@ -48,13 +48,13 @@ void add_common_options(const std::string& tool, CLI::App& app, ToolOptions& opt
 /// The name that an option goes by in the registry: without dashes.
 [[nodiscard]] std::string key_of(const CLI::Option& option);
 
-/// All settings in effect: what is no file and no option of every tool, then those of more_config.
+/// All settings in effect: neither files nor options of every tool, then those of more_config.
 [[nodiscard]] std::vector<ConfigValue> settings_of(const CLI::App& app, const ToolOptions& options);
 
 /// Prints settings as TOML, each with a comment that says where it came from.
 void print_settings(const std::vector<ConfigValue>& settings, std::ostream& out);
 
-/// The registry that runs are recorded in; empty when there is no output to stand beside.
+/// The registry that runs are recorded in; empty without an output to be beside.
 [[nodiscard]] std::string registry_path(const ToolOptions& options);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// A hazard map as an authority files it, by the terms of a data model.
 #include "tools/hazard/filing.hpp"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ std::string cut(std::string text, std::size_t n) {
   return text;
 }
 
-// What all areas of a filing share.
+// Common part of all areas of a filing.
 struct Filed {
   const Site& site;
   const HazardSources& sources;
@@ -68,7 +69,7 @@ Filed filed_of(const Site& site, const HazardSources& sources) {
   return filed;
 }
 
-// One polygon of what one layer of cells says.
+// One polygon of one layer of cells.
 struct Area {
   const Filed& of;
   std::string id;
@@ -81,7 +82,7 @@ struct Area {
 
 Value text_or_none(const std::string& words) { return words.empty() ? Value() : Value(words); }
 Value number_or_none(double value) { return std::isnan(value) ? Value() : Value(value); }
-// As it stands in names of maps: to a year from ten years on.
+// As written in names of maps: to a year from ten years on.
 double years_of(double period) { return period < 10 ? period : std::round(period); }
 Value whole_years(const Area& a) {
   return std::isnan(a.period) ? Value() : Value(static_cast<std::int64_t>(std::lround(a.period)));
@@ -243,7 +244,7 @@ const AreaFields& perimeter_fields() {
 
 // --- areas ---------------------------------------------------------------------------------------
 
-// What the value of a cell stands for.
+// Meaning of the value of a cell.
 struct Meaning {
   std::string name;  ///< of the layer of cells: "intensity T300"
   double period = std::nan("");

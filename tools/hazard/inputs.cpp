@@ -1,3 +1,4 @@
+// Reads the inputs of talus-hazard: runs by class, the recipe, the passages.
 #include "tools/hazard/inputs.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // tools/hazard/inputs.hpp
-// What talus-hazard reads: which runs are of which class, the recipe, the passages.
+// Inputs of talus-hazard: which runs are of which class, the recipe, the passages.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// Hazard classes as polygons.
 #include "tools/hazard/layers.hpp"
 
 #include <cmath>

@@ -31,7 +31,7 @@ struct Options {
   PageOptions pages;
   const Tool* tool = nullptr;
 
-  // Rows that may be held: a list that grows holds up to three times what stands in it.
+  // Rows that may be held: a list that grows holds up to three times its content.
   [[nodiscard]] std::uint64_t most_rows() const {
     constexpr double usual_mb = 600;
     const double memory_mb = tool->memory_mb() > 0 ? tool->memory_mb() : usual_mb;
@@ -84,7 +84,7 @@ std::string run_words(const HazardSources& sources) {
   return out;
 }
 
-// What every map says below its picture, and in its tags.
+// Notes of every map below its picture, and in its tags.
 std::vector<std::string> notes_of(const Site& site, const HazardSources& sources) {
   std::vector<std::string> notes{site.info.name + ": " + run_words(sources) + "; talus " +
                                  build_version};
@@ -180,7 +180,7 @@ void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
             " years of the recipe; more runs are needed to call them free");
 }
 
-// The maps of all layers; what the result says of each.
+// The maps of all layers; their entries in the result.
 Json write_layers(Tool& tool, const Options& o, const MapFrame& frame, const Recipe& recipe,
                   const std::vector<MapLayer>& layers, const std::string& remark,
                   const std::vector<std::string>& notes, const MapTags& tags) {
@@ -208,7 +208,7 @@ std::string area_lines(const Json& classes) {
 }
 
 void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs) {
-  limit_memory(0);  // --memory-mb is for rows alone; the rest needs what is free
+  limit_memory(0);  // --memory-mb is for rows alone; the rest needs the free memory
   const Site& site = site_options.load();
   const std::vector<HazardClass> classes = hazard_classes(site);
   const Recipe recipe = read_recipe(tool, site);

@@ -1,5 +1,5 @@
 // tools/import/talus_import.cpp
-// What a site is made from, brought to one form: metres, one system, named layers.
+// Inputs of a site, brought to one form: metres, one system, named layers.
 // Page: docs/tools/talus-import.md
 #include "base/text.hpp"
 #include "import/canonical_gdal.hpp"
@@ -27,7 +27,7 @@ struct Options {
   DoubtOptions doubts;
 };
 
-// The ground stands in [terrain], and what belongs to it where no option gives it. Of an elevation
+// The ground is that of [terrain], with its keys where no option gives them. Of an elevation
 // model the system is taken alone.
 void take_from_site(Tool& tool, const Site& site, Options& o) {
   const TerrainSettings& t = site.terrain;
@@ -61,7 +61,7 @@ std::string system_of_dem(Tool& tool, const std::string& path, const SystemsByUs
   return frame;
 }
 
-// The layers of the ground, or the system of an elevation model, and all that stands on it; nothing
+// The layers of the ground, or the system of an elevation model, and all shapes on it; nothing
 // where layers cannot be computed with in that system, since talus-trn takes it to another one.
 InputsRequest whole_request(Tool& tool, const Site& site, Options& o) {
   InputsRequest request;

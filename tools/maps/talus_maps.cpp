@@ -63,7 +63,7 @@ void declare(Tool& tool, Options& o) {
   tool.footer("Example:\n  talus-maps runs --trn slope.tif -o maps --pages png");
 }
 
-/// What the runs give to the maps.
+/// Data of the runs for the maps.
 struct Gathered {
   talus::MapGrid map;
   talus::ShareBasis basis;
@@ -199,7 +199,7 @@ const std::vector<std::uint32_t>& touched_cells(const std::vector<MapLayer>& lay
       ->cell;
 }
 
-// What the runs of --compare have more than the others. Both are held at once.
+// Difference of the runs of --compare from the first ones. Both are held at once.
 MapLayer comparison_of(talus::RunInputs& runs, const Gathered& a, const Options& o) {
   const std::size_t n = runs.members.size();
   Gathered b = gather(runs, runs.set_of(o.compared, "compare"), "runs_compared", o);
@@ -275,7 +275,7 @@ WrittenMaps write_layers(Tool& tool, const Options& o, const talus::MapFrame& fr
 }
 
 void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
-  talus::limit_memory(0);  // --memory-mb is for rows alone; the rest needs what is free
+  talus::limit_memory(0);  // --memory-mb is for rows alone; the rest needs the free memory
   (void)runs.trn();        // read first: a wrong one is refused before long work
   Gathered gathered = gather(runs, runs.runs(), "runs", o);
   const std::vector<talus::RunMember> members = runs.members;

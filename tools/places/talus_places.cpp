@@ -46,7 +46,7 @@ std::vector<FenceCase> lines_of(Tool& tool, const Site& site, const Trn& trn, co
   return lines;
 }
 
-// What the runs say of the places.
+// Results of the runs at the places.
 struct Reached {
   std::vector<Place> places;
   std::vector<std::vector<FenceCase>> lines;  // by place

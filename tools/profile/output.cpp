@@ -1,3 +1,4 @@
+// Crossings of a line and values along it, as tables, layers, charts, JSON and in words.
 #include "tools/profile/output.hpp"
 
 #include <algorithm>
@@ -233,7 +234,7 @@ bool has_values(const ChartSeries& series) {
   return std::any_of(series.y.begin(), series.y.end(), [](double y) { return std::isfinite(y); });
 }
 
-// Only what has any value: a chart of nothing would have a legend of nothing.
+// Only series with a value: an empty one would still be in the legend.
 void add_series(Chart& chart, ChartSeries series) {
   if (has_values(series)) chart.series.push_back(std::move(series));
 }

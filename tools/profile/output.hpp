@@ -1,5 +1,5 @@
 // tools/profile/output.hpp
-// What crosses a line and what lies along it, as tables, layers, charts, JSON and in words.
+// Crossings of a line and values along it, as tables, layers, charts, JSON and in words.
 #pragma once
 
 #include <string>

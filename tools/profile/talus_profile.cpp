@@ -1,5 +1,5 @@
 // tools/profile/talus_profile.cpp
-// What crosses a line that was drawn after the runs. Page: docs/tools/talus-profile.md
+// Crossings of a line that was drawn after the runs. Page: docs/tools/talus-profile.md
 #include <cmath>
 #include <filesystem>
 #include <limits>

@@ -31,7 +31,7 @@ void declare(Tool& tool, Options& o) {
       "  talus-reduce part_1.h5 part_2.h5 --trn bed.tif -o part.h5");
 }
 
-// "runs/run_3.h5": what tells runs apart to a reader, wherever the part goes.
+// "runs/run_3.h5": tells runs apart for a reader, independent of the part's place.
 std::string name_of(const RunMember& run) {
   const fs::path path = fs::absolute(run.file);
   return (path.parent_path().filename() / path.filename()).string();

@@ -1,5 +1,5 @@
 // tools/report/data.hpp
-// What a report is made from.
+// Data of a report.
 // in:    the results in a site's folder, as the tools wrote them
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace talus {
 
-/// What the tools wrote of a measure of the site; JSON is null where a file is missing.
+/// Results of a measure of the site; JSON is null where a file is missing.
 struct MeasureResults {
   std::string name;
   Json fence, hazard, trace;
@@ -35,10 +35,10 @@ struct ReportData {
       stability;                         ///< of tools
   std::vector<MeasureResults> measures;  ///< compared
   std::vector<Doubt> doubts;  ///< of the stages, from the import to the look before the runs
-  Trn terrain, bed;           ///< before the slide; what the blocks slide on
+  Trn terrain, bed;           ///< before the slide; the ground that the blocks slide on
   std::string mobility_svg, stereonet_svg, sizes_svg, curves_csv;
   std::vector<std::string> search_svgs;  ///< of each fence search
-  MapSheet sheet;                        ///< what the maps share
+  MapSheet sheet;                        ///< common part of the maps
   std::vector<MapPicture> maps, hazard_maps;
   std::vector<MapPicture> change_map;                     ///< one, or none
   CasePictures case_maps;                                 ///< of several cases
@@ -58,7 +58,7 @@ struct ReportData {
   std::string runs_to_add;  ///< in the words of the map of reach; "": there is none
 };
 
-/// "1 of 12 runs failed its numerical checks"; "" where nothing is wrong. What the fences rest on
+/// "1 of 12 runs failed its numerical checks"; "" where nothing is wrong. The basis of fences
 /// also counts runs that they are compared with.
 [[nodiscard]] std::string remark_of(const ReportData& data);
 [[nodiscard]] std::string fence_remark_of(const ReportData& data);

@@ -1,3 +1,4 @@
+// Files with the results of a site, and whether they belong to the present site file and runs.
 #include "tools/report/folder.hpp"
 
 #include <algorithm>
@@ -86,7 +87,7 @@ std::vector<std::string> ids_of(const Json& runout) {
   return ids;
 }
 
-// --- what belongs together -----------------------------------------------------------------------
+// --- which files match ---------------------------------------------------------------------------
 
 namespace {
 
@@ -105,14 +106,14 @@ Origin origin_of(const ResultFolder& folder, const std::string& name) {
   return {text_at(json, "/tags/RUN_ID"), text_at(json, "/tags/RUN_SET")};
 }
 
-// A raster with its picture and style; another file by itself.
+// A raster with its picture and style; another file alone.
 std::vector<std::string> with_sidecars(const std::string& name) {
   if (!name.ends_with(".tif")) return {name};
   const std::string base = name.substr(0, name.size() - 4);
   return {name, base + ".png", base + ".qml"};
 }
 
-// Whether the file says that it was made with what the site file says of these sections now.
+// Whether the file says that it was made with the present values of these sections.
 bool is_of_sections(const ResultFolder& folder, const std::string& name, const Site& site,
                     const std::vector<std::string>& sections) {
   return text_at(folder.glance(name), "/sections") == section_state(site, sections);
@@ -226,7 +227,7 @@ void leave_out_curves(ResultFolder& folder, const std::vector<std::string>& ids)
   }
 }
 
-// The terrain's report says what it was made from.
+// The terrain's report names its inputs.
 void leave_out_tin(ResultFolder& folder) {
   if (!folder.has("trn.json")) return;
   const std::string source = text_at(folder.glance("trn.json"), "/source");
@@ -258,7 +259,7 @@ void leave_out_others(ResultFolder& folder, const Site& site, const Json& runout
 
 namespace {
 
-// Whether what the report shows of the site depends on the value.
+// Whether the report's content on the site depends on the value.
 bool is_shown(const EffectiveValue& value, const ResultFolder& folder) {
   return stage_reads("run", value) || stage_reads("blocks", value) || stage_reads("trn", value) ||
          (folder.has("tin.json") && (stage_reads("import", value) || stage_reads("tin", value)));

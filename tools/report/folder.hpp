@@ -1,6 +1,5 @@
 // tools/report/folder.hpp
-// The folder with the results of a site, and what of it belongs to the site file and the runs of
-// now.
+// Files with the results of a site, and whether they belong to the present site file and runs.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +13,7 @@
 
 namespace talus {
 
-/// The files of a site's folder; what is read is named in the registry.
+/// The files of a site's folder; files that are read are named in the registry.
 class ResultFolder {
  public:
   ResultFolder(Tool& tool, std::filesystem::path path) : tool_(tool), path_(std::move(path)) {}
@@ -50,16 +49,16 @@ class ResultFolder {
 /// Ids of the runs that RUNOUT.json is made from.
 [[nodiscard]] std::vector<std::string> ids_of(const Json& runout);
 
-/// Leaves out what an earlier site file or other runs have left in the folder: maps and fences of
+/// Leaves out files of an earlier site file or of other runs: maps and fences of
 /// other runs than RUNOUT.json, fences where the site has none, contours of another terrain.
 void leave_out_others(ResultFolder& folder, const Site& site, const Json& runout);
 
 /// Throws InputError unless the run at `path` was computed with the site file's values, those of
-/// the contours only where they are shown; values of a command line stand above both.
+/// the contours only where they are shown; values of a command line override both.
 void check_site_of(const RunFile& run, const std::string& path, const Site& site,
                    const ResultFolder& folder);
 
-/// What a run slid on: bed.tif or trn.tif. Throws InputError when it is neither.
+/// Ground of a run: bed.tif or trn.tif. Throws InputError when it is neither.
 [[nodiscard]] std::string ground_of(const RunInfo& run, const ResultFolder& folder);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+// Values for the template of the page (page.html), section by section.
 #include "tools/report/page.hpp"
 
 #include <algorithm>
@@ -137,7 +138,7 @@ std::string extreme_percentile(const Texts& texts, const Json& runout, const cha
                    {"value", shown(texts, number_or(value_at(spread, {percentile}), 0)) + unit}});
 }
 
-// Tiles of what went wrong, or is no event.
+// Tiles of faults, and of runs that are not events.
 Json trouble_of(const ReportData& data) {
   const Texts& texts = data.texts;
   Json tiles = Json::array();
@@ -194,7 +195,7 @@ void add_result(const ReportData& data, Json& out) {
   out["trouble"] = trouble_of(data);
   out["motion"] = motion_of(r);
   if (!data.runs.empty() && data.runs.front().info.independent)
-    out["motion"]["centre_m"] = nullptr;  // of what falls apart from one another
+    out["motion"]["centre_m"] = nullptr;  // of blocks that fall apart from one another
   out["standing"] = !data.runs.empty() && data.runs.front().info.independent ? "" : standing_of(r);
   out["repeats"] = data.repeats;
   out["over"] = {{"largest", over_runs(texts, r, "result.largest")},
@@ -222,7 +223,7 @@ std::size_t n_release_cells(const ReportData& data) {
   return cells.size();
 }
 
-// Of rocks one by one without what needs one mass, and of many cells without what needs one source.
+// Of rocks one by one without values of one mass, and of many cells without values of one source.
 void set_runout(const ReportData& data, Json& out) {
   out["runout"] = data.runout;
   out["many_cells"] = 0;
@@ -237,13 +238,13 @@ void set_runout(const ReportData& data, Json& out) {
   out["runout"]["spread_over_events"] = spread;
 }
 
-// What H/L of the centre of mass is compared with: tan(phi) of the ground, as the runs had it.
+// Reference for H/L of the centre of mass: tan(phi) of the ground, as the runs had it.
 std::string friction_of(const ReportData& data) {
   const Texts& texts = data.texts;
   std::map<std::string, std::pair<double, double>> grounds;  // least and most friction [deg]
   for (const RunFile& run : data.runs) {
     const Site site = parse_site(run.info.config, run.info.run_id);
-    if (site.solver.friction == "weakening") continue;  // has no one tangent
+    if (site.solver.friction == "weakening") continue;  // does not have one tangent
     for (const GroundSettings& ground : site.grounds) {
       auto& [low, high] =
           grounds.try_emplace(ground.name, ground.friction_deg, ground.friction_deg).first->second;
@@ -292,7 +293,7 @@ std::string verdict_counts(const Texts& texts, const Json& fence) {
   return out;
 }
 
-// Fences of a report with what their part of the template asks for besides.
+// Fences of a report with further values for their part of the template.
 Json fences_of(const Texts& texts, const Json& report) {
   Json fences = Json::array();
   for (Json fence : list_or_none(value_at(report, {"fences"}))) {
@@ -354,7 +355,7 @@ Json searches_of(const ReportData& data) {
   return searches;
 }
 
-// What was observed, with a chart of the run-outs of each event.
+// Observations, with a chart of the run-outs of each event.
 Json observed_of(const ReportData& data) {
   Json calibrate = data.calibrate;
   for (Json& event : calibrate.is_object() ? calibrate["events"] : calibrate) {
@@ -436,7 +437,7 @@ bool any_by_cells(const Json& trace) {
 
 // --- uncertainty ---------------------------------------------------------------------------------
 
-// The runs with what they drew; all stand in runs.csv.
+// The runs with their drawn values; all are in runs.csv.
 Json drawn_of(const Json& runout) {
   constexpr std::size_t most = 200;
   const Json runs = list_or_none(value_at(runout, {"runs"}));
@@ -548,7 +549,7 @@ Json failure_plane(const Json& blocks) {
   return {};
 }
 
-// What the bodies of a section look like.
+// Appearance of the bodies of a section.
 std::string shape_of(const Texts& texts, const BodySettings& placed) {
   if (placed.shape.empty()) return texts.of("assumed.meshes", {{"file", xml_escaped(placed.file)}});
   std::string size;
@@ -597,7 +598,7 @@ void add_assumptions(const ReportData& data, Json& out) {
   out["plan"] = list_or_none(Json::parse_or_null(data.shown.info.plan));
 }
 
-// What should be looked at, a kind together, as doubts_html() of other pages shows it.
+// Doubts to be looked at, a kind together, as doubts_html() of other pages shows it.
 Json doubt_rows(const ReportData& data) {
   Json rows = Json::array();
   for (const DoubtGroup& group : groups_of(data.doubts)) {

@@ -1,5 +1,5 @@
 // tools/report/page.hpp
-// The page: what its template (page.html) and its texts do not say themselves.
+// The page: values for its template (page.html) and its texts.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// The pictures of the page: maps, charts, and the data of the 3-D view.
 #include "tools/report/pictures.hpp"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ std::string hazard_figure(const Texts& texts, const MapSheet& sheet, const MapPi
                     caption + " <code>hazard/" + xml_escaped(map.name) + ".tif</code>");
 }
 
-// Runs that keep no frames have no curves: the file holds its heading alone.
+// Runs without frames lack curves: the file holds its heading alone.
 Json curves_of(const ReportData& data) {
   Json charts = Json::array();
   if (data.curves_csv.find('\n') + 1 >= data.curves_csv.size()) return charts;
@@ -126,8 +127,8 @@ Drawing bars_drawing(const std::vector<Bar>& bars, const std::string& title) {
   return {width, height, title, pixel_mm, draw};
 }
 
-// Heights of the fences that the lines of a run stand for, 0 for a line that is none [m]. Several
-// lines of one fence are named NAME.1, NAME.2 ...
+// Heights of the fences that the lines of a run belong to, 0 for a line without a fence [m].
+// Several lines of one fence are named NAME.1, NAME.2 ...
 std::vector<double> line_heights(const std::vector<RecordLine>& lines,
                                  const std::vector<FenceSettings>& fences) {
   std::vector<double> heights;

@@ -8,7 +8,7 @@ namespace talus {
 
 /// By the names of the template; HTML and SVG, or the address of an image.
 [[nodiscard]] Json pictures_of(const ReportData& data);
-/// Where the proposals of a search stand, on the map of reach; "": nowhere.
+/// The proposals of a search, on the map of reach; "": nowhere.
 [[nodiscard]] std::string proposal_map(const ReportData& data, const Json& proposals);
 
 /// Where an event left its boulders, scars and deposit, on the map of reach.
@@ -23,7 +23,7 @@ struct Bar {
 /// The address of a picture with a bar each, from a line at 0; "": there are none.
 [[nodiscard]] std::string bar_picture(const std::vector<Bar>& bars, const std::string& title);
 
-/// What the 3-D view shows, as JSON; "" for a run without frames.
+/// Data of the 3-D view, as JSON; "" for a run without frames.
 [[nodiscard]] std::string scene_of(const ReportData& data);
 
 }  // namespace talus

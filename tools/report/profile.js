@@ -1,5 +1,5 @@
 // tools/report/profile.js
-// One trajectory of the HTML report: what was recorded along its path, as charts and as a table.
+// One trajectory of the HTML report: the record along its path, as charts and as a table.
 // in:  talusProfiles(element, scene); scene.paths as talus-report writes it
 //      (docs/reference/formats.md#viewer): columns of values, points of one block after the other
 // A block is chosen in the list, on the map of the run, or in the 3-D view.
@@ -64,7 +64,7 @@ function talusProfiles(root, scene, listeners = []) {
     const path = pathOf(block);
     list.add(new Option(`${block}: ${number(path.distance_m.at(-1))} m, ${number(Math.max(...path.energy_kj))} kJ`, block));
   }
-  // What is drawn of a block on the map of the run: its tooltip begins with the number.
+  // Shapes of a block on the map of the run: its tooltip begins with the number.
   const shapes = [...document.querySelectorAll('#maps figure svg.plan')].slice(0, 1).flatMap((plan) => [...plan.querySelectorAll('title')])
       .map((title) => ({shape: title.parentNode, of: Number(title.textContent.match(/\d+/)?.[0] ?? -1)}));
   const show = (block) => {

@@ -1,3 +1,4 @@
+// Layers and groups of the QGIS project of a site.
 #include "tools/report/project.hpp"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ std::string relative_to(const std::string& project, const fs::path& path) {
   return fs::absolute(path).lexically_normal().lexically_relative(folder.lexically_normal());
 }
 
-// What layers of the packages are called in legends; others by their names.
+// Names of layers of the packages in legends; the rest by their own names.
 std::string layer_words(const std::string& name) {
   static const std::map<std::string, std::string> words = {
       {"fences", "Fence: verdict"},
@@ -94,7 +95,7 @@ void add_package(QgisProject& project, const std::string& file, const ResultFold
   }
 }
 
-// Lines of many runs would cover the classes: those of the farthest stand for all.
+// Lines of many runs would cover the classes: those of the farthest run represent all.
 void show_farthest(QgisProject& project, const ReportData& data) {
   std::string id;
   double farthest = -1;
@@ -179,7 +180,7 @@ QgisLayer map_layer(const std::string& file, const ResultFolder& folder, const s
   return layer;
 }
 
-// Two maps over each other show neither: where there are classes they are what is seen.
+// Two maps over each other show neither: where there are classes, these are visible.
 void add_maps(QgisProject& project, const std::string& file, const ResultFolder& folder,
               const ReportData& data) {
   const bool has_classes = data.hazard.is_object() && data.hazard.at("classes").is_array();
@@ -191,7 +192,7 @@ void add_maps(QgisProject& project, const std::string& file, const ResultFolder&
   }
 }
 
-// Of each case by itself, where there are several.
+// Of each case alone, where there are several.
 void add_case_maps(QgisProject& project, const std::string& file, const ResultFolder& folder,
                    const ReportData& data) {
   for (const auto& [name, pictures] : data.case_maps)
@@ -206,7 +207,7 @@ void add_case_maps(QgisProject& project, const std::string& file, const ResultFo
     }
 }
 
-// "ke_T300", "return_period_300kJ", "return_period_0.25m3" and others by their names.
+// "ke_T300", "return_period_300kJ", "return_period_0.25m3" and the rest by their names.
 std::string hazard_words(const std::string& name) {
   if (name.starts_with("ke_T"))
     return "Kinetic energy of the return period " + name.substr(4) + " a [kJ]";
@@ -234,7 +235,7 @@ void add_objects(QgisProject& project, const std::string& file, const ResultFold
     }
 }
 
-// Classes above the maps that they are made of; the class as polygons is what is seen.
+// Classes above the maps that they are made of; the class as polygons is visible.
 void add_hazard(QgisProject& project, const std::string& file, const ResultFolder& folder,
                 const ReportData& data) {
   if (!data.hazard.is_object()) return;
@@ -262,7 +263,7 @@ std::string without_labels(std::string style) {
   return style;
 }
 
-// What the site is made from, to be edited: the styles and forms are those of the file.
+// Inputs of the site, to be edited: the styles and forms are those of the file.
 void add_inputs(QgisProject& project, const std::string& file, const ResultFolder& folder,
                 const Site& site) {
   if (site.layers_file.empty()) return;

@@ -1,5 +1,5 @@
 // tools/report/project.hpp
-// What the QGIS project of a site shows.
+// Content of the QGIS project of a site.
 #pragma once
 
 #include <string>

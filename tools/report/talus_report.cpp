@@ -54,7 +54,7 @@ struct Options {
 
 // --- runs ----------------------------------------------------------------------------------------
 
-// Where a run stands: in a file of its own, or in a part.
+// Where a run is stored: in a file of its own, or in a part.
 struct RunPlace {
   std::int64_t seed = 0;
   fs::path file;
@@ -87,13 +87,13 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 std::vector<EnsembleMember> members_in(const std::string& runs) {
   try {
     return read_ensemble(runs).members;
-  } catch (const InputError&) {  // parts stand for runs that are gone
+  } catch (const InputError&) {  // parts replace runs that are gone
     return {};
   }
 }
 
-// The runs that were evaluated, of runs/ or else of parts/: RUNOUT.json names them, others are left
-// from before. By seed and name.
+// The runs that were evaluated, of runs/ or else of parts/: RUNOUT.json names them, the rest is
+// left from before. By seed and name.
 std::vector<RunPlace> evaluated_runs(const ResultFolder& folder, const Json& runout) {
   const std::vector<std::string> listed = ids_of(runout);
   std::set<std::string> ids(listed.begin(), listed.end());
@@ -220,7 +220,7 @@ void add_runs(const std::string& db, const RunArtifact& file, std::int64_t befor
   }
 }
 
-// What a step read, its runs by name, numbers by their value: the same however they were spread
+// Inputs of a step, runs by name, numbers by their value: the same however they were spread
 // over parts.
 std::vector<RunArtifact> inputs_of(const std::string& db, const RunRecord& step) {
   std::vector<RunArtifact> files, runs, parts;
@@ -245,7 +245,7 @@ std::string what_it_did(const RunRecord& step) {
   return words;
 }
 
-// Depth first, so that each step stands behind those whose outputs it reads.
+// Depth first, so that each step comes after those whose outputs it reads.
 void add_steps(const std::string& db, const std::string& sha256, std::int64_t before,
                std::set<std::string>& seen, std::vector<RunRecord>& steps) {
   if (sha256.empty()) return;
@@ -307,8 +307,8 @@ void leave_out_of_other_work(const std::string& db, ResultFolder& folder, Report
   if (!folder.has("curves.csv")) data.curves_csv.clear();
 }
 
-// Inputs from outside of the folder that hold something else by now: the results are of what they
-// held. The site file was compared value by value, files that count by their content elsewhere.
+// Inputs from outside of the folder that have changed by now: the results are of their former
+// content. The site file was compared value by value, files that count by their content elsewhere.
 void warn_of_changed_inputs(Tool& tool, const ResultFolder& folder,
                             const std::vector<RunRecord>& steps) {
   const std::string results = (fs::path(absolute_path(folder.path("").string())) / "").string();
@@ -369,7 +369,7 @@ std::vector<std::string> cases_with(const ResultFolder& folder, const Json& runo
   return names;
 }
 
-// The view of the pages of maps, or what the shown run needs.
+// The view of the pages of maps, or the extent of the shown run.
 MapView view_of_maps(const ResultFolder& folder, const ReportData& data) {
   PlanWindow window = plan_window(data.shown, data.terrain);
   if (folder.has("maps/reach.tif"))

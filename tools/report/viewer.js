@@ -340,7 +340,7 @@ function talusViewer(root, scene, onPick = () => {}) {
     gl.uniform4fv(ground.uniforms.drapeAt, cover.at);
     drawMesh(terrain);
   };
-  // Heights of the drawing begin at the lowest node: what is left of it above a thick line.
+  // Heights of the drawing begin at the lowest node: the height above a thick line.
   const zero = scene.contour_m > 0 ? scene.terrain.z_origin_m % (5 * scene.contour_m) : 0;
 
   const drawLines = (made, matrix, tint, kind) => {
@@ -468,7 +468,7 @@ function talusViewer(root, scene, onPick = () => {}) {
     }
     ask();
   });
-  // The finger that stays goes on from where it is.
+  // The finger that stays continues from its place.
   const letGo = (e) => {
     fingers.delete(e.pointerId);
     const [rest] = [...fingers.values()];
@@ -505,7 +505,7 @@ function talusViewer(root, scene, onPick = () => {}) {
   find('.viewer-trails')?.addEventListener('change', ask);
   find('.viewer-objects')?.addEventListener('change', ask);
 
-  // What lies over the ground.
+  // Layer over the ground.
   let cover = draped(null);
   const maps = [...document.querySelectorAll('svg.plan[aria-label]')].filter((svg) => svg.querySelector('.cells'));
   maps.forEach((svg, i) => find('.viewer-ground').add(new Option(svg.getAttribute('aria-label'), i)));

@@ -1,3 +1,4 @@
+// Run-out as the JSON of talus-runout.
 #include "tools/runout/json.hpp"
 
 #include <algorithm>

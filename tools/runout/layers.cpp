@@ -1,3 +1,4 @@
+// Run-out as layers of the GeoPackage of talus-runout, with their styles.
 #include "tools/runout/layers.hpp"
 
 #include <algorithm>

@@ -73,7 +73,7 @@ void add_cells(RunoutSums& sums, const PartInput& part) {
   });
 }
 
-// What the run drew: its sample and rock mass, the keys of [uncertainty], and friction and
+// Values that the run drew: its sample and rock mass, the keys of [uncertainty], and friction and
 // restitution of the ground as they are in effect.
 // Nothing of a run whose settings this version does not read.
 std::vector<DrawnValue> drawn_by(const RunInfo& info) {
@@ -138,7 +138,7 @@ void warn_of_standing_mass(Tool& tool, const RunoutRuns& all) {
     tool.warn(words);
 }
 
-// Hits of trees by run, and whether a forest stood in any.
+// Hits of trees by run, and whether any had a forest.
 struct AllTrees {
   std::vector<RunTrees> runs;
   std::vector<std::string> run_ids;

@@ -1,3 +1,4 @@
+// Hit trees of runs, as layers of the GeoPackage and as JSON.
 #include "tools/runout/trees.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // tools/runs/talus_runs.cpp
-// Reads the run registry: what was run, from what, with which outcome. Page:
+// Reads the run registry: runs, their inputs and outcomes. Page:
 // docs/tools/talus-runs.md
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -134,7 +134,7 @@ struct Ancestry {
   }
 };
 
-// The registry that stands beside a file or one folder up; `otherwise` when there is none.
+// The registry beside a file or one folder up; `otherwise` where none is found.
 std::string registry_near(const std::string& file, const std::string& otherwise) {
   const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
   for (const auto& place : {folder, folder.parent_path()})
@@ -220,7 +220,7 @@ void show_ancestry(talus::Tool& tool, const std::string& db, const std::string& 
 // --- summary and merging
 // --------------------------------------------------------------------------------------
 
-// How the runs of a tool ended, and what they took.
+// How the runs of a tool ended, and their cost.
 struct Outcomes {
   int n_done = 0, n_failed = 0, n_interrupted = 0, n_running = 0;
   double cpu_time_s = 0;
@@ -294,7 +294,7 @@ void merge(talus::Tool& tool, const std::vector<std::string>& files, const std::
                    std::to_string(done.n_known) + " were there");
 }
 
-// What was taken over is removed.
+// Entries that were taken over are removed.
 void adopt_late(talus::Tool& tool, const std::string& db, const std::vector<std::string>& files) {
   int n = 0;
   for (const std::string& file : files) {

@@ -1,3 +1,4 @@
+// Digests of files by content, remembered from one start of make to the next.
 #include "tools/site/file_digests.hpp"
 
 #include <sys/stat.h>
@@ -19,7 +20,7 @@ std::string nanoseconds(const timespec& time) {
 }
 
 // The time of the last change of the inode is set by no program: an older file that is put in
-// place, and one with its times set back, bear another.
+// place, and one with its times set back, have another.
 std::string stamp_of(const struct stat& file) {
   return std::to_string(file.st_size) + " " + nanoseconds(file.st_mtim) + " " +
          nanoseconds(file.st_ctim) + " " + std::to_string(file.st_dev) + ":" +

@@ -10,12 +10,12 @@ namespace talus {
 
 class FileDigests {
  public:
-  /// `memory`: what as_text() gave before, or nothing.
+  /// `memory`: an earlier as_text(), or empty.
   explicit FileDigests(const std::string& memory);
   /// SHA-256 of the content of a file; "none" where there is none.
   [[nodiscard]] std::string of(const std::string& path);
-  /// What was asked for, to be remembered. A file that changed within the last seconds is left out:
-  /// it could change again without another time.
+  /// Digests that were asked for, to be remembered. A file that changed within the last seconds is
+  /// left out: it could change again without another time.
   [[nodiscard]] std::string as_text() const;
 
  private:

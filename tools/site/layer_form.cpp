@@ -1,3 +1,4 @@
+// Symbol and form by which QGIS shows a layer of a site.gpkg.
 #include "tools/site/layer_form.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ std::string attribute(const std::string& name, const std::string& value) {
   return " " + name + "=\"" + xml_escaped(value) + "\"";
 }
 
-// --- what a field is called, and what it may hold ------------------------------------------------
+// --- name of a field, and its allowed values -----------------------------------------------------
 
 // "height_m" -> "m"
 std::string unit_of(const std::string& key) {
@@ -38,7 +39,7 @@ std::string unit_of(const std::string& key) {
   return "";
 }
 
-// The help of a key up to where it explains, its unit, and what holds when the field is empty.
+// The help of a key up to where it explains, its unit, and the value of an empty field.
 std::string alias_of(const KeyDescription& key) {
   std::string words = key.help.substr(0, std::min(key.help.find_first_of(":;,("), key.help.size()));
   while (!words.empty() && words.back() == ' ') words.pop_back();

@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// Style file (QML) with symbol, names, form fields and what they may hold, by the table of keys.
+/// Style file (QML) with symbol, names, form fields and their allowed values, by the table of keys.
 [[nodiscard]] std::string layer_form_qml(const SiteLayer& layer);
 
 /// The keys of `layer.fields`, in that order, from the table of keys.

@@ -1,3 +1,4 @@
+// Writes an empty site.gpkg: a layer a kind of section, with fields, forms and styles.
 #include "tools/site/new_layers.hpp"
 
 #include "base/text.hpp"

@@ -1,6 +1,6 @@
 // tools/site/talus_site.cpp
-// Parts the site file into what each stage reads, so that make repeats a stage only when its own
-// settings have changed. Page: docs/tools/talus-site.md
+// Splits the site file into the settings of each stage, so that make repeats a stage only when its
+// own settings have changed. Page: docs/tools/talus-site.md
 #include <algorithm>
 #include <cctype>
 #include <cstring>
@@ -81,15 +81,15 @@ std::string digests_of(const std::string& path, FileDigests& digests) {
   return out;
 }
 
-// Of a layer that stands for sections its features count, as the key names them: another fence is
-// no other source. A GIS also changes bytes of the file when it only looks at it.
+// Of a layer that defines sections its features count, as the key names them: another fence is
+// not another source. A GIS also changes bytes of the file when it only looks at it.
 std::string digest_of_layer(const Site& site, const EffectiveValue& value) {
   const SourcePath named = parse_source_path(resolved(site, unquoted(value.value)));
   return " " +
          digest_of_features(named.source, named.layer, named.subset, attributes_of(named.layer));
 }
 
-// What a stage reads, a line a value; files by their content.
+// Settings of a stage, a line a value; files by their content.
 std::string settings_of(const Site& site, const std::string& stage, FileDigests& digests) {
   std::string out = "# what the stage " + stage + " reads of the site file\n";
   for (const EffectiveValue& value : effective_values(site)) {
@@ -136,7 +136,7 @@ std::string shell_word(const std::string& word, const Site& site) {
   return out + "'";
 }
 
-// A name that stands in rules and recipes: whatever means something to make or to the shell is
+// A name for rules and recipes: one with a special character of make or of the shell is
 // refused, so that a site file can name things but not give orders.
 const std::string& plain_name(const std::string& name, const Where& where) {
   for (const char c : name)
@@ -174,8 +174,8 @@ std::string trn_flags(const Site& site) {
   return out;
 }
 
-// A rule names the file of the contours alone. A member of an archive that is named by itself
-// stands in it by GDAL's name for it.
+// A rule names the file of the contours alone. A member of an archive that is named alone
+// is written there by GDAL's name for it.
 std::string contours_file(const Site& site) {
   static_cast<void>(shell_word(site.terrain.contours, site));  // refuses line breaks
   const SourcePath contours = parse_source_path(resolved(site, site.terrain.contours));
@@ -236,7 +236,7 @@ std::string make_variables(const Site& site) {
   return out;
 }
 
-// --- what is drawn ---
+// --- drawn values ----
 
 // A line a quantity; "" where nothing is drawn.
 std::string draws_text(const Site& site) {
@@ -299,7 +299,7 @@ int main(int argc, char** argv) {
     if (!results.empty()) check_results_folder(site, results, given);
     check_object_files(site);
     for (const VariantSettings& variant : site.variants) {
-      if (site_options.has_variant()) break;  // the others are not of the site as it is now
+      if (site_options.has_variant()) break;  // the rest is not of the present site
       Site with = site;
       apply_variant(with, variant.name);
       check_files(with);

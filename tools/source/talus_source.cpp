@@ -1,5 +1,5 @@
 // tools/source/talus_source.cpp
-// What the joint sets of a site offer a mass to leave on, before anything is cut. Page:
+// Planes and wedges of joint sets that a mass may leave on, before anything is cut. Page:
 // docs/tools/talus-source.md
 #include <cmath>
 #include <optional>

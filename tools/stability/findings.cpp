@@ -1,3 +1,4 @@
+// Stability of a mass before it fails, as JSON and in words.
 #include "tools/stability/findings.hpp"
 
 #include <algorithm>

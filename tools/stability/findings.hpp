@@ -1,5 +1,5 @@
 // tools/stability/findings.hpp
-// What was found of a mass before it fails, in numbers and in words.
+// Stability of a mass before it fails, in numbers and in words.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace talus {
 
-/// What the height of the water is counted from.
+/// Datum of the height of the water.
 enum class WaterMeasure { above_foot, below_surface, above_given, in_cracks };
 [[nodiscard]] WaterMeasure measure_of(const WaterSettings& water);
 
@@ -28,7 +28,7 @@ struct AtLevel {
 /// A group of blocks: the mass, or the blocks that go first.
 struct GroupFound {
   double share = share_of_mass;    ///< of the mass that moves where the group fails
-  std::optional<double> fails_at;  ///< rise of the water; none: it stands, or is not asked
+  std::optional<double> fails_at;  ///< rise of the water; none: it is stable, or not asked for
   int n_failed = 0;                ///< of the samples
 };
 

@@ -56,13 +56,13 @@ Vec3 downhill(const Scene& scene) {
   return sum.norm() > 0 ? Vec3(sum.normalized()) : Vec3(Vec3::Zero());
 }
 
-/// A site whose water stands as high as is asked.
+/// A site with water at the given height.
 struct WaterStage {
   const Site& site;
   const Options& o;
   SetUp plan;  ///< of plan_scene()
 
-  // As it stands: without base motion, with the pseudo-static acceleration.
+  // At rest: without base motion, with the pseudo-static acceleration.
   [[nodiscard]] SetUp standing(InputLog& log, double rise) const {
     SetUp made = shaken(log, rise);
     made.scene.base = {};
@@ -81,7 +81,7 @@ struct WaterStage {
   }
 };
 
-/// Looks for what is in Findings.
+/// Search for the values of Findings.
 struct Search {
   Tool& tool;
   const WaterStage& stage;
@@ -150,7 +150,7 @@ void find_probability(Tool& tool, const Site& site, const Options& o, Findings& 
   }
 }
 
-// Who goes first is what is seen.
+// The blocks that go first are visible.
 void write_blocks_layer(Tool& tool, const Options& o, const SetUp& setup, const Stability& found) {
   VectorLayer layer = std::move(footprint_layers(setup.blocks, {})[0]);
   layer.name = "stability";

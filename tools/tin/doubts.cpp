@@ -1,3 +1,4 @@
+// Doubts about heights and meetings of lines of a contour map.
 #include "tools/tin/doubts.hpp"
 
 #include <algorithm>

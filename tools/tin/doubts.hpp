@@ -1,6 +1,6 @@
 // tools/tin/doubts.hpp
 // Heights and meetings of a contour map that need a look.
-// in:    a map, its triangulation, what the user accepts
+// in:    a map, its triangulation, the doubts that the user accepts
 // out:   cleaned lines, doubts
 #pragma once
 
@@ -26,7 +26,7 @@ struct LineFeatures {
 };
 
 /// Lines that meet at their ends only. Contours of different heights that meet within the tolerance
-/// are moved apart in `map`, which the tool is told of; `report` says what was done. Throws
+/// are moved apart in `map`, which the tool is told of; `report` lists the changes. Throws
 /// InputError where lines still meet.
 [[nodiscard]] CleanLines clean_or_mend(Tool& tool, const TinDoubtOptions& options, ContourMap& map,
                                        Json& report);
@@ -36,7 +36,7 @@ struct LineFeatures {
                                                    const LineFeatures& features,
                                                    const char* of_points);
 
-/// A height at `place` that stands off those beside it, `low` to `high`.
+/// A height at `place` that differs from those beside it, `low` to `high`.
 [[nodiscard]] Doubt height_doubt(const std::string& source, const char* what, const Vec3& place,
                                  double low, double high, bool is_impossible);
 /// But for those below all land.

@@ -98,9 +98,9 @@ void write_points(const std::string& path, const ContourMap& map,
   talus::write_geopackage(path, map.crs_wkt, {layer});
 }
 
-// Arrays of a large map each get pages of their own, which go back to the system with them; what is
-// smaller stays for the next step. By default glibc keeps arrays of up to 32 MB, in the way of
-// others.
+// Arrays of a large map each get pages of their own, which go back to the system with them; smaller
+// ones stay for the next step. By default glibc keeps arrays of up to 32 MB, which then
+// fragment the heap.
 void keep_large_arrays_apart() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 12 << 20);
@@ -108,7 +108,7 @@ void keep_large_arrays_apart() {
 #endif
 }
 
-// What a step has freed goes back to the system, so that the next one does not come on top of it.
+// Returns freed memory to the system, so that the next step does not add to it.
 void give_memory_back() {
 #ifdef __GLIBC__
   malloc_trim(0);
@@ -166,7 +166,7 @@ Json cleaning_json(const ContourMap& map, const talus::LayerReading& taken) {
           {"n_spots", map.spots.size()}};
 }
 
-// Adds points to the triangulation that mend its flat triangles; what was done goes to `report`.
+// Adds points to the triangulation that mend its flat triangles; the changes go to `report`.
 void mend(Tool& tool, const Options& o, const ContourMap& map,
           const std::vector<std::uint8_t>& flat, double interval,
           talus::Triangulation& triangulation, talus::TriangleMesh& mesh, Json& report) {
@@ -184,7 +184,7 @@ void mend(Tool& tool, const Options& o, const ContourMap& map,
     tool.warn(std::to_string(mended.n_unsolved) + " places were left flat: nothing holds them");
 }
 
-// What becomes of the points takes several times their own memory; docs/tools/talus-tin.md.
+// Triangulation takes several times the memory of the points; docs/tools/talus-tin.md.
 void ask_for_memory(const ContourMap& map, std::size_t n_points) {
   constexpr double bytes_per_point = 210;
   talus::require_memory(bytes_per_point * static_cast<double>(n_points), {map.source},
@@ -206,7 +206,7 @@ void judge_heights(Tool& tool, const Options& o, std::vector<talus::Doubt> doubt
   if (!accepted.empty()) report["accepted_places"] = accepted;
 }
 
-// Triangles of the cleaned lines, mended as asked for. Frees what it no longer needs as it goes.
+// Triangles of the cleaned lines, mended as asked for. Frees data that are no longer needed.
 talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Json& report) {
   ask_for_memory(map, map.contours.points.size() + map.breaklines.points.size() + map.spots.size());
   const double interval = talus::contour_interval(map);

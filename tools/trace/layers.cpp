@@ -1,3 +1,4 @@
+// Objects, source cells and links as layers, rasters and rows.
 #include "tools/trace/layers.hpp"
 
 #include <array>

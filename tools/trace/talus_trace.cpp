@@ -55,7 +55,7 @@ void declare(Tool& tool, Options& o) {
       "links.csv --rasters sources");
 }
 
-/// What is read, class by class.
+/// Data that are read, class by class.
 struct Traced {
   TraceSums sums;
   std::vector<HazardRuns> classes;
@@ -68,7 +68,7 @@ const RunParts wanted{.crossings = false,
                       .words = false,
                       .trees = false};
 
-// Whether the cells are needed for what the run did not watch; then it must have them.
+// Whether cells are needed for objects that the run did not watch; then it must have them.
 bool needs_cells(const RunFile& run, const TraceSums& sums, const Options& o,
                  const RunMember& member) {
   for (const RecordObject& object : sums.objects) {
@@ -200,7 +200,7 @@ Json compared_json(const Compared& compared, const TraceSums& sums, int object) 
           {"energy_a_run_kj", difference(true)}};
 }
 
-// Events a year at an object, as talus-hazard counts them; by a recipe of risk what they bring to
+// Events a year at an object, as talus-hazard counts them; by a recipe of risk the risk for
 // those who are there, by the intensity at the first touch.
 void put_rate(const Traced& traced, const Site& site, const Recipe& recipe, int object,
               TracedObject& to) {
@@ -283,7 +283,7 @@ Json object_json(const RecordObject& object, const TracedObject& traced, const R
   return out;
 }
 
-// What must add up, and does.
+// Sums that must agree, and do.
 Json conservation(const Traced& traced, const std::vector<SourceLink>& links) {
   const TraceSums& sums = traced.sums;
   Json objects = Json::array();

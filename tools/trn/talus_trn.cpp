@@ -103,7 +103,7 @@ void declare(Tool& tool, Options& o) {
 
 // --- the terrain ---------------------------------------------------------------------------------
 
-/// The terrain and what is known of its heights.
+/// The terrain and its system of heights.
 struct Ground {
   Trn trn;
   bool was_judged = false;              // by the tool that wrote the source
@@ -427,9 +427,9 @@ void add_errors(Tool& tool, const talus::ErrorStatistics& errors, const std::str
   tool.metric(name + "_largest_m", errors.largest, "m");
 }
 
-// --- what to look at -----------------------------------------------------------------------------
+// --- doubts --------------------------------------------------------------------------------------
 
-// Says what the ground's own neighbours do not bear out; refuses what no land is, unless the tool
+// Reports heights that neighbours contradict; refuses heights that are not land, unless the tool
 // that wrote the source has judged it.
 void judge_ground(Tool& tool, const Options& o, Ground& ground) {
   std::vector<talus::Doubt> doubts = talus::find_ground_doubts(ground.trn, o.source);
@@ -490,7 +490,7 @@ Json as_json(const talus::BuiltDam& built, const Trn& trn) {
           {"n_nodes", built.burn.nodes.size()}};
 }
 
-// Behind what is said of the ground itself. Returns a sentence each.
+// After the doubts of the ground itself. Returns a sentence each.
 std::string add_dams(Tool& tool, const talus::Site& site, Trn& trn, Json& report) {
   std::string sentences;
   Json list = Json::array();

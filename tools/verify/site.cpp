@@ -1,3 +1,4 @@
+// Finds the time step, stiffness and strain setting that a user's scene needs.
 #include "tools/verify/site.hpp"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ constexpr const char* default_method = "defaults";
 bool is_default(const Candidate& c) { return c.method == default_method; }
 
 // The defaults last, from the longest step: their shortest ones give the reference.
-// `strains`: what the scene's plan keeps.
+// `strains`: as the scene's plan keeps them.
 std::vector<Candidate> candidates(bool strains, bool with_paper) {
   std::vector<Candidate> list;
   if (with_paper)
@@ -92,7 +93,7 @@ EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Ca
   return result;
 }
 
-// What replaces keys of the site file.
+// Keys that replace those of the site file.
 std::string fragment_of(const Candidate& c, const SiteStudyOptions& o) {
   std::string toml = "# Cheapest settings whose " + o.quantity + " stays within " + o.tolerance +
                      " of the refined answer (talus-verify, commit " + build_commit + ").\n";

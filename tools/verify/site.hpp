@@ -20,7 +20,8 @@ struct SiteStudyOptions {
 };
 
 /// Runs the ladder of settings, writes DIR/site.csv, site.svg and solver.toml; returns the table.
-/// Throws InputError for a tolerance that is no share above 0 and for what talus-dda refuses.
+/// Throws InputError for a tolerance that is not a share above 0 and for a site that talus-dda
+/// refuses.
 [[nodiscard]] std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string& out);
 
 }  // namespace talus

@@ -54,7 +54,7 @@ void declare(Tool& tool, Options& o) {
   tool.footer("Example:\n  talus-verify slide_20 bounce_face -o verify --full");
 }
 
-// --- what is run -------------------------------------------------------------------------------
+// --- the runs ----------------------------------------------------------------------------------
 
 std::string list_of_cases() {
   std::string out;
@@ -175,7 +175,7 @@ Json as_json(const MeasuredCase& measured) {
   return json;
 }
 
-// What makes the study again, folders by their parts.
+// Command that makes the study again, folders by their parts.
 std::string command_of(const Options& o) {
   std::string command = "talus-verify";
   for (const std::string& name : o.cases) command += " " + name;
