@@ -1,4 +1,4 @@
-# Terrain and site file -> blocks, their bed, and what to look at.
+# Terrain and site file -> blocks, their bed, and doubts.
 # in: site.toml, BLOCKS_FLAGS (e.g. --exact)
 # out: $(OUT)/blocks.h5, bed.tif, blocks.json, blocks.gpkg, stereonet.svg, sizes.svg
 $(eval $(call remember,blocks,$(BLOCKS_FLAGS)))

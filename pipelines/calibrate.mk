@@ -1,4 +1,4 @@
-# Runs -> what was observed beside them, with a score, and the values that it does not contradict.
+# Runs -> observations beside them, with a score, and the values that these do not contradict.
 # in: [observed.*], CALIBRATE_FLAGS   out: $(OUT)/calibrate.gpkg, .json, .toml
 $(eval $(call remember,calibrate,$(CALIBRATE_FLAGS)))
 calibrate_files := $(addprefix $(OUT)/,$(calibrate_products))

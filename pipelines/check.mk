@@ -2,7 +2,7 @@
 # in: site.toml, CHECK_FLAGS (e.g. --probe-s 0, --accept-doubts)
 #     DDA_FLAGS    --settle of them, since it says how the blocks start
 # out: $(OUT)/check.html, $(OUT)/check.json
-# What cannot be meant ends make here, before anything is computed; the page says why, and the next
+# An implausible site ends make here, before anything is computed; the page says why, and the next
 # make looks again.
 how_runs_start := $(filter --settle,$(DDA_FLAGS))
 $(eval $(call remember,check,$(CHECK_FLAGS) $(how_runs_start)))

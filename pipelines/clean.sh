@@ -1,8 +1,8 @@
 #!/bin/sh
-# clean.sh OUT MARK PATTERNS FOLDERS: removes from OUT what the pipeline made: files by PATTERNS
-# (one argument, parted by blanks), then MARK, then FOLDERS (patterns too) and OUT where nothing is
-# left in them. Without MARK nothing in OUT is the pipeline's, and nothing goes. A file that
-# site.toml names stays, whatever its name. Says what stays.
+# clean.sh OUT MARK PATTERNS FOLDERS: removes from OUT the files of the pipeline: those by PATTERNS
+# (one argument, parted by blanks), then MARK, then FOLDERS (patterns too) and OUT where these are
+# empty. Without MARK the pipeline made none of the files in OUT, and all stay. A file that
+# site.toml names stays, whatever its name. Lists the files that stay.
 set -eu
 out=$1 mark=$2 patterns=$3 folders=$4
 [ -d "$out" ] || exit 0

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The main job on a sample site, from the contour map to the results. Installs what is missing,
+# The main job on a sample site, from the contour map to the results. Installs missing packages,
 # builds the tools, runs the site's pipeline, says where the results are.
 #   sh pipelines/demo.sh [--packaged] [SITE]      SITE: a folder of sample_sites (maungawhau);
 #   --packaged: with the tools of an installed Talus, nothing is built

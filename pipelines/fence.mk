@@ -1,4 +1,4 @@
-# Runs -> what reaches each fence of the site, what it holds and changes.
+# Runs -> arrivals at each fence of the site, their verdicts, and changes by the fence.
 # in: [fence.*], FENCE_FLAGS (e.g. --code onr)
 # out: $(OUT)/fence.gpkg, .json, .csv, and with runs without the fences $(OUT)/change.tif, .qml,
 #     .png, .pdf; nothing for a site without fences; of variants with a weight also fences/NAME/*
@@ -15,7 +15,7 @@ $(OUT)/fence.gpkg: $(ensembles) $(STAGES)/fence.txt $(STAGES)/fence.flags $(STAG
 	  --json $(OUT)/fence.json --csv $(OUT)/fence.csv
 	$(call made,talus-fence)
 
-# Of each case by itself, since a verdict of all cases is none.
+# Of each case alone: a verdict over all cases has no meaning.
 case_fence_files := $(several_cases:%=$(OUT)/fences/%/fence.json)
 define fence_case
 $(call together,$(OUT)/fences/$1/fence.json $(OUT)/fences/$1/fence.gpkg)

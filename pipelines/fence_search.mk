@@ -1,10 +1,10 @@
-# Runs -> where a fence protects an object best, and what it lets through where it stands.
+# Runs -> where a fence protects an object best, and which blocks it lets through when built.
 # in: [fence_search.*], SEARCH_FLAGS (e.g. --n-proposals 1)
-#     VERIFY_RUNS  how many other runs each proposal stands in (RUNS); 0: none
+#     VERIFY_RUNS  in how many other runs each proposal is tried (RUNS); 0: none
 # out: $(OUT)/search/screen.json and .gpkg, NAME-K.toml a proposal, verify/NAME-K/run_SEED.h5,
 #     $(OUT)/fence_search.json and .gpkg, $(OUT)/search/charts/fence_search_NAME.svg
-# The runs that verify have the seeds after those of the search: what was found from runs fits them
-# too well.
+# The runs that verify have the seeds after those of the search: a proposal found from runs fits
+# them too well.
 VERIFY_RUNS ?= $(filter-out auto,$(RUNS))
 $(eval $(call remember,search,$(SEARCH_FLAGS)))
 $(eval $(call remember,verify,$(VERIFY_RUNS)))
@@ -14,7 +14,7 @@ search_files := $(addprefix $(OUT)/,$(search_products))
 $(eval $(call together,$(addprefix $(OUT)/,$(screen_products))))
 search_tool = $(BIN)talus-fence-search $(site) $(OUT)/runs --trn $(ground_of_runs) \
   $(inputs_given) $(SEARCH_FLAGS) --overwrite $(DB)
-# verify(NAME,OPTIONS): runs in which a proposal stands
+# verify(NAME,OPTIONS): runs with a proposed fence
 verify = $(batch) --into verify/$1 --seed $(word 4,$(call status_of,runs)) \
   $(call option_of,VERIFY_RUNS,--runs) $2 -- --add $(OUT)/search/$1.toml $(DDA_FLAGS)
 searches := $(filter fence-search,$(wanted))

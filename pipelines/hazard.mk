@@ -2,7 +2,7 @@
 # in: [hazard], [hazard.class.*], HAZARD_FLAGS (e.g. --cell-size-m 10)
 # out: $(OUT)/hazard/*.tif, .qml, .png, .pdf, hazard.gpkg, filing.gpkg, $(OUT)/hazard.json
 # With several classes the runs of class C are those of [variant.C]. Without frequencies
-# there are no classes, and talus-hazard says why.
+# classes are not made, and talus-hazard says why.
 $(eval $(call remember,hazard,$(HAZARD_FLAGS)))
 hazard_files := $(addprefix $(OUT)/,$(hazard_products))
 hazard: $(hazard_files) ## runs and frequencies -> return periods, hazard classes

@@ -1,6 +1,6 @@
-# What the site is made from -> the same in metres, in one system, each decision recorded. Stages
-# depend on what they read of it (stages/*.txt), not on the file: another fence is no new ground.
-# They come after it: all need trn.tif, which does.
+# Inputs of the site -> the same in metres, in one system, each decision recorded. Stages
+# depend on the parts that they read (stages/*.txt), not on the file: another fence is not a new
+# ground. They come after it: all need trn.tif, which does.
 # in: CONTOURS, DEM, all files that site.toml names, IMPORT_FLAGS (e.g. --t-srs EPSG:32632)
 # out: $(OUT)/inputs.gpkg, import.json
 $(eval $(call remember,import,$(CONTOURS) $(DEM) $(dem_given) $(IMPORT_FLAGS)))

@@ -1,7 +1,7 @@
 #!/bin/sh
 # in_time.sh OUT: gives results whose time is in the future (a clock that was set back, another
-# machine) times just before now, in the order that they had, so that what make writes from now on
-# is newer than all of them. The clock is that of OUT's file system.
+# machine) times just before now, in the order that they had, so that files that make writes from
+# now on are newer than all of them. The clock is that of OUT's file system.
 set -eu
 export LC_ALL=C
 now=$1/stages/.now

@@ -1,4 +1,4 @@
-# What the site is made from, looked at by content whenever make starts: other contents repeat a
+# Inputs of the site, compared by content whenever make starts: other contents repeat a
 # stage, other times do not. talus-site writes a file a stage with the values that it reads and the
 # digests of its files, and leaves one that would be the same as it is.
 # in: site.toml, CONTOURS, DEM, *_FLAGS, manifest.sha256
@@ -29,7 +29,7 @@ ifneq ($(cannot_make),)
 $(error $(cannot_make): name another folder for the results: make OUT=/where/results)
 endif
 endif
-# One that the pipeline never wrote into may hold files of others under the names of its own.
+# One that the pipeline never wrote into may hold foreign files under the names of its own.
 foreign := $(if $(wildcard $(OUT)/$(mark_of_out)),,$(wildcard $(addprefix \
   $(OUT)/,$(products) runs/*.h5 without/*.h5)))
 ifneq ($(foreign),)
@@ -48,7 +48,7 @@ jobs_left := $(shell for job in $$(cat $(sent_jobs)); do \
 $(if $(jobs_left),$(error Jobs of Slurm for $(OUT) wait or run: $(jobs_left). Wait for them, or \
   end them: scancel $(jobs_left)))
 endif
-# What changes from now on is newer than all that is there (in_time.sh).
+# Files that change from now on are newer than all that exist (in_time.sh).
 ifeq ($(is_dry_run),)
 $(locked)
 $(if $(SHARD),,$(shell sh $(PIPELINES)in_time.sh $(OUT)))
@@ -69,9 +69,9 @@ endif
 endif
 endif
 
-# --- what a stage reads ---
+# --- inputs of a stage ---
 # named_in(FLAGS): files that options name (--like FILE, --set 'KEY="FILE"', "FILE|layername=A");
-# not folders, nor what lies in OUT.
+# not folders, nor files in OUT.
 words_in = $(subst =, ,$(subst |, ,$(subst ",,$(subst ',,$1))))
 named_in = $(filter-out $(OUT)/%,$(foreach name,$(wildcard $(call words_in,$1)),$(if \
   $(wildcard $(name)/.),,$(name))))
@@ -84,7 +84,7 @@ contours_given = $(if $(call differ,$(CONTOURS),$(SITE_CONTOURS)),--set \
 dem_given = $(if $(CONTOURS),,$(if $(call differ,$(DEM),$(SITE_DEM)),--set terrain.contours= \
   --set terrain.dem=$(DEM)) \
   $(systems_of_dem))
-# What TRN_FLAGS say of the system of an elevation model is that of the site.
+# The system of an elevation model in TRN_FLAGS is that of the site.
 systems_of_dem = $(foreach option,--crs --t-srs,$(subst @, ,$(filter \
   $(option)@% $(option)=%,$(subst $(option) ,$(option)@,$(TRN_FLAGS)))))
 # given(NAME,FLAGS): options of talus-site for the files of a list, which may be empty
@@ -130,7 +130,7 @@ $(call remembered,$1,$2)
 $(STAGES)/$1.flags: ;
 endef
 
-# Given to make they stand above the site file's. Rules name them behind a bar: one that another
+# Given to make they override the site file's. Rules name them behind a bar: one that another
 # rule makes is made first, and its content counts, not its time.
 CONTOURS ?= $(SITE_CONTOURS)
 DEM ?= $(SITE_DEM)

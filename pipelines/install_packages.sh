@@ -1,6 +1,6 @@
 #!/bin/sh
 # install_packages.sh build|test|release: installs the Debian packages that are missing for
-# building the tools, for building and testing them, or for building what users download.
+# building the tools, for building and testing them, or for building the downloads.
 # As root, or through sudo; says so where neither works.
 set -eu
 

@@ -2,7 +2,7 @@
 # lock.sh OUT MAKE alone|shared: one make at a time on one OUT. A process in the background holds a
 # lock on OUT/stages/.lock for as long as the process MAKE lives, however that ends; the system
 # releases the lock with it. Shards share the folder with one another (shared) and with nobody else.
-# Prints who has the lock where it cannot be had, else nothing.
+# Prints who has the lock where it is taken, else nothing.
 set -eu
 out=$1 make=$2 how=$3
 lock=$out/stages/.lock
@@ -11,7 +11,8 @@ if [ -L "$lock" ]; then
   echo "$lock is a link, expected the lock of make: remove it"
   exit 0
 fi
-# A network file system locks alone what is open for writing; others may read the lock of a user.
+# A network file system locks only a file that is open for writing; other users may read the lock of
+# a user.
 (umask 0; : >>"$lock") 2>/dev/null || true
 if (: 9<>"$lock") 2>/dev/null; then exec 9<>"$lock"
 elif (: 9<"$lock") 2>/dev/null; then exec 9<"$lock"

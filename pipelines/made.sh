@@ -1,7 +1,7 @@
 #!/bin/sh
-# made.sh TOOL FILE BEFORE: TOOL has said that all went well. Is FILE there, and another one than
-# BEFORE (its inode and time when TOOL was started, empty where there was none)? What starts a tool
-# (srun, a container) may lose it and yet end without an error.
+# made.sh TOOL FILE BEFORE: TOOL has said that all went well. Does FILE exist, and is it another one
+# than BEFORE (its inode and time when TOOL was started, empty where it did not exist)? The starter
+# of a tool (srun, a container) may lose it and yet end without an error.
 set -eu
 tool=$1 file=$2 before=$3
 for _ in 1 2 3; do

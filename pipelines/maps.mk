@@ -1,7 +1,7 @@
 # Runs -> hazard maps (GeoTIFF with style and page).
 # in: MAPS_FLAGS (e.g. --cell-size-m 10)
 # out: $(OUT)/maps/*.tif, .qml, .png, .pdf; of variants with a weight also $(OUT)/maps/NAME/*; of a
-#     measure maps/compare.tif: what the site as it is has more
+#     measure maps/compare.tif: site as it is minus the measure
 $(eval $(call remember,maps,$(MAPS_FLAGS)))
 map_files := $(addprefix $(OUT)/,$(map_products))
 maps: $(map_files) ## runs -> velocity, energy, height, reach
@@ -14,7 +14,7 @@ $(OUT)/maps/reach.tif: $(OUT)/runs/ensemble.json $(BASE:%=%/runs/ensemble.json) 
 	$(Q)$(call maps_tool,$(OUT)/runs) -o $(OUT)/maps $(BASE:%=--compare %/runs)
 	$(call made,talus-maps)
 
-# The maps of each case by themselves, with one window: what cases share may be true of none.
+# The maps of each case alone, with one window: a map of all may be true of none.
 maps_of_case = $(map_products:maps/%=$(OUT)/maps/$1/%)
 case_map_files := $(foreach case,$(several_cases),$(call maps_of_case,$(case)))
 maps: $(case_map_files)

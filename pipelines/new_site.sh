@@ -32,7 +32,7 @@ fi
 for file in "$ground" ${source:+"$source"}; do [ -f "$file" ] || say "$file: there is no such \
 file, seen from $PWD: give its whole path" 1; done
 
-# A raster or a vector file? What GDAL opens as a raster is taken as an elevation model.
+# A raster or a vector file? A file that GDAL opens as a raster is taken as an elevation model.
 if gdalinfo "$ground" >/dev/null 2>&1; then key=dem
 elif ogrinfo -so "$ground" >/dev/null 2>&1; then key=contours
 else say "$ground: neither an elevation raster nor a vector file that GDAL can read (gdalinfo, \
@@ -134,11 +134,11 @@ ground_of_site() {
     done
   fi
 }
-# The values that stand in a raster, ascending, whole numbers without a fraction.
+# The values of a raster, ascending, whole numbers without a fraction.
 values_of() {
   gdal_translate -q -of XYZ "$cells/$1" /vsistdout/ | awk '{ print $3 + 0 }' | sort -gu
 }
-# What of the folder is not taken over, a row each.
+# Files of the folder that are not taken over, a row each.
 not_taken() {
   for raster in rg70 rg20 rg10; do
     [ ! -f "$cells/$raster.asc" ] || echo "$raster.asc: Talus has no roughness of the ground by \

@@ -1,4 +1,4 @@
-# What the rules make, a name a file. `make clean` removes these and nothing else.
+# Files that the rules make, a name a file. `make clean` removes these and nothing else.
 import_products := inputs.gpkg import.json
 tin_products := tin.ply tin.json
 trn_products := trn.tif trn.json hillshade.png
@@ -35,7 +35,7 @@ products := $(foreach stage,import tin trn source block stability check runout m
   places calibrate hazard trace profile search screen report,$($(stage)_products))
 
 # As patterns of the shell: a style that comes with its raster, runs with their checkpoints, the
-# registry, what a stage reads, side files that GDAL and QGIS write beside a raster, and hidden
+# registry, inputs of a stage, side files that GDAL and QGIS write beside a raster, and hidden
 # names of tools that were killed.
 run_folders := runs runs/* without without/* verify/*-* verify/*-*/*
 run_patterns := run_*[0-9].h5 run_*[0-9].h5.part run_*[0-9].h5.part.new ensemble.json .lock \

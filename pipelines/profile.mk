@@ -1,4 +1,4 @@
-# Runs -> what crosses a line that was drawn after them, and a profile along it.
+# Runs -> crossings of a line that was drawn after them, and a profile along it.
 # in: LINE (a file with one line: road.geojson, "map.gpkg|layername=roads"),
 #     PROFILE_FLAGS (e.g. --bin-m 5)
 # out: $(OUT)/profile/profile.gpkg, .json, crossings.csv, bins.csv, stations.csv, *.svg

@@ -1,5 +1,5 @@
 #!/bin/sh
-# What users download: Debian packages, a tarball for Debian 12 and later that needs no root, a
+# The downloads: Debian packages, a tarball for Debian 12 and later that needs no root, a
 # container image (OCI), the packages inside them (SPDX) and digests.
 #   sh pipelines/release.sh [FOLDER]      FOLDER: build/download
 # Builds the tools first. Needs root for the image's file system. tests/try_release.sh tries them.

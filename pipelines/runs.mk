@@ -1,7 +1,9 @@
-# Blocks on their bed -> runs, by talus-batch: which lack, several at a time, what became of them.
+# Blocks on their bed -> runs, by talus-batch: those that lack, several at a time, and their
+# outcome.
 # in: site.toml, DDA_FLAGS
 #   RUNS, SEED  how many seeds, from which one ([solver] n_runs and seed); RUNS=auto, RUNS_MOST
-#   WITHOUT     yes: also the runs without fences; when not given: where a fence of the site stands
+#   WITHOUT     yes: also the runs without fences; when not given: where the site has an active
+#        fence
 #   SHARD, SHARDS  which of the runs, of several makes that share them (slurm.mk)
 # out: $(OUT)/runs/run_SEED.h5, of variants with a weight runs/NAME/run_SEED.h5, runs/ensemble.json;
 #     without/ alike
@@ -16,7 +18,7 @@ batch = $(lastword $(BIN))talus-batch $(site) --results $(OUT) $(if $(BIN),--lau
 batch_of = $(batch) --into $1 $(call option_of,RUNS,--runs) $(call option_of,SEED,--seed) \
   $(call option_of,RUNS_MOST,--most) $2 -- $(DDA_FLAGS) \
   $(if $(filter without,$1),$(SITE_WITHOUT_FENCES))
-# What talus-batch says of each: current or stale, runs to make, parts that lack some, the seed
+# Status by talus-batch: current or stale, runs to make, parts that lack some, the seed
 # after them, how many they are, rock masses.
 status_of = $(shell $(call batch_of,$1,--status --no-db --part $(or $(SHARD),0)/$(or $(SHARDS),1)))
 ask = $(eval status_$1 := $(status_of))$(if $(status_$1),,$(error The runs cannot be made, see \
@@ -28,10 +30,11 @@ $(if $(filter-out terrain source blocks stability,$(wanted)),\
 $(if $(and $(filter auto,$(RUNS)),$(SITE_ROCKS_ALONE),$(strip $(BLOCKS_FLAGS))),$(error \
   RUNS=auto makes the rocks of further runs without BLOCKS_FLAGS: write in site.toml what they say))
 
-# A run that failed stops no other (3): make goes on with the rest, and ends with an error.
+# A run that failed stops no other (3): make continues with the rest, and ends with an error.
 some_failed := || test $$? = 3
 rock_masses := $(wordlist 6,9999,$(status_runs))
-# What runs are evaluated on: the beds of several masses differ, the terrain before them does not.
+# Terrain for the evaluation of runs: the beds of several masses differ, the terrain before them
+# does not.
 ground_of_runs := $(OUT)/$(if $(rock_masses),trn,bed).tif
 before_runs := $(OUT)/blocks.h5 $(rock_masses:%=$(OUT)/rock/blocks_%.h5)
 define runs_of
@@ -46,7 +49,7 @@ endef
 $(if $(SHARD),,$(foreach kind,$(kinds),$(eval $(call runs_of,$(kind)))))
 runs: $(ensembles) ## blocks -> runs (RUNS=50: with 50 seeds)
 
-# The last goal that has to do with runs comes after the others and lists what failed.
+# The last goal that has to do with runs comes after the rest and lists failed runs.
 asked := $(filter $(run_goals),$(wanted))
 last_goal := $(or $(filter all,$(asked)),$(lastword $(asked)))
 with_runs_alone := maps runout places calibrate hazard trace profile fence-search
@@ -66,7 +69,7 @@ define newline
 endef
 
 # --- shards: by Slurm (slurm.mk), GNU parallel, Snakemake or by hand ---
-# They make runs alone, never what runs read: several would at once.
+# They make only runs, never the inputs of runs: several would at once.
 .PHONY: prepare runs-shard
 prepare: $(before_runs) $(OUT)/check.html ## all that runs read, before they are made in shards
 	$(call say,$(foreach kind,$(kinds),$(kind): $(word 2,$(status_$(kind))) to make))

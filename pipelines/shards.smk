@@ -2,8 +2,8 @@
 #   snakemake -s TALUS/pipelines/shards.smk --cores 8 --config shards=40 make="RUNS=400 OUT=out"
 # config: shards  how many jobs; make  the variables for make; goals  of the last job (all);
 #   cores  of each shard (1)
-# Make decides what is to be made, so every job is begun each time, and one with nothing to do ends
-# at once. Jobs of a run each would be too many: a scheduler takes longer over one than some
+# Make decides which runs are to be made, so every job is begun each time, and one with nothing to
+# do ends at once. Jobs of a run each would be too many: a scheduler takes longer over one than some
 # runs do.
 variables = str(config.get("make", ""))
 n_shards = int(config["shards"])
@@ -11,7 +11,7 @@ goals = str(config.get("goals", "all"))
 outs = [word[4:] for word in variables.split() if word.startswith("OUT=")]
 marks = (outs or ["out"])[-1] + "/shards"
 
-# What Snakemake hands on to its jobs is not for make.
+# Variables that Snakemake hands on to its jobs are not for make.
 shell.prefix("unset MAKEFLAGS MFLAGS MAKELEVEL; ")
 localrules: all, prepare
 

@@ -1,6 +1,6 @@
-# The chain of tools for one site, included by sample_sites/<site>/Makefile. What is computed is in
+# The chain of tools for one site, included by sample_sites/<site>/Makefile. The settings are in
 # site.toml; the Makefile may set
-#   CONTOURS or DEM     what the ground is made from, instead of [terrain]
+#   CONTOURS or DEM     source of the ground, instead of [terrain]
 #   IMPORT_FLAGS, TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, STABILITY_FLAGS, DDA_FLAGS,
 #   RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS, PLACES_FLAGS, CALIBRATE_FLAGS, HAZARD_FLAGS, TRACE_FLAGS,
 #   PROFILE_FLAGS, SEARCH_FLAGS, REPORT_FLAGS
@@ -67,16 +67,16 @@ include $(PIPELINES)inputs.mk
 
 # made(TOOL): the line behind that of a tool, in a rule: has it really written the file?
 made = $(if $(is_dry_run),,@sh $(PIPELINES)made.sh $1 $@ '$(shell stat -c '%i %Z' $@ 2>/dev/null)')
-# Several shards at once must not make what all of them read (runs.mk).
+# Several shards at once must not make files that all of them read (runs.mk).
 not_in_a_shard = $(if $(SHARD),$(error $1 is to be made again, and a shard makes runs alone: make \
   prepare, or make submit))
 
 # taken(FILES): in a rule before its tool: takes FILES over from BASE (taken.sh).
 taken = $(if $(BASE),sh $(PIPELINES)taken.sh $(BASE) $(OUT) '$1' '$^' || )
 
-# together(FILES): what one run of a tool writes, the first file last and all with the same time.
-# Rules name the first; the others come with it. One that is missing beside it makes the tool run
-# again.
+# together(FILES): files that one run of a tool writes, the first one last and all with the same
+# time. Rules name the first; the rest comes with it. One that is missing beside it makes the tool
+# run again.
 define together
 $(wordlist 2,99,$1): $(firstword $1) ;
 ifneq ($$(wildcard $(firstword $1)),)
@@ -93,7 +93,8 @@ several_cases := $(SITE_ALTERNATIVES)
 include $(patsubst %,$(PIPELINES)%.mk,import tin $(filter-out new_site,$(rules)) rock)
 endif
 
-# Sites whose data are not in the repository keep a list of what they need, with checksums.
+# Sites whose data are not in the repository keep a list of the files that they need, with
+# checksums.
 ifneq ($(wildcard manifest.sha256),)
 .PHONY: data
 data: ## check the site's data against manifest.sha256

@@ -6,11 +6,12 @@
 #     FINAL           goals of the last job (all)
 # out: $(OUT)/shards/log/*.txt, $(OUT)/shards/jobs: the jobs sent
 # Sent again, it sends only the shards that lack runs. Jobs get the variables that make was given. A
-# job whose node dies, or that is preempted, begins again elsewhere: its runs go on where they were.
+# job whose node dies, or that is preempted, begins again elsewhere: its runs resume where they
+# were.
 FINAL ?= all
 .PHONY: submit
 
-# Of the command line, and of the environment what these rules know.
+# Of the command line, and those of the environment that these rules know.
 known_variables := OUT BIN CONTOURS DEM RUNS RUNS_MOST SEED VARIANT BASE WITHOUT DB LINE \
   VERIFY_RUNS $(filter %_FLAGS,$(.VARIABLES))
 not_handed_on := SHARD SHARDS SHARDS_AT_ONCE SBATCH_FLAGS FINAL BIN SENT MAKEOVERRIDES MAKEFLAGS \
@@ -21,7 +22,8 @@ given_variables = $(sort $(foreach name,$(filter-out $(not_handed_on),$(.VARIABL
   is_given,$(name)),$(name))))
 # The tools by their folder: the search path of a job may be another one.
 tools_there = $(or $(BIN),$(dir $(shell command -v talus-dda)))
-# make_there(ARGUMENTS): the make of a job, without what a make hands on to those that it starts.
+# make_there(ARGUMENTS): the make of a job, without the variables that a make hands on to those that
+# it starts.
 make_there = unset MAKEFLAGS MFLAGS MAKELEVEL; exec make -C $(call quoted,$(CURDIR)) \
   $(call quoted,BIN=$(tools_there)) $(foreach name,$(given_variables),$(call \
   quoted,$(name)=$(value $(name)))) $1 -j "$${SLURM_CPUS_PER_TASK:-1}"

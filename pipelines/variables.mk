@@ -1,7 +1,9 @@
-# What make is given is looked at before anything runs; numbers of runs are talus-batch's (runs.mk).
+# Variables that make is given are checked before anything runs; numbers of runs are talus-batch's
+# (runs.mk).
 # in: OUT (site.mk), WITHOUT (runs.mk), LINE (profile.mk), VARIANT, BASE (variants.mk)
-# out: an error that says what is expected
-# A word of a rule and of a recipe: it cannot hold what make or the shell would part or run.
+# out: an error with the expected values
+# A word of a rule and of a recipe: it cannot hold characters that make or the shell would split at
+# or run.
 signs := ' " ` $$ ; & | < > * ? : %
 sign_in = $(firstword $(foreach sign,$(signs),$(if $(findstring $(sign),$1),$(sign))))
 one_word = $(if $(filter 1,$(words $1)),$(if $(sign_in),$(error $2 is $1, expected the name of $3 \

@@ -1,9 +1,9 @@
 # The measures of the site, each computed like the site with the same seeds, and compared with it.
 # in: [variant.NAME] without a weight
 #     VARIANT, BASE  given to the make of a measure: its name, and the results of the site as it is
-# out: $(OUT)/variant/NAME/*: what OUT has of the site; maps/compare.tif and differences at objects
-# Each is a make of its own, one after the other: what it shares with the site it takes over. All
-# are checked before the first run.
+# out: $(OUT)/variant/NAME/*: files as OUT has of the site; maps/compare.tif and differences at
+# objects Each is a make of its own, one after the other: it takes over the parts that it shares
+# with the site. All are checked before the first run.
 measures := $(if $(VARIANT)$(SHARD),,$(SITE_MEASURES))
 measure_reports := $(measures:%=$(OUT)/variant/%/report.html)
 checked := $(if $(filter all report variants,$(wanted)),$(measures:%=checked-%))
