@@ -1,4 +1,4 @@
-"""Runs of Talus in Python: what they recorded in map coordinates, and new runs of a site.
+"""Runs of Talus in Python: their records in map coordinates, and new runs of a site.
 
 Needs netCDF4, pandas and xarray, and for new runs the tools of Talus. Page: docs/guide/python.md
 """

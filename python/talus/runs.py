@@ -79,7 +79,7 @@ class Run:
     def __getitem__(self, name):
         """A table as a DataFrame: one row a crossing, a passage, a block ... `attrs` has units, meanings, the CRS.
 
-        Columns of the file with several numbers a row become one column each. What is no column (corners of
+        Columns of the file with several numbers a row become one column each. Data without a column (corners of
         blocks, points of lines) is in dataset().
         """
         if name not in self.tables:
@@ -122,7 +122,7 @@ class Run:
 
 
 class Ensemble:
-    """Runs that belong together. `members` says what became of each; tables join those of the runs that count."""
+    """Runs that belong together. `members` has the outcome of each; tables join those of the runs that count."""
 
     def __init__(self, folder):
         self.folder = os.fspath(folder)

@@ -40,11 +40,11 @@ def run(site, trn, blocks, out, *options, progress=None, **keys):
 
     `site`: a Site, or the path of its file. `trn`, `blocks`: files of talus-trn and talus-blocks. `options`: words
     of talus-dda, e.g. "--settle", "--overwrite". `progress`: called with the share that is done, twice a
-    second; what it raises ends the run. `keys` override the site file: ground__scree__friction_deg=32.
+    second; an exception of it ends the run. `keys` override the site file: ground__scree__friction_deg=32.
 
     Warnings of the tool are UserWarnings. Raises ValueError with its message for inputs that cannot be used. A run
     that broke a limit of its health is returned, with a warning that says so. Interrupted (Ctrl-C), talus-dda
-    writes its checkpoint; "--resume" goes on from there.
+    writes its checkpoint; "--resume" continues from there.
     """
     site = (site if isinstance(site, Site) else Site(site)).with_keys(**keys)
     command = ["talus-dda", *site.words(), "--trn", os.fspath(trn), "--blocks", os.fspath(blocks), "-o",
@@ -68,7 +68,7 @@ def run(site, trn, blocks, out, *options, progress=None, **keys):
 
 
 def _take(line, progress):
-    """Hands progress on and shows warnings; returns what ended the run."""
+    """Hands progress on and shows warnings; returns the exception that ended the run."""
     try:
         message = json.loads(line)
     except ValueError:

@@ -1,4 +1,4 @@
-"""What QGIS loads: adds the provider, and takes it away again."""
+"""The plug-in that QGIS loads: adds the provider, and takes it away again."""
 from qgis.core import QgsApplication
 
 

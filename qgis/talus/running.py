@@ -8,7 +8,7 @@ from . import tools
 
 
 class Course:
-    """What a program says while it runs, handed on to the log of the dialog."""
+    """Messages of a running program, handed on to the log of the dialog."""
 
     def __init__(self, feedback):
         self.feedback, self.lines, self.faults, self.hints = feedback, [], [], []
@@ -33,7 +33,7 @@ class Course:
 
 
 def run(program, arguments, feedback):
-    """Exit code of the program and what it said. Raises QgsProcessingException when it cannot be started."""
+    """Exit code of the program and its messages. Raises QgsProcessingException when it cannot be started."""
     if not program:
         raise QgsProcessingException(
             "The tools of Talus were not found: install the package talus, or name their folder under Settings, "

@@ -1,4 +1,4 @@
-"""A tool as an algorithm: its parameters are made from what it says of itself."""
+"""A tool as an algorithm: its parameters are made from its own description."""
 import os
 import re
 
@@ -42,7 +42,7 @@ def value_of(option, name, label, optional):
 
 
 def parameter_of(option):
-    """The parameter of QGIS that stands for an option."""
+    """The parameter of QGIS for an option."""
     name, label, optional = tools.parameter_name(option), label_of(option), not option["required"]
     if option["role"] == "input" and option["several"]:
         return QgsProcessingParameterMultipleLayers(name, label, QgsProcessing.TypeFile, optional=optional)
@@ -90,7 +90,8 @@ class ToolAlgorithm(QgsProcessingAlgorithm):
         return "<br>".join(lines)
 
     def flags(self):
-        # Some processes of others are started from here: in the thread of a task, not in that of the window.
+        # Some foreign processes are started from here: in the thread of a task, not in that of the
+        # window.
         return super().flags() | QgsProcessingAlgorithm.FlagCanCancel
 
     def initAlgorithm(self, config=None):

@@ -1,7 +1,7 @@
-"""The tools of Talus as programs: where they are, what they take, what they say. Knows nothing of QGIS.
+"""The tools of Talus as programs: their places, options and messages. Knows nothing of QGIS.
 
-What a tool takes comes from itself (`talus-x --describe json`), the goals of make from `make help`:
-neither stands here a second time.
+The options of a tool come from itself (`talus-x --describe json`), the goals of make from `make help`:
+neither is repeated here.
 """
 import functools
 import json
@@ -16,10 +16,10 @@ NOT_SHOWN = {"quiet", "verbose", "json", "overwrite", "label", "failures", "prog
              "describe", "no-db"}
 EXTENSIONS = {"GeoTIFF": "tif", "GeoPackage": "gpkg", "HDF5": "h5", "JSON": "json", "CSV": "csv", "SVG": "svg",
               "PNG": "png", "HTML": "html", "QGZ": "qgz", "TOML": "toml", "PLY": "ply"}
-# Goals that a dialog of their own stands for, or that need a terminal.
+# Goals with a dialog of their own, or that need a terminal.
 GOALS_NOT_SHOWN = {"new-site", "submit", "runs-shard"}
 LONGEST_WAIT_S = 20
-# What an engineer looks for a tool under; others are "Files and runs".
+# Group under which an engineer looks for a tool; the rest are in "Files and runs".
 GROUPS = {"Terrain": ["import", "tin", "trn"], "Source and blocks": ["source", "blocks", "stability", "check"],
           "Runs": ["dda", "batch", "verify"], "Run-out and maps": ["runout", "maps", "profile", "calibrate", "places"],
           "Hazard and objects": ["hazard", "trace"], "Protection": ["fence", "fence-search"]}
@@ -96,10 +96,10 @@ def pipelines_folder(folder=""):
     return ""
 
 
-# --- what they take ------------------------------------------------------------------------------
+# --- their options -------------------------------------------------------------------------------
 
 def output_of(words):
-    """What a program prints, or "" where it cannot be started, fails or does not end."""
+    """Output of a program, or "" where it cannot be started, fails or does not end."""
     try:
         done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
                               timeout=LONGEST_WAIT_S, check=False)
@@ -109,7 +109,7 @@ def output_of(words):
 
 
 def description(name, folder=""):
-    """What `name` says of itself, or None."""
+    """Description of the tool `name` by itself, or None."""
     try:
         found = json.loads(output_of(started([tool_path(name, folder), "--describe", "json"])))
     except ValueError:
@@ -126,7 +126,7 @@ def stamp_of(path):
 
 
 def descriptions(folder="", cache=""):
-    """What all tools say of themselves. `cache` keeps it, a tool a line of JSON, until a tool is another."""
+    """Descriptions of all tools. `cache` keeps them, a tool a line of JSON, until a tool is another."""
     known = {}
     try:
         with open(cache, encoding="utf-8") as file:
@@ -165,7 +165,7 @@ def goals(folder=""):
 
 
 def group_of(tool):
-    """What an engineer looks for `tool` under."""
+    """Group under which an engineer looks for `tool`."""
     name = tool.removeprefix("talus-")
     return next((group for group, names in GROUPS.items() if name in names), "Files and runs")
 
@@ -197,14 +197,14 @@ def extension_of(option):
 
 
 def is_layer(option):
-    """Whether an input is what QGIS opens as a layer, so that one of the project may be picked."""
+    """Whether QGIS opens an input as a layer, so that one of the project may be picked."""
     words = option["help"]
     is_map = re.search(r"\b(vector|contours?|lines|points|polygons|spot heights|raster|DEM|terrain|GeoTIFF)\b", words)
     return bool(is_map) and not re.search(r"\b(TIN|CSV|HDF5|TOML|list)\b", words)
 
 
 def is_given(option, value):
-    """Whether a value of a dialog differs from what the tool would take anyway."""
+    """Whether a value of a dialog differs from the tool's default."""
     if value is None or value == "" or value == []:
         return False
     default = option.get("default", "")
@@ -241,7 +241,7 @@ def command_line(tool, values, folder="", command=None):
         else:
             options += words
     common = ["--progress=json", "--messages=json"]
-    # QGIS has asked whether a file may be replaced; what is resumed is not.
+    # QGIS has asked whether a file may be replaced; a resumed one is not.
     if not values.get("resume"):
         common.append("--overwrite")
     ends = ["--"] + places if places else []
@@ -266,13 +266,13 @@ def new_site_command(folder_of_site, ground, source, folder=""):
     return "sh", [pipelines + "/new_site.sh", folder_of_site, ground, source, pipelines, folder]
 
 
-# --- what they say -------------------------------------------------------------------------------
+# --- their messages -------------------------------------------------------------------------------
 
 Said = namedtuple("Said", "kind text")  # kind: progress (text: per cent), info, warning, error, hint
 
 
 def said(line):
-    """A line of a tool, or of make, as what it means; None where there is nothing to show."""
+    """A line of a tool, or of make, by its meaning; None where nothing is to be shown."""
     line = line.rstrip()
     if not line:
         return None
@@ -317,9 +317,9 @@ def has_failed_runs(lines):
     return any(re.match(r"talus-batch: \d+ of \d+ runs? failed", line) for line in lines)
 
 
-# --- what they made ------------------------------------------------------------------------------
+# --- their outputs --------------------------------------------------------------------------------
 
-# What a goal makes that is looked at, by its name in the folder of the results; the last one lies on top.
+# Outputs of a goal that are shown, by name in the folder of the results; the last one lies on top.
 SHOWN_OF_GOAL = {
     "terrain": ["trn.tif"], "blocks": ["blocks.gpkg"], "runout": ["thickness.tif", "runout.gpkg"],
     "maps": ["maps/*.tif"], "fence": ["change.tif", "fence.gpkg"], "hazard": ["hazard/*.tif", "hazard/hazard.gpkg"],
