@@ -46,7 +46,7 @@ def observed(folder, **layers):
 
 
 def calibrated(slope, tools, n_runs):
-    """What talus-calibrate says of the runs of a site, with each half of the boulders left out in turn."""
+    """Results of talus-calibrate for the runs of a site, with each half of the boulders left out in turn."""
     name = slope.name
     folder = tools.folder / name
     folder.mkdir(exist_ok=True)

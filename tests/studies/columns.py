@@ -2,7 +2,7 @@
 """Columns of blocks that are let go on a floor, beside columns of grains: blocks that move as a mass.
 
 Lube et al. 2004 (J. Fluid Mech. 508, 175): the radius grows by 1.24 a of itself up to a = height / radius = 1.7, by
-1.6 a^0.5 beyond, whatever the grains.
+1.6 a^0.5 beyond, for all grains.
 
 A column is poured into a round fence on a level floor and comes to rest; then the fence is taken away. Its
 height is twice that of its centre of mass. Its final radius is the mean over 24 sectors of the farthest block

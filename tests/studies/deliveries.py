@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Everyday deliveries, taken to a terrain by what the tools say, beside the truth that they were made from.
+"""Everyday deliveries, taken to a terrain by the hints of the tools, beside their truth.
 
 Each is written as its sender writes it: its format, system, unit, order of columns, companions. The call is the one
-that the file's name suggests; then the ways that its hints name are taken, one a step. The ground has a hill, whose
+that the file's name suggests; then its hints are obeyed, one a step. The ground has a hill, whose
 slopes tell a shift in plan from one in height. Exit 1 where a row is off the truth or ends otherwise than expected.
 Needs python3-gdal, numpy.
 """
@@ -23,7 +23,7 @@ TRN, TIN = 'talus-trn', 'talus-tin'
 
 def delivery(words, tool, options, code, corner, steps=(), fill=(), then='', truth=None, heights=.3, height=1000.0):
     """A maker of a delivery. `code`, `corner`: the hill's system and south-west corner; `truth`: its system, where the
-    terrain is in another; `steps`: the ways of hints that are taken; `heights`: bound of the rms error [m]."""
+    terrain is in another; `steps`: the remedies of hints that are applied; `heights`: bound of the rms error [m]."""
     def add(make):
         TABLE.append((make, words, tool, shlex.split(options), Hill(height, code, *corner), steps, dict(fill), then,
                       truth, heights))
@@ -304,7 +304,7 @@ def laser(_hill):
 # --- the user ------------------------------------------------------------------------------------
 
 def by_hand(way, source):
-    """What a hint asks for that no command does: (the new file, the words of the step)."""
+    """A step of a hint that no command does: (the new file, the words of the step)."""
     with open(source, encoding='utf-8') as file:
         text = file.read()
     if way.startswith('number,'):

@@ -4,8 +4,8 @@
 Two sample sites, a slide (maungawhau) and rocks one by one (crater_rocks). Each row is the site with one change, held
 against the site as it is, for the area of any class and for that of the classes from "blue" upwards. The displacement
 of a boundary is the area that changed sides over the length of the boundary [m]; outward where the area grew. The
-farthest is the 95th percentile of the distance of the changed cells from the old boundary. Row "other seeds" is what
-chance alone does: changes below it mean nothing.
+farthest is the 95th percentile of the distance of the changed cells from the old boundary. Row "other seeds" is
+the effect of chance: changes below it are not significant.
 """
 import re
 
@@ -17,7 +17,7 @@ from study import SOURCE, Study
 
 gdal.UseExceptions()
 BOUNDARIES = {"any class": 1, "blue and red": 3}  # from which code of the class map
-# site -> change -> (what is replaced in site.toml, by what) or variables of make; the cost of a change
+# site -> change -> (text of site.toml, its replacement) or variables of make; the cost of a change
 CHANGES = {
     "maungawhau": (40, {
         "other seeds": {"SEED": 1001},
@@ -66,7 +66,7 @@ def classes(study, site, name, change):
 
 
 def cells_of(path, like):
-    """The codes of a class map on the cells of another, 0 where there is no class, and the side of a cell [m]."""
+    """The codes of a class map on the cells of another, 0 without a class, and the side of a cell [m]."""
     base = gdal.Open(str(like))
     x, side, _, y, _, _ = base.GetGeoTransform()
     bounds = (x, y - side * base.RasterYSize, x + side * base.RasterXSize, y)
@@ -76,7 +76,7 @@ def cells_of(path, like):
 
 
 def edges(area):
-    """Sides of cells between an area and what is not of it."""
+    """Sides of cells between an area and the rest."""
     padded = numpy.pad(area, 1).astype(int)
     return abs(numpy.diff(padded, axis=0)).sum() + abs(numpy.diff(padded, axis=1)).sum()
 

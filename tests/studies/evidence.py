@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""The evidence of one commit: runs the studies, and makes the pages of docs/evidence from what they found.
+"""The evidence of one commit: runs the studies, and makes the pages of docs/evidence from their results.
 
   python3 tests/studies/evidence.py list                                  studies, CPU seconds, commits
   python3 tests/studies/evidence.py run [--bin FOLDER] [--out FOLDER] [STUDY]...
   python3 tests/studies/evidence.py pages                                 writes the pages
   python3 tests/studies/evidence.py check                                 fails where a page is not as the files say
 
-`run` takes what each study found to docs/evidence/data/STUDY.csv and writes the pages. It leaves out what is there of
-the same commit, so it can be ended and begun anew. `list` says what each costs; two halves (names of studies) can be
+`run` writes the results of each study to docs/evidence/data/STUDY.csv and writes the pages. It leaves out results of
+the same commit that exist, so it can be stopped and resumed. `list` says what each costs; two halves (names of studies) can be
 run side by side.
 
 A page is PAGE.md.in with these marks filled:
@@ -35,7 +35,7 @@ from pathlib import Path
 import study
 
 EVIDENCE = study.SOURCE / "docs/evidence"
-# In the order of a run: some read what others left in OUT.
+# In the order of a run: some read files that earlier ones left in OUT.
 STUDIES = ["deliveries", "terrain_error", "field", "columns", "calibrate", "two_bounds", "fence_search", "forecast",
            "designed_slide", "real_sites", "single_rocks", "mobility", "error_budget", "rocks_beside_ode", "beside_ode",
            "benchmarks", "speed", "verification", "faults", "first_result"]
@@ -43,7 +43,7 @@ COMPARE = {"<=": operator.le, ">=": operator.ge, "<": operator.lt, ">": operator
 
 
 class Fault(Exception):
-    """What makes a page impossible."""
+    """Fault that makes a page impossible."""
 
 
 class Data:
@@ -165,7 +165,7 @@ def check(folder):
 
 
 def python():
-    """One that has what the studies need."""
+    """A Python that has the packages of the studies."""
     for program in (sys.executable, "/usr/bin/python3"):
         if subprocess.run([program, "-c", "import h5py, numpy; from osgeo import gdal"], capture_output=True, check=False).returncode == 0:
             return program

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Whether a fence that talus-fence-search proposes lets through what was predicted, on the four shared sites.
+"""Whether a fence that talus-fence-search proposes lets through as many runs as predicted, on the four shared sites.
 
 On each site rocks of 0.3 m3 fall from a grid over the release polygon, each as if alone; friction and restitution of
 the ground scatter between runs. The object is an assumed track, 40 m long, across the expected path where the energy
 line of 35 degrees ends. 100 runs are searched, contours and lines of equal distance; the cheapest proposal of both
-then stands in ten times 100 runs with other seeds, and each 100 of these are one repetition. Reported: the share of
+is then built in ten times 100 runs with other seeds, and each 100 of these are one repetition. Reported: the share of
 runs in which a rock still comes to the object, predicted and of all repetitions, and how many of these agree.
 
 They agree where the difference of both shares has zero in its 95 % interval (Newcombe, of both Wilson intervals), which holds
-what chance does to the prediction and to the repetition. All repetitions stand beside one prediction: where chance
+the effect of chance on the prediction and on the repetition. All repetitions have one prediction: where chance
 has led that astray, all are shifted alike.
 """
 import json
@@ -70,7 +70,7 @@ max_lost_share = 1
 
 def run(study, folder, name, seed, *more):
     """A run, also one that breaks a limit of its health (3). None where it takes 5 s of processor time, thirty times
-    that of the others."""
+    that of the rest."""
     out = folder / name / f'run_{seed}.h5'
     out.parent.mkdir(exist_ok=True)
     if not out.exists():

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Field tests: what Talus computes beside what was observed, every case by one command.
+"""Field tests: computed results beside observations, every case by one command.
 
 - Tschamut 2014: 18 runs of blocks of 40 to 79 kg on a meadow.
 - Authume quarry, path P1: 41 boulders of 0.2 to 1.8 t on a slope, two walls and a hard floor.
@@ -144,7 +144,7 @@ class Slope:
         return ends - self.starts[:, None], left
 
     def figures(self, terrain):
-        """For fits: of the rows what is fitted."""
+        """For fits: the fitted part of the rows."""
         moved, _ = self.simulate(terrain)
         seen, made = sides(self.seen, self.along), sides(moved.reshape(-1, 2), self.along)
         return {"mean": made["length"].mean(), "area": area(seen["length"], made["length"]),

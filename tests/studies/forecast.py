@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What talus-check forecasts beside what a run does: the share of the mass that moves, and the time.
+"""Forecasts of talus-check beside results of runs: the share of the mass that moves, and the time.
 
 All sites are looked at first (`make check`); then each gets one run of 30 s, the cheapest first. The share of the mass
-that the probe sees on its way stands beside the share that moved more than 1 m by the end; the time that the check
+that the probe sees moving is compared with the share that moved more than 1 m by the end; the time that the check
 says for this machine beside the processor time of talus-dda. Sites: the four shared slopes, a slope of the Serles and
 ten drawn at random (forecast_sites.py). Drawn sites that offer no mass (refused by the check, or no plane daylights)
 are named and replaced by the next ones drawn.
@@ -42,7 +42,7 @@ def first_message(log):
 
 
 def looked_at(study, folder):
-    """What the check says of a site, or why it says nothing."""
+    """Forecast of the check for a site, or why it is missing."""
     name = os.path.basename(folder)
     out, log = study.out / name, study.out / f'{name}.check.log'
     row = {'site': name, 'folder': folder}
@@ -55,7 +55,7 @@ def looked_at(study, folder):
 
 
 def run(study, row):
-    """The same row with what a run of the site gave."""
+    """The same row with the results of a run of the site."""
     out, log = study.out / row['site'], study.out / f"{row['site']}.run.log"
     if not (out / 'runout.json').exists():
         make(study, row['folder'], out, ['runs', 'runout'], log)
@@ -84,7 +84,7 @@ def compute(study):
         study.row('sites', row['site'], {'blocks': row['blocks'], 'forecast': f"{row['forecast']:.2f}", 'moved': f"{row['moved']:.2f}",
                                          'time said [s]': f"{row['said_s']:.0f}", 'used [s]': f"{row['cpu_s']:.1f}"})
     off = [row['forecast'] - row['moved'] for row in rows]
-    # What takes less than a second is said to take one.
+    # A run of less than a second is said to take one.
     ratios = [row['said_s'] / max(1, row['cpu_s']) for row in rows]
     study.row('summary', 'all', {
         'sites': len(rows), 'share, rms': f'{(sum(d * d for d in off) / len(off)) ** .5:.3f}', 'worst': f'{max(off, key=abs):+.2f}',

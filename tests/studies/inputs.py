@@ -1,4 +1,4 @@
-"""Inputs of known truth, and a user who obeys what the tools say of them.
+"""Inputs of known truth, and a user who obeys the hints of the tools.
 
 The ground is a plane that rises 1 : 2 to the north: z = z0 + (y - 5200000) / 2 in EPSG:25832, 200 m
 by 200 m from x 650000 on; other systems have the like plane in theirs. Needs python3-gdal, numpy.
@@ -190,7 +190,7 @@ def landxml(path, surfaces, unit='<Metric linearUnit="meter"/>', system=''):
 # --- the user ------------------------------------------------------------------------------------
 
 def call(command):
-    """(exit code, what it printed, what it said), long lines not parted: a command line, or its words."""
+    """(exit code, output, messages), long lines not split: a command line, or its words."""
     done = subprocess.run(command, shell=isinstance(command, str), capture_output=True, check=False)
     printed, said = (text.decode('utf-8', 'replace').replace(';\n  ', '; ') for text in (done.stdout, done.stderr))
     return done.returncode, printed, said
@@ -245,7 +245,7 @@ def terrain_of(tool, source, options, said=None):
 
 
 def options_in(way, fill):
-    """The words of an option of a hint, what stands for a code or a name filled in."""
+    """The words of an option of a hint, placeholders of codes and names filled in."""
     for what, instead in fill.items():
         way = way.replace(what, instead)
     return [word.rstrip(',;.') for word in shlex.split(way)]
@@ -277,7 +277,7 @@ def drop(options, name):
 
 
 def follow(way, hint, source, options, fill, then, said):
-    """What the user gives next: (source, options)."""
+    """Next input of the user: (source, options)."""
     if way.startswith(('leave ', 'omit ')):
         assert way in hint, f'no "{way}" in the hint: {hint}'
         return source, drop(options, way.split()[1])

@@ -15,7 +15,7 @@ browse --virtual-time-budget=6000 --window-size=1280,9000 --screenshot="$shots/d
 browse --virtual-time-budget=6000 --window-size=500,9000 --screenshot="$shots/narrow.png" "file://$out/report.html"
 browse --virtual-time-budget=6000 --no-pdf-header-footer --print-to-pdf="$shots/print.pdf" "file://$out/report.html"
 
-# The same page with a hand that plays, and says in its title what came of it.
+# The same page with a hand that plays, and writes the outcome into its title.
 {
   cat "$out/report.html"
   cat <<'END'

@@ -3,7 +3,7 @@
 
 The events are the runs that designed_slide.py and real_sites.py left beside this study's folder. First volume, H and L
 of the event (chord from the top of the source to the toe), of its centre of mass beside the friction; then L95 over
-what each relation expects, and its percentile in the relation's scatter where most of the mass left its source.
+the expectation of each relation, and its percentile in the relation's scatter where most of the mass left its source.
 Relations from memory and those of debris flows are left out.
 """
 import json

@@ -14,7 +14,7 @@ Nothing of the engine is used but the files. In every frame that is looked at:
 Overlaps below FLOOR of the thinner block's thickness along a face are not looked into further.
 Fences and fixed slopes of blocks are not looked at: rows that name one are listed, not judged.
 
-Frames should stand at every step ([output] frame_interval_s = the step). Ends with 1 where health
+Frames should be at every step ([output] frame_interval_s = the step). Ends with 1 where health
 and brute force differ: a block that one of them calls deep and the other does not, its partner,
 its depth by more than 2 % and the distance of samples, its time, its steps by more than 5 %, or a
 step in which bodies that move are in farther than the largest penetration recorded, or less than
@@ -165,7 +165,7 @@ def least_path(spaces):
 
 
 def overlap_of(parts_a, parts_b, floor):
-    """How far two bodies are in each other; a bound at or below `floor` may stand for it."""
+    """How far two bodies are in each other; a bound at or below `floor` may be returned instead."""
     bound, near = 0.0, []
     for a in parts_a:
         for b in parts_b:
@@ -287,7 +287,7 @@ def depth_of_bed(bed, parts):
 
 
 class Found:
-    """What brute force found of a block that was deep."""
+    """Result of brute force for a block that was deep."""
 
     def __init__(self):
         self.steps, self.first, self.time, self.depth, self.partner = 0, None, None, 0.0, None

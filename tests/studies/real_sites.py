@@ -89,7 +89,7 @@ def centres(mask, transform):
 
 
 def beside_scenario(scenario, out):
-    """How far the runs in `out` went, where they lie and what the fence did."""
+    """How far the runs in `out` went, where they lie and the effect of the fence."""
     runout, fences = (json.loads((out / name).read_text()) for name in ("runout.json", "fence.json"))
     path = numpy.array([p[:2] for p in scenario["path"]["points"]], float)
     passed, transform = band(out / "maps/reach.tif", "n_pass")

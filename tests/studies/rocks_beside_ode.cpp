@@ -29,7 +29,7 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// What the command line says; each value is a number.
+/// Options of the command line; each value is a number.
 struct Settings {
   double step_s = 1e-3, frame_s = 0.05, duration_s = 60;
   double gravity_m_s2 = 9.80665, friction = 0.6, restitution = 0.35;

@@ -50,7 +50,7 @@ CRATER = Scene("crater", "polygon = [[1757190, 5917210], [1757270, 5917210], [17
 
 
 def run(*words, codes=(0,)):
-    """What a command prints, and its CPU seconds."""
+    """Output of a command, and its CPU seconds."""
     used = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
     before = used()
     done = subprocess.run([str(w) for w in words], capture_output=True, text=True, check=False)
@@ -196,7 +196,7 @@ class Runs:
         return Motion(values[..., :3], values[..., 3:7], values[..., 7:10], values[..., 10:], float(note.read_text()))
 
 
-# --- what is compared ----------------------------------------------------------------------------
+# --- comparison ----------------------------------------------------------------------------------
 
 def rotations(q):
     """Rotation matrices of attitudes (..., w x y z)."""
@@ -310,7 +310,7 @@ def hit_at_corner(mass, inertia, arm, normal, before, free, friction, cor):
     second = np.cross(normal, first)
 
     def sliding(angles):
-        """What the end slip has across the assumed direction, and along it; the impulse."""
+        """Part of the end slip across the assumed direction, and along it; the impulse."""
         sine, cosine = np.sin(angles)[..., None], np.cos(angles)[..., None]
         slip, across = cosine * first + sine * second, cosine * second - sine * first
         ray = normal - friction * slip

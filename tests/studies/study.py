@@ -1,10 +1,10 @@
-"""What the studies share: parts that know their cost, one command line, and the CSV file of what was found.
+"""Common code of the studies: parts that know their cost, one command line, and the CSV file of results.
 
 A study is a script that makes a Study, names its parts and ends with `study.main()`:
 
   python3 tests/studies/NAME.py [--bin FOLDER] [--out FOLDER] [--data FOLDER] [--only PART]... [--list]
 
-What a part found is kept in OUT/parts and not computed again by tools of the same commit with the same options, so
+The result of a part is kept in OUT/parts and not computed again by tools of the same commit with the same options, so
 a study can be ended and begun anew at any time. When all parts are there, OUT/NAME.csv is written and printed as
 tables. evidence.py takes the file to docs/evidence/data and makes the pages.
 
@@ -64,7 +64,7 @@ def write(path, head, rows):
 
 
 def read(path):
-    """Head and rows of what `write` wrote."""
+    """Head and rows as `write` wrote them."""
     lines = path.read_text(encoding="utf-8").splitlines()
     head = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
     return head, list(csv.DictReader(line for line in lines if not line.startswith("# ")))
@@ -85,7 +85,7 @@ def as_table(rows, first, quantities=None):
 
 
 class Study:
-    """The parts of a script, and what its command line says."""
+    """The parts of a script, and the options of its command line."""
 
     def __init__(self, script, doc):
         self.name, self.parts, self.rows = Path(script).stem, [], []
@@ -112,7 +112,7 @@ class Study:
             self.rows.append([table, row, name, str(value), str(low), str(high), unit or ""])
 
     def run(self, tool, *words, codes=(0,), **more):
-        """Runs a tool, or a program, in OUT and returns what it printed."""
+        """Runs a tool, or a program, in OUT and returns its output."""
         done = subprocess.run([str(word) for word in (tool, *words)], capture_output=True, text=True,
                               **{"cwd": self.out, **more})
         if done.returncode not in codes:

@@ -2,7 +2,7 @@
 """How wrong a terrain made from contours is: plain triangles beside mended ones, against the true elevation model.
 
 Five derived sites; further contour maps made here from other elevation models by gdal_contour; and a genuine map,
-which has no truth: the share of flat triangles only. Nothing was fitted to a site. Needs gdal-bin.
+whose truth is unknown: the share of flat triangles only. Nothing was fitted to a site. Needs gdal-bin.
 """
 import json
 import os

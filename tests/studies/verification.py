@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The full study of talus-verify: writes docs/evidence/verification.md and its diagrams, and counts what holds.
+"""The full study of talus-verify: writes docs/evidence/verification.md and its diagrams, and counts cases that hold.
 
-With ../shared/peers other engines stand in the diagrams.
+With ../shared/peers other engines are in the diagrams.
 """
 import re
 
