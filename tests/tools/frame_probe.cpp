@@ -1,5 +1,5 @@
 // tests/tools/frame_probe.cpp
-// The smallest tool that can be made with the frame: copies a file, or ends in the way asked for.
+// The smallest tool that can be made with the frame: copies a file, or ends as asked for.
 #include <chrono>
 #include <filesystem>
 #include <fstream>

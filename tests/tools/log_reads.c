@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Only what was opened; the log itself is written without the functions below. */
+/* Only opened files; the log itself is written without the functions below. */
 static void note(const char* path, int opened) {
   int (*real)(const char*, int, ...) = (int (*)(const char*, int, ...))dlsym(RTLD_NEXT, "open");
   const char* log = getenv("LOG_READS");

@@ -20,7 +20,7 @@ skip() {
   exit 77
 }
 
-# expect CODE COMMAND...: run it, keep what it prints in `out` and `err`, compare its exit code
+# expect CODE COMMAND...: run it, keep its output in `out` and `err`, compare its exit code
 expect() {
   expected=$1
   shift

@@ -9,10 +9,10 @@
 // Box b of run r (edge 1 m, 2600 kg) starts at rest at x = 11, y = 10 + 6 b and slides with
 // a = 3 m/s2 along the slope for 4 s (24 m), then brakes evenly to rest within 2 s (12 m more); its
 // speed is that of run 0 times 1 + 0.01 r. Written: DIR/slope.tif, DIR/run_<r>.h5, DIR/site.toml.
-// hits: what a standing fence recorded. Each block that crosses the line touches it with the motion
+// hits: the record of a built fence. Each block that crosses the line touches it with the motion
 // of the crossing; then it does not cross (stopped), crosses 0.1 s later with half the energy in a
 // panel pushed 100 m (held) or in a broken one (broken), or nothing touches or crosses (pile).
-// objects: a house in the way of box 0, a hut in that of box 2, a shed that nothing reaches;
+// objects: a house in the path of box 0, a hut in that of box 2, a shed that nothing reaches;
 // watched by the runs, or drawn in the site file alone. weight: of each box, events a year.
 // independent: as with solver.blocks = "alone". moving: at the end, all of them. still: the first N
 // boxes, still_runs: all boxes of the first N runs stay where they are. passages=no: the run did

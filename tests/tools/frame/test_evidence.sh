@@ -1,4 +1,5 @@
-# Pages of the evidence are what its files say: a changed value, a changed page and files of two commits are found.
+# Pages of the evidence agree with its files: a changed value, a changed page and files of two
+# commits are found.
 command -v python3 >/dev/null || skip "needs python3"
 evidence() { python3 "$source_dir/tests/studies/evidence.py" check --evidence evidence; }
 anew() {

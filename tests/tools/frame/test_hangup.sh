@@ -1,5 +1,5 @@
 # A line that is cut (SIGHUP) ends a tool as SIGTERM does, also when it is told twice; one that was
-# started to outlive its terminal goes on.
+# started to outlive its terminal continues.
 printf 'hello' >in.txt
 frame-probe in.txt -o new.txt --mode wait 2>err &
 process=$!

@@ -1,5 +1,5 @@
-# Work in progress stands in a folder that nobody else can write into: links that others have laid
-# under names that a tool may take are not followed, and what a killed tool left goes.
+# Work in progress is in a folder that nobody else can write into: links that other users have laid
+# under names that a tool may take are not followed, and files of a killed tool are removed.
 host=$(uname -n)
 printf hello >in.txt
 echo precious >mine
@@ -19,12 +19,12 @@ expect 0 frame-probe in.txt -o out.txt --second two.txt --no-db
 [ "$(cat mine)" = precious ] || fail "a link was followed: $(cat mine)"
 [ ! -L out.txt ] && [ ! -L two.txt ] && cmp in.txt out.txt || fail "an output is a link"
 find . -name '.*.part-*' -delete
-# an output that is a link is replaced, not what it leads to
+# an output that is a link is replaced, not its target
 ln -s mine led.txt
 expect 0 frame-probe in.txt -o led.txt --overwrite --no-db
 [ "$(cat mine)" = precious ] && [ ! -L led.txt ] || fail "an output was written through a link"
 
-# the folder is closed to others
+# the folder is closed to other users
 (umask 002 && exec frame-probe in.txt -o shared.txt --mode wait --no-db) 2>/dev/null &
 process=$!
 n=0

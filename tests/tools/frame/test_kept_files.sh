@@ -1,4 +1,4 @@
-# No output takes the place of a file that is read or that the site file names, by whatever name.
+# No output takes the place of a file that is read or that the site file names, under any name.
 printf hello >in.txt
 kept() { [ "$(cat "$1")" = "$2" ] || fail "$1 holds $(cat "$1")"; nothing_left; }
 ln -s in.txt link.txt
@@ -14,7 +14,7 @@ expect 2 frame-probe in.txt -o new.txt --db hard.txt --overwrite
 says "hard.txt: is both an input and an output"
 kept in.txt hello
 
-# what formats keep beside it
+# files that formats keep beside it
 printf where >in.prj
 for name in in.prj in.txt.aux.xml in.txt-wal; do
   expect 2 frame-probe in.txt -o "$name" --overwrite
@@ -24,7 +24,8 @@ kept in.prj where
 expect 0 frame-probe in.txt -o in.json --no-db
 expect 0 frame-probe in.txt -o other.prj --no-db
 
-# what the site file names: files that this tool reads, that it does not, with a layer, in an archive
+# files that the site file names: those that this tool reads, that it does not, with a layer, in an
+# archive
 command -v gdal_translate >/dev/null || skip "needs gdal-bin"
 awk 'BEGIN { print "ncols 24\nnrows 24\nxllcenter 500000\nyllcenter 5200000\ncellsize 2"
   for (r = 0; r < 24; r++) { line = ""; for (c = 0; c < 24; c++) line = line " " 100 - r; print line } }' >slope.asc

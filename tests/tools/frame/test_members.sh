@@ -34,7 +34,7 @@ one=$(id_of all.vrt)
 sed 's/116/119/' dem.asc >higher.asc
 gdal_translate -q -ot Float64 -a_srs EPSG:32633 higher.asc part.tif
 [ "$(id_of all.vrt)" != "$one" ] || fail "another source of a virtual raster makes no other run"
-# a virtual raster of a virtual raster: what counts is the source at the end
+# a virtual raster of a virtual raster: the source at the end counts
 gdalbuildvrt -q whole.vrt all.vrt
 one=$(id_of whole.vrt)
 gdal_translate -q -ot Float64 -a_srs EPSG:32633 dem.asc part.tif

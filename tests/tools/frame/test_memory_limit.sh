@@ -1,5 +1,5 @@
-# Memory is asked for before it is taken: what is beyond --memory-mb is refused with what was asked
-# for, what there is, and a way out, and leaves nothing.
+# Memory is asked for before it is taken: a need beyond --memory-mb is refused with the memory asked
+# for, the limit, and a remedy, and leaves nothing.
 lacks() { # lacks WORDS HINT COMMAND...
   words=$1 hint=$2
   shift 2

@@ -1,4 +1,4 @@
-# Nothing reaches out: a file of a stranger asks no other machine, whatever it names.
+# Nothing reaches out: a foreign file asks no other machine, with any names in it.
 # --allow-network lets it.
 command -v python3 >/dev/null || skip "needs python3"
 cat >listener.py <<'END'

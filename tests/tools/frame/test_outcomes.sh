@@ -1,4 +1,4 @@
-# Every way to end gives its exit code, its words, and either whole outputs or none.
+# Every kind of end gives its exit code, its words, and either whole outputs or none.
 printf 'hello' >in.txt
 
 expect 0 frame-probe in.txt -o out.txt --second two.txt

@@ -1,4 +1,4 @@
-# What a program can read of a tool that works: lines or objects, also where there is no terminal, that
+# Messages of a working tool for programs: lines or objects, also without a terminal, that
 # begin at once and end with all done; messages as objects.
 command -v python3 >/dev/null || skip "needs python3"
 printf 'hello' >in.txt
@@ -16,7 +16,7 @@ for form in auto none; do
 done
 expect 2 frame-probe in.txt -o a.txt --progress=loud
 
-# one that takes its time, seen while it goes on
+# one that takes its time, seen while it runs
 : >lines
 frame-probe in.txt -o b.txt --mode wait --progress=json --label run_7 2>lines &
 process=$!
@@ -36,7 +36,8 @@ assert shares[0] == 0 and shares == sorted(shares) and shares[-1] > 0, shares
 assert all(line["label"] == "run_7" for line in lines)
 assert "eta_s" not in lines[0] and all(isinstance(line.get("eta_s", 0), int) for line in lines)
 assert any("eta_s" in line for line in lines) or shares[-1] <= 0.02
-# the rest takes as long a share as what is done: the time so far, of which eta_s speaks, only grows
+# the rest takes time in proportion to the finished part: the time so far, of which eta_s speaks,
+# only grows
 told = [(line["progress"], line["eta_s"]) for line in lines if "eta_s" in line]
 assert all(eta > 0 for share, eta in told), told
 for (share, eta), (next_share, next_eta) in zip(told, told[1:]):
@@ -90,7 +91,7 @@ expect 0 frame-probe in.txt -o f.txt --messages=json
 objects err >found
 grep -q "'progress': 1.0" found || fail "with messages as objects progress is one, too: $(cat err)"
 
-# they are no settings of a run
+# they are not settings of a run
 frame-probe in.txt -o g.txt --json --no-db --messages=json --progress=json >one 2>err
 frame-probe in.txt -o g.txt --json --no-db --overwrite >two 2>err
 cmp one two || fail "how a tool speaks makes another run of it"

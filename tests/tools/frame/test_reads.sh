@@ -1,13 +1,13 @@
-# A tool opens what it uses and nothing else: --version no file at all, a run its inputs and outputs
-# and what the libraries need for them.
+# A tool opens the files that it uses and nothing else: --version no file at all, a run its inputs
+# and outputs and files that the libraries need for them.
 command -v cc >/dev/null || skip "there is no C compiler"
 if readelf -Ws "$(command -v talus-dda)" 2>/dev/null | grep -q '__[at]san_init'; then
   skip "sanitizers want to be loaded first"
 fi
 cc -shared -fPIC -O1 -o log_reads.so "$source_dir/tests/tools/log_reads.c" -ldl
 
-# opens COMMAND...: what it opened, without what the C library and HDF5 ask of the machine and
-# the empty file that PROJ reads in place of proj.ini
+# opens COMMAND...: the files that it opened, without those that the C library and HDF5 ask of the
+# machine and the empty file that PROJ reads in place of proj.ini
 opens() {
   : >log
   LD_PRELOAD=$work/log_reads.so LOG_READS=$work/log expect 0 "$@"
@@ -24,7 +24,7 @@ make_terrain
 make_site
 : >beside.csv # named by nothing
 
-# reads "NAME..." OUTPUTS COMMAND...: that it opened these, what it writes (a pattern), the registry,
+# reads "NAME..." OUTPUTS COMMAND...: that it opened these, its outputs (a pattern), the registry,
 # PROJ's database, the tilings that GDAL knows when it makes a GeoPackage, and nothing else
 reads() {
   names=$1

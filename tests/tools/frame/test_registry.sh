@@ -1,4 +1,4 @@
-# What was run, with what, and how it ended, stands in the registry; and odd names hurt nobody.
+# Runs, their inputs and outcomes are in the registry; and odd names do no harm.
 printf 'hello' >"it's a \"file\" ü.txt"
 expect 0 frame-probe "it's a \"file\" ü.txt" -o out.txt --factor-m 2 --json
 id=$(sed -n 's/.*"run_id": "\(.*\)".*/\1/p' out)

@@ -1,9 +1,9 @@
-# A registry that cannot be written when a tool ends costs no output: the entry stands beside it, and
-# is entered later.
+# A registry that cannot be written when a tool ends costs no output: the entry is kept beside it,
+# and is entered later.
 command -v python3 >/dev/null || skip "needs python3"
 printf 'hello' >in.txt
 
-# start OUTPUT: a run that has its row and goes on while there is a file `hold`
+# start OUTPUT: a run that has its row and continues while a file `hold` exists
 start() {
   touch hold
   frame-probe in.txt -o "$1" --mode hold --db r.sqlite 2>err &
@@ -27,7 +27,7 @@ n_rows() {
   if grep -q running out; then fail "a run seems to go on: $(cat out)"; fi
 }
 
-# it is no registry any more
+# it is not a registry any more
 start one.txt
 rm -f r.sqlite r.sqlite-*
 echo 'not a database, and longer than the header of one: ................................................' >r.sqlite

@@ -1,5 +1,6 @@
-# Reading a registry needs no right to write: another user's, in a closed folder, with what a killed process left in
-# its journal. And what one of a group made the others may write.
+# Reading a registry needs no right to write: another user's, in a closed folder, with the rest of a
+# killed process in its journal. And the members of a group may write a registry that one of them
+# made.
 command -v python3 >/dev/null || skip "needs python3"
 printf 'hello' >in.txt
 mkdir kept 'left ?#over'

@@ -1,5 +1,5 @@
-# A registry of another user, or in a folder without rights, costs no output: the entry stands beside
-# it where it may, else it is said to be lost.
+# A registry of another user, or in a folder without rights, costs no output: the entry is kept
+# beside it where it may, else it is said to be lost.
 printf 'hello' >in.txt
 mkdir kept
 expect 0 frame-probe in.txt -o first.txt --db kept/r.sqlite

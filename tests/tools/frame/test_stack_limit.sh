@@ -1,4 +1,4 @@
-# A stack that is too small is refused in words, before any work; the way out is tried.
+# A stack that is too small is refused in words, before any work; the remedy is tried.
 designed=$source_dir/sample_sites/designed
 for kilobytes in 64 256 1023; do
   (ulimit -S -s $kilobytes && expect 1 talus-blocks "$designed/site.toml" --trn no.tif -o out.h5 --no-db) || exit 1

@@ -1,5 +1,5 @@
-# Standard output closed or full: the outputs stand, and the exit code says that the result was not
-# read. With standard error closed no message goes into a file that is being written.
+# Standard output closed or full: the outputs are in place, and the exit code says that the result
+# was not read. With standard error closed no message goes into a file that is being written.
 printf 'hello' >in.txt
 [ -e /dev/full ] || skip "needs /dev/full"
 same() { cmp in.txt "$1" || fail "$1 is not what was to be written"; }
@@ -21,7 +21,7 @@ same none.txt
 expect 0 talus-runs list --db r.sqlite
 [ "$(grep -c frame-probe out)" = 2 ] || fail "not two runs: $(cat out)"
 
-# what only prints says so, too
+# options that only print say so, too
 for words in --help --version '--describe json' '-o none.txt --print-config'; do
   frame-probe in.txt $words >/dev/full 2>err && fail "$words: a full standard output is no fault"
   frame-probe in.txt $words >&- 2>err && fail "$words: a closed standard output is no fault"

@@ -1,5 +1,5 @@
-# No byte of a stranger reaches a terminal, a table or JSON raw: neither what steers a terminal nor
-# what is no UTF-8, from names of files, site files and registries.
+# No byte of a stranger reaches a terminal, a table or JSON raw: neither control characters of a
+# terminal nor bytes that are not UTF-8, from names of files, site files and registries.
 command -v gdal_translate >/dev/null || skip "needs gdal-bin"
 command -v python3 >/dev/null || skip "needs python3"
 escape=$(printf '\033')
@@ -45,7 +45,7 @@ expect 0 talus-trn "$old.tif" -o trn.tif --report trn.json --no-db
 clean out err trn.json
 python3 -c 'import json; json.load(open("trn.json"))' || fail "no JSON"
 
-# words of a site file: names, values, keys, in the file and in what --print-config shows
+# words of a site file: names, values, keys, in the file and in the output of --print-config
 n=0
 for lines in '[ground."a\u001b]0;title\u0007\u001b[2Jb"]' '[blocks.a]\nfile = "\u001b[31mnone.obj"' \
   '[blocks.a]\nshape = "\u202exob"' 'crs = "\u001b[2J"' '"\u001b[2Jfoo" = 3' '[blocks."a\nb"]\nshape = "box"'; do

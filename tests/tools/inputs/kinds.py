@@ -290,7 +290,7 @@ END = '[material.rock]\n[solver]\nduration_s = 0.1\n'
 
 
 def run(text, expected, code=CODE, encoding='utf-8', tool='talus-dda'):
-    """A site on trn.tif: its run or its blocks end well and say nothing of it, or say what is expected."""
+    """A site on trn.tif: its run or its blocks end well and do not mention it, or say the expected words."""
     with open('s.toml', 'w', encoding=encoding) as file:
         file.write(SITE.format(code=code) + text)
     status, out, err = call(['talus-blocks', 's.toml', '--trn', 'trn.tif', '-o', 'b.h5', '--no-db', '--overwrite'])

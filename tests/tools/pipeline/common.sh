@@ -25,7 +25,7 @@ same() {
   diff -r -q --exclude='runs.sqlite*' --exclude=.digests --exclude=.lock --exclude='.*.part-*' "$1/out" "$2/out" >differences ||
     { cat differences >&2; fail "the outputs of $1 and $2 differ"; }
 }
-# same_results FOLDER FOLDER: as `same`, but for what shards leave: their registries and parts
+# same_results FOLDER FOLDER: as `same`, but for files that shards leave: their registries and parts
 same_results() {
   diff -r -q -x 'runs.sqlite*' -x .digests -x .lock -x shards -x parts -x ensemble.json -x '.*.part-*' "$1/out" "$2/out" >differences ||
     { cat differences >&2; fail "the results of $1, by shards, and of $2, by one make, differ"; }

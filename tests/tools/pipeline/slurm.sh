@@ -5,7 +5,7 @@ for program in munged slurmctld slurmd sbatch squeue scontrol scancel sinfo sets
   command -v $program >/dev/null || skip "needs $program (Debian packages slurm-wlm and munge)"
 done
 
-# The folder is short, since names of sockets are, and closed to others, as munged wants it.
+# The folder is short, since names of sockets are, and closed to other users, as munged wants it.
 start_slurm() {
   cluster=$(mktemp -d /tmp/talus-slurm.XXXXXX)
   trap stop_slurm EXIT
@@ -25,7 +25,7 @@ start_slurm() {
   $as_munge munged --key-file="$cluster/munge/munge.key" --socket="$cluster/socket/munge.socket" \
     --pid-file="$cluster/munge/munged.pid" --log-file="$cluster/munge/munged.log" --seed-file="$cluster/munge/seed" ||
     fail "munged does not start"
-  # Ports of this process: several tests may go on at once.
+  # Ports of this process: several tests may run at once.
   port=$((20000 + $$ % 20000))
   for node in n1 n2 n3; do mkdir "$cluster/$node"; done
   cat >"$cluster/slurm.conf" <<END

@@ -1,5 +1,5 @@
-# A height of a contour map that cannot be, and that the user accepts: make goes on from the contours to
-# the maps, and every file says what was accepted.
+# A height of a contour map that cannot be, and that the user accepts: make continues from the
+# contours to the maps, and every file names the accepted doubt.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v ogrinfo >/dev/null || skip "needs gdal-bin"
 site doubt

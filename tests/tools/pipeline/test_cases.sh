@@ -1,5 +1,5 @@
-# Cases stand side by side, what each run drew is in the run table, and a fence without capacity is
-# called a wall below its numbers.
+# Cases are side by side, the drawn values of each run are in the run table, and a fence without
+# capacity is called a wall below its numbers.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v python3 >/dev/null || skip "needs python3"
 site slope
@@ -31,7 +31,7 @@ assert '2 of 2' in page and '0 of 2' in page and 'mass that moved more than 1 m'
 assert page.count('the fence is a rigid wall') >= 2, page.count('the fence is a rigid wall')
 PY
 
-# Maps of each case stand side by side, in one window.
+# Maps of each case are side by side, in one window.
 python3 - <<'PY' || fail "maps of the cases are not side by side"
 page = open('slope/out/report.html').read()
 for words in 'Maps case by case', 'maps/far/reach.tif', 'maps/near/ke_total.tif', 'All cases together, by their weights':

@@ -1,4 +1,5 @@
-# make looks before it runs: what cannot be meant ends it with a page, each time, until it is accepted.
+# make looks before it runs: an implausible site ends it with a page, each time, until it is
+# accepted.
 . "$source_dir/tests/tools/pipeline/common.sh"
 site slope
 made slope check

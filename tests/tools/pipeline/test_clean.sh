@@ -1,4 +1,4 @@
-# `make clean` removes what the pipeline made, all of it, and nothing else.
+# `make clean` removes all files of the pipeline, and nothing else.
 . "$source_dir/tests/tools/pipeline/common.sh"
 site slope
 made slope -j2 RUNS=2 DDA_FLAGS='--set output.checkpoint_interval_s=0.01'
@@ -24,7 +24,7 @@ echo 'no TOML' >slope/site.toml
 made slope clean
 [ ! -e slope/out ] || fail "slope/out was left: $(find slope/out)"
 
-# a file that the site file names stays, whatever its name and however it is spelt there
+# a file that the site file names stays, under any name and spelling
 site kept
 made kept terrain
 for name in fence.gpkg blocks.gpkg runout.gpkg trace.gpkg hazard.json; do echo mine >kept/out/$name; done
@@ -45,7 +45,7 @@ prints "left in out: blocks.gpkg fence.gpkg runout.gpkg"
 mine
 mine" ] || fail "left: $(ls kept/out)"
 
-# folders of others
+# foreign folders
 mkdir mine
 echo precious >mine/notes.txt
 echo precious >mine/report.html
@@ -59,7 +59,7 @@ expect 2 make -C other BIN= OUT=../mine
 says "../mine/report.html was not made by the pipeline"
 [ "$(cat mine/report.html)" = precious ] || fail "a file of mine was replaced"
 
-# the site's own folder, by any name, and folders that hold what the site is made from
+# the site's own folder, by any name, and folders that hold inputs of the site
 ln -s other alias
 for out in . ./ ../other ../alias/ "$PWD/other" "$PWD/mine/../alias"; do
   for goal in clean terrain; do

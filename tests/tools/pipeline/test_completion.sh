@@ -1,6 +1,6 @@
 # Completion offers a tool's options, choices and sub-commands.
 command -v bash >/dev/null || skip "needs bash"
-# complete WORDS...: what is offered for the last word
+# complete WORDS...: the completions of the last word
 offered() {
   bash -c 'source "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _talus; printf "%s\n" "${COMPREPLY[@]}"' \
     "$source_dir/share/bash-completion/talus" "$@" >out

@@ -1,5 +1,5 @@
 # A dam of the site: make burns it into the terrain before blocks are cut, anew when it changes, and
-# the report says what comes to it.
+# the report gives the arrivals at it.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v gdal_translate >/dev/null || skip "needs gdal-bin"
 awk 'BEGIN { print "ncols 60\nnrows 80\nxllcorner 650000\nyllcorner 5200000\ncellsize 2\nNODATA_value -9999"

@@ -1,7 +1,7 @@
-# A stage is repeated when what it reads has changed, and not else.
+# A stage is repeated when its inputs have changed, and only then.
 . "$source_dir/tests/tools/pipeline/common.sh"
-# Every section is read by a stage; where stages read single keys, none is forgotten. What [site]
-# holds else stands in the report alone.
+# Every section is read by a stage; where stages read single keys, none is forgotten. The rest of
+# [site] is in the report alone.
 reference=$source_dir/docs/reference/site-file.md stages=$source_dir/libcore/site/stages.cpp
 for section in $(sed -n 's/^### \[\([a-z_]*\).*/\1/p' "$reference" | sort -u); do
   if grep -q "[{ ]\"$section\"" "$stages" || [ "$section" = site ]; then continue; fi

@@ -1,7 +1,7 @@
-# A run that fails stops no other: what can be made is made, make lists what failed and why, and ends
+# A run that fails stops no other: the rest is made, make lists failed runs and why, and ends
 # with an error; made again it computes nothing that would fail the same.
 . "$source_dir/tests/tools/pipeline/common.sh"
-# failing ARGUMENTS...: make makes what it can and ends with an error
+# failing ARGUMENTS...: make makes all that it can and ends with an error
 failing() { expect 2 make -C slope BIN= WITHOUT=no "$@"; }
 n_runs() { grep -c '"run_id"' slope/out/runout.json; }
 site slope
@@ -51,7 +51,7 @@ grep -q 'Runs missing: 2\.</b>' slope/out/report.html || fail "the report does n
 made slope -j2 WITHOUT=no RUNS=4
 if grep -q 'N_MISSING' slope/out/runout.json; then fail "runs are missing that are there"; fi
 
-# what an earlier make left is not taken for the run that was killed
+# files of an earlier make are not taken for the run that was killed
 sed -i 's/^friction_deg = 25/friction_deg = 26/' slope/site.toml
 broken RUNS=2 maps runout
 says "1 of 2 runs failed:"

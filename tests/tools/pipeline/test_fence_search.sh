@@ -1,4 +1,5 @@
-# make fence-search: runs are screened, proposals stand in other runs, the report says both; clean takes all away.
+# make fence-search: runs are screened, proposals are tried in other runs, the report says both;
+# clean takes all away.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v talus-fence-search >/dev/null || skip "needs the tools of this checkout"
 mkdir s

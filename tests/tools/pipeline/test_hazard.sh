@@ -1,4 +1,4 @@
-# Goals hazard and trace: what the report and the project show of them; clean takes all of it away.
+# Goals hazard and trace: their parts of the report and of the project; clean takes all of it away.
 . "$source_dir/tests/tools/pipeline/common.sh"
 site slope
 made slope RUNS=2 hazard
@@ -47,7 +47,7 @@ made slope RUNS=2 check
 sed -i 's/^min_area_m2 = .*/min_area_m2 = 60/' slope/own.toml
 made slope RUNS=2 -n check
 prints talus-check
-# what cannot be filed is refused before the runs
+# a map that cannot be filed is refused before the runs
 sed -i 's/^namespace = .*/namespace = "ti.ch"/' slope/site.toml
 expect 2 make -C slope BIN= RUNS=2 check
 says 'hazard.namespace: is of a canton, and the terrain is in EPSG:32633'

@@ -1,5 +1,5 @@
-# A site file from elsewhere cannot make the pipeline run a command: what make or the shell would
-# take for one is quoted or refused.
+# A site file from elsewhere cannot make the pipeline run a command: text that make or the shell
+# would take for one is quoted or refused.
 . "$source_dir/tests/tools/pipeline/common.sh"
 # refused SECTION KEY VALUE: talus-site ends with 1 and names the cause; nothing was run
 refused() {
@@ -28,7 +28,7 @@ says "a key of 60001 parts"
 printf '[site] # %s\nname = "%s"\n' "$(head -c 3000 /dev/zero | tr '\0' .)" "$(head -c 3000 /dev/zero | tr '\0' .)" >dots.toml
 expect 0 talus-site dots.toml -o dots --no-db
 
-# a name and a layer may hold what they like, and files blanks and letters of any alphabet
+# a name and a layer may hold any characters, and files blanks and letters of any alphabet
 site odd
 mv odd/contours.gpkg "odd/Höhen linien #1.gpkg"
 sed -i -e "s/^name = .*/name = \"\$(shell touch hurt)'\"/" -e 's/^contours = .*/contours = "Höhen linien #1.gpkg"/' odd/site.toml

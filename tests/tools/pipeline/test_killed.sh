@@ -1,4 +1,5 @@
-# make that is killed at any moment leaves nothing half-made: the next one goes on to the same bytes.
+# make that is killed at any moment leaves nothing half-made: the next one continues to the same
+# bytes.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v setsid >/dev/null || skip "needs setsid"
 site whole
@@ -14,8 +15,9 @@ done
 made killed -j2
 same whole killed
 
-# a make that is asked to end passes it on: its run writes a checkpoint, and the next make goes on.
-# A run that has not come to its first step has nothing to keep: on a busy machine it gets longer.
+# a make that is asked to end passes it on: its run writes a checkpoint, and the next make
+# continues. A run that has not come to its first step has nothing to keep: on a busy machine it
+# gets longer.
 site asked
 for pause in 1 4 16 64; do
   make -C asked BIN= WITHOUT=no runs DDA_FLAGS='--set solver.time_step_s=0.00002' >log 2>&1 &

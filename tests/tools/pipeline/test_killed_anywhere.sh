@@ -20,7 +20,7 @@ whole_ms=$(($(date +%s%3N) - begun))
 site killed
 cp whole/site.toml killed
 n_killed=0 groups=
-# What a make that is gone had begun goes on beside the next one.
+# Processes of a make that was killed continue beside the next one.
 for _ in 1 2 3 4; do
   setsid make -C killed BIN= $few -j2 >log 2>&1 &
   group=$!

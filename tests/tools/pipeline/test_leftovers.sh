@@ -1,5 +1,5 @@
-# What is left from an earlier site file or from other runs is not shown: the report and the project
-# hold what a folder without leftovers would, and say what they left out.
+# Leftovers of an earlier site file or of other runs are not shown: the report and the project
+# are those of a folder without leftovers, and name the files left out.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v gdal_translate >/dev/null || skip "needs gdal-bin"
 command -v unzip >/dev/null || skip "needs unzip"
@@ -12,7 +12,7 @@ shown() {
   grep -o 'alt="[^"]*"\|<h2>[^<]*\|<section id="[a-z]*"\|<tr><td>[A-Z][a-z ]*<' "$1/out/report.html"
   unzip -p "$1/out/site.qgz" | grep -o '<datasource>[^<]*'
 }
-# shows_as_new: the report and the project show what those of a clean folder do
+# shows_as_new: the report and the project equal those of a clean folder
 shows_as_new() {
   site new
   cp slope/site.toml new/site.toml

@@ -1,12 +1,12 @@
-# What starts a tool may lose it and yet end well, as srun does when its node dies: make says which file
-# lacks and ends there; a run that was lost is listed, and made by the next make.
+# The starter of a tool may lose it and yet end well, as srun does when its node dies: make says
+# which file lacks and ends there; a run that was lost is listed, and made by the next make.
 . "$source_dir/tests/tools/pipeline/common.sh"
 mkdir tools
 for tool in "${bin%%:*}"/talus-*; do
   [ -f "$tool" ] || continue
   cat >"tools/${tool##*/}" <<END
 #!/bin/sh
-# the loss of a node: told by what ends well and has done nothing
+# the loss of a node: a starter that ends well and has done nothing
 case " \$* " in *"\${LOSE:-nothing}"*) exit 0 ;; esac
 exec $tool "\$@"
 END

@@ -38,7 +38,7 @@ begun_again 0 "the settings are those of the runs"
 runs RUNS=3
 begun_again 1 "a third one"
 
-# options, those of alternatives, and what is made before the runs
+# options, those of alternatives, and files made before the runs
 runs RUNS=2 DDA_FLAGS='--set ground.slope.friction_deg=31'
 begun_again 2 "another option"
 two='[variant.b]\nweight = 1\n[variant.a]\nweight = 1\nsolver.accuracy'

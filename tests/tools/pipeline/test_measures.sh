@@ -1,4 +1,4 @@
-# A measure is computed with the seeds of the site, takes over what it shares, and is compared.
+# A measure is computed with the seeds of the site, takes over shared parts, and is compared.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v python3 >/dev/null || skip "needs python3"
 site slope

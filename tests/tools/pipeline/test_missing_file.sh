@@ -1,11 +1,11 @@
 # A file that the site file names and that is not there ends make at once, with the key's line; once it
-# is there, make goes on. Data of a manifest are looked for before.
+# is there, make continues. Data of a manifest are looked for before.
 . "$source_dir/tests/tools/pipeline/common.sh"
 site slope
 made slope terrain
 cp slope/site.toml site.toml
 
-# refused KEY: make ends by itself
+# refused KEY: make ends without a signal
 refused() {
   code=0
   timeout 60 make -C slope BIN= terrain >out 2>err || code=$?

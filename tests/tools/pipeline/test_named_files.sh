@@ -1,4 +1,4 @@
-# Files that options name, and those that belong to a Shapefile beside it, are inputs like others.
+# Files that options name, and those that belong to a Shapefile beside it, are inputs like any.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v ogr2ogr >/dev/null || skip "needs gdal-bin"
 site slope

@@ -1,4 +1,5 @@
-# Sources as QGIS and download sites name them stand in a site file, and make follows their files.
+# Sources as QGIS and download sites name them are written in a site file, and make follows their
+# files.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v ogr2ogr >/dev/null || skip "needs gdal-bin"
 site plain

@@ -1,4 +1,4 @@
-# A new site from an elevation model and a polygon, by one command; errors say what is missing.
+# A new site from an elevation model and a polygon, by one command; errors name the missing part.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v gdal_translate >/dev/null || skip "needs gdal-bin"
 gdal_translate -q -ot Float64 -a_srs EPSG:32633 -a_ullr 499996 5200324 500228 5199996 \

@@ -1,4 +1,4 @@
-# What counts of an input is its content, not its time: an older file is seen, a touched one is not.
+# The content of an input counts, not its time: an older file is seen, a touched one is not.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v gdalbuildvrt >/dev/null || skip "needs gdal-bin"
 gdal_translate -q -ot Float64 -a_srs EPSG:32633 -a_ullr 499996 5200324 500228 5199996 \
@@ -97,7 +97,8 @@ replaced map/contours.gpkg "$source_dir/sample_sites/maungawhau/contours.gpkg"
 expect 2 make -C map BIN= terrain
 says "The data of this site are missing or differ"
 
-# results with times of the future, of a clock that was set back: what is changed now is repeated all the same
+# results with times of the future, of a clock that was set back: a stage changed now is repeated
+# all the same
 rm map/manifest.sha256
 cp "$source_dir/sample_sites/designed/contours.gpkg" map/contours.gpkg
 made map terrain

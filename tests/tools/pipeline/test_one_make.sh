@@ -8,8 +8,8 @@ cp slope/site.toml slope/contours.gpkg slope/Makefile beside
 ln -s ../slope/out beside/out
 long='--set solver.time_step_s=0.00001'
 
-# begin ARGUMENTS: a make that goes on for long, as $process, whose run (not what asks for its plan) has begun,
-# as $run_of_make
+# begin ARGUMENTS: a make that runs for long, as $process, whose run (not the query of its plan)
+# has begun, as $run_of_make
 begin() {
   setsid make -C slope BIN= WITHOUT=no RUNS=2 "$@" >log 2>&1 &
   process=$!
@@ -20,7 +20,7 @@ begin() {
     sleep 0.1
   done
 }
-# finished: ends what was begun, with its runs
+# finished: ends the begun make, with its runs
 finished() {
   kill -TERM "$process" 2>/dev/null || true
   wait "$process" 2>/dev/null || true

@@ -1,5 +1,6 @@
-# The designed slope by two recipes of different kind: any rock that comes (Norway), and the risk of who is there. A
-# recipe of risk without who is there is refused before the runs; with it nothing is computed again but what it says.
+# The designed slope by two recipes of different kind: any rock that comes (Norway), and the risk of
+# the people there. A recipe of risk without people is refused before the runs; with it nothing is
+# computed again but what it says.
 . "$source_dir/tests/tools/pipeline/common.sh"
 site slope
 cat >>slope/site.toml <<'TOML'

@@ -1,5 +1,6 @@
-# What shards reduced to parts gives the bytes of one make, report and project included: with cases, fences,
-# objects, places, classes of hazard; and of runs that keep no frames but for a share of them.
+# Runs that shards reduced to parts give the bytes of one make, report and project included: with
+# cases, fences, objects, places, classes of hazard; and of runs that keep no frames but for a share
+# of them.
 . "$source_dir/tests/tools/pipeline/common.sh"
 site slope
 sed -i 's/^duration_s = .*/duration_s = 0.2/' slope/site.toml

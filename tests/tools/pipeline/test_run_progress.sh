@@ -17,7 +17,7 @@ expect 2 make -C slope BIN= RUNS=3 "$@" -j2 runs
 [ "$(said | tr ';' '\n' | wc -l)" -eq 5 ] || fail "said: $(said)"
 
 variants slope ""
-# what the goals need: maps no runs without the fence
+# runs that the goals need: maps no runs without the fence
 made slope maps RUNS=1
 [ "$(said)" = "1 done, 0 failed, 0 to go;" ] || fail "said: $(said)"
 [ ! -e slope/out/without ] || fail "maps made runs without the fence"

@@ -1,6 +1,6 @@
 # Runs in shards: together they are the runs of `make runs`, with one registry; a shard makes nothing
-# that others read, and brings its runs together in a part, from which results have the same bytes.
-# What parts count: tests/tools/talus-batch/test_parts.sh
+# that other shards read, and brings its runs together in a part, from which results have the same
+# bytes. The counts of parts: tests/tools/talus-batch/test_parts.sh
 . "$source_dir/tests/tools/pipeline/common.sh"
 few='RUNS=5 WITHOUT=no'
 # shard NUMBER ARGUMENTS...
@@ -20,7 +20,7 @@ refused() {
 site slope
 sed -i 's/^duration_s = .*/duration_s = 0.1/' slope/site.toml
 
-# what a shard needs is made before, by one make
+# inputs of a shard are made before, by one make
 refused "a shard makes runs alone: make prepare" SHARD=1 SHARDS=2 runs-shard
 made slope $few prepare
 prints "runs: 5 to make"
@@ -63,7 +63,7 @@ says "2-of-2.sqlite: the run registry cannot be used"
 [ -s slope/out/maps/reach.tif ] || fail "no map for the sake of a log"
 rm slope/out/shards/*.sqlite
 
-# another site file: not made by a shard; another seed range: only what lacks
+# another site file: not made by a shard; another seed range: only missing runs
 cp slope/site.toml kept.toml
 sed -i 's/^spacing_m = 7.8/spacing_m = 7.9/' slope/site.toml
 refused "is to be made again, and a shard makes runs alone" SHARD=1 SHARDS=2 runs-shard
@@ -71,7 +71,7 @@ cp kept.toml slope/site.toml
 made slope RUNS=6 WITHOUT=no prepare
 prints "runs: 1 to make"
 
-# what cannot be meant
+# contradictions
 refused "runs-shard needs SHARDS" runs-shard
 refused "SHARD goes with the goal runs-shard" SHARDS=2 runs-shard
 refused "is 3/2, expected K/N" SHARD=3 SHARDS=2 runs-shard

@@ -1,5 +1,5 @@
-# Layers of a site.gpkg stand for sections of the site file: the same results, and an edited fence is
-# taken up by make and repeats what knows fences.
+# Layers of a site.gpkg define sections of the site file: the same results, and an edited fence is
+# taken up by make and repeats the stages that read fences.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v ogr2ogr >/dev/null || skip "needs gdal-bin"
 edit() { ogrinfo -q "$1/site.gpkg" -sql "$2" >edited 2>&1 || { cat edited >&2; fail "cannot edit: $2"; }; }
@@ -69,7 +69,7 @@ edit drawn "INSERT INTO places (geom, name) SELECT geom, 'school' FROM source"
 made drawn -n runs
 if grep -q '^talus-blocks' out; then fail "a place cuts the blocks again"; fi
 
-# what cannot be meant
+# contradictions
 stages() { talus-site drawn/site.toml -o stages --overwrite --no-db; }
 edit drawn "INSERT INTO fences (geom) SELECT geom FROM fences WHERE name = 'valley'"
 expect 1 stages

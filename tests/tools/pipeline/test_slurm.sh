@@ -1,9 +1,10 @@
 # make submit on a Slurm of three nodes: 12 seeds in 3 shards; the node of one dies on the way, another
-# one reaches its time limit. Sent again, only what lacks is computed, and all that is made has the bytes
-# of make -j2.
+# one reaches its time limit. Sent again, only missing runs are computed, and all outputs have the
+# bytes of make -j2.
 . "$source_dir/tests/tools/pipeline/common.sh"
 . "$source_dir/tests/tools/pipeline/slurm.sh"
-# Runs 4 (of shard 1) and 6 (of shard 3) stop on the way, at a checkpoint, while there is a folder `hold`.
+# Runs 4 (of shard 1) and 6 (of shard 3) stop on the way, at a checkpoint, while a folder `hold`
+# exists.
 mkdir tools hold
 for tool in "${bin%%:*}"/talus-*; do [ ! -f "$tool" ] || ln -s "$tool" tools; done
 rm tools/talus-dda
@@ -72,7 +73,7 @@ for shard in 2 3; do
   [ -s slope/out/parts/$shard-of-3.h5 ] || fail "shard $shard made no part"
 done
 
-# what lacks
+# missing runs
 sent -n
 prints "--array=1 "
 sent

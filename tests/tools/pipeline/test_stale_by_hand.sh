@@ -1,5 +1,5 @@
-# A report that is called by hand beside the registry: it leaves out what it knows from other work, and
-# names inputs that hold something else by now.
+# A report that is called by hand beside the registry: it leaves out files that it knows from other
+# work, and names inputs that have changed since.
 . "$source_dir/tests/tools/pipeline/common.sh"
 site slope
 cat >slope/fence.geojson <<'END'

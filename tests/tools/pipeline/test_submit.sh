@@ -1,5 +1,5 @@
-# What make submit hands to Slurm, seen by stand-ins for its commands: the shards that lack runs, the
-# variables that make was given, options word for word, the last job after the others.
+# Jobs that make submit hands to Slurm, seen by stand-ins for its commands: the shards that lack
+# runs, the variables that make was given, options word for word, the last job after the rest.
 . "$source_dir/tests/tools/pipeline/common.sh"
 mkdir stand_in
 cat >stand_in/sbatch <<'END'
@@ -29,7 +29,7 @@ mkdir "a slope"
 site "a slope"
 variants "a slope" '[variant.low]\nweight = 1\nsolver.accuracy = 0.006\n[variant.as_it_is]\nweight = 1'
 
-# what would be sent, and nothing is
+# the jobs that would be sent are listed, and none is sent
 expect 0 make -C "a slope" BIN= -n "$@" SBATCH_FLAGS='-A acc -t 240' submit
 prints "--array=1-2 "
 prints " -A acc -t 240 "
@@ -60,7 +60,7 @@ carry_out 101 2
 talus-runs --db "a slope/out/shards/2-of-2.sqlite" list | grep -qF 'site.description=a $5 slope; or two' ||
   fail "a variable came another way to the job"
 
-# what lacks
+# missing runs
 expect 0 make -C "a slope" BIN= "$@" submit
 prints "job 103: shards 1 of 2"
 has 103 --array=1

@@ -1,4 +1,4 @@
-# One command over the tools: what it starts, what it lists, and what it refuses.
+# One command over the tools: the tools it starts, its lists, and its refusals.
 . "$source_dir/tests/tools/pipeline/common.sh"
 talus=${bin%%:*}/talus
 expect 0 "$talus" help
@@ -25,7 +25,7 @@ says "new takes a folder, the ground"
 "$talus" tin absent.gpkg -o a.ply 2>err && fail "an absent file was taken"
 says "absent.gpkg"
 
-# A folder that holds only site.toml and what it names; the place is no matter.
+# A folder that holds only site.toml and its files; the place does not matter.
 mkdir "a site"
 cp "$source_dir"/sample_sites/designed/* "a site"
 rm "a site/Makefile"

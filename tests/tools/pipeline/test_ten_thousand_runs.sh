@@ -1,4 +1,4 @@
-# Ten thousand runs: make parts them in jobs, and knows within seconds what there is to do.
+# Ten thousand runs: make splits them into jobs, and knows within seconds which are missing.
 . "$source_dir/tests/tools/pipeline/common.sh"
 site slope
 many='RUNS=10000 WITHOUT=no'

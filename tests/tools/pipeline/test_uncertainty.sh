@@ -1,4 +1,4 @@
-# Runs draw what [uncertainty] says: the same whoever asks, in whatever order, with more runs or with
+# Runs draw by [uncertainty]: the same values for any caller, in any order, with more runs or with
 # fewer. Rock masses are cut anew, and runs on different beds are evaluated together. Places say how
 # many runs are lacking, and RUNS=auto makes them.
 . "$source_dir/tests/tools/pipeline/common.sh"
@@ -39,7 +39,7 @@ prints "2 rock masses, each cut anew"
 stat -c %Y slope/out/runs/run_1.h5 >before
 made slope WITHOUT=no RUNS=4
 [ "$(stat -c %Y slope/out/runs/run_1.h5)" = "$(cat before)" ] || fail "a run was made again for more runs"
-# the other way round, in another folder, by hand
+# in reverse order, in another folder, by hand
 uncertain other
 made other WITHOUT=no RUNS=1 SEED=4 runs
 made other -j2 WITHOUT=no RUNS=4
@@ -53,7 +53,7 @@ for seed, r in rows.items():
     assert int(float(r['sample'])) == seed and int(float(r['rock_mass'])) == (seed - 1) % 2 + 1, r
     ground, rock = float(r['ground.slope.friction_deg']), float(r['material.rock.friction_deg'])
     assert abs(ground - rock) < 1e-6 and abs(ground - 25) < 8, r    # 25 and 25, moved together
-    assert abs(float(r['friction_deg.slope']) - ground) < 1e-5, r   # what the run computed with
+    assert abs(float(r['friction_deg.slope']) - ground) < 1e-5, r   # as the run computed
 frictions = {r['ground.slope.friction_deg'] for r in rows.values()}
 spacings = [float(rows[s]['joints.rear.spacing_m']) for s in (1, 2, 3, 4)]
 assert len(frictions) == 4, frictions

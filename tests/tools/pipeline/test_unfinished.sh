@@ -1,5 +1,5 @@
-# A run that fails its health gives a report that says so, and make ends with an error; what is wrong
-# with a command still ends it.
+# A run that fails its health gives a report that says so, and make ends with an error; a fault of
+# a command still ends it.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v unzip >/dev/null || skip "needs unzip"
 site slope
@@ -11,5 +11,5 @@ grep -q '<b>1 of 1 run</b><span>did not move' slope/out/report.html || fail "not
 unzip -p slope/out/site.qgz >project
 grep -q '<title>designed: rockslide hazard (1 of 1 run failed its numerical checks)</title>' project || fail "the project is not marked"
 [ "$(grep -c '<abstract>1 of 1 run failed its numerical checks$' project)" -gt 15 ] || fail "layers of the project are not marked"
-# what is wrong with the command still ends it
+# a fault of the command still ends it
 expect 2 make -C slope BIN= DDA_FLAGS=--no-such-option

@@ -1,4 +1,5 @@
-# Variables that make is given are looked at before anything runs: what was found, what is expected.
+# Variables that make is given are checked before anything runs: the messages say the value found
+# and the one expected.
 . "$source_dir/tests/tools/pipeline/common.sh"
 site "a slope"
 mkdir "a slope/2" "a slope/out"
@@ -17,14 +18,14 @@ for goal in clean all; do
   refused "OUT is out;rm, expected the name of a folder without ;" OUT="out;rm" $goal
 done
 refused "WITHOUT is 'maybe', expected yes or no" WITHOUT=maybe
-# what talus-batch is given
+# variables for talus-batch
 wrong() {
   expect 2 make -C "a slope" BIN= "$@"
   says "The runs cannot be made, see above: what is wrong with RUNS"
 }
 for runs in abc 0 -2 1.5 "1 2"; do wrong RUNS="$runs" && says "is $runs, expected a whole number"; done
 for seed in abc -2; do wrong SEED="$seed"; done
-# what took the place of cases
+# variables that replaced cases
 expect 2 make -C "a slope" BIN= CASES='low high' WEIGHTS='low=1 high=3' CASE_low='--set ground.slope.friction_deg=24' \
   CASE_high='--set solver.friction=weakening'
 prints '[variant.low]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Executes the Python of a page, and compares what it reads of the runs of a folder with closed forms.
+"""Executes the Python of a page, and compares its values of the runs of a folder with closed forms.
 
   run_page.py PAGE.md FOLDER
 

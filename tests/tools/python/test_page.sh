@@ -35,7 +35,7 @@ else
   echo "The lines in R were not executed: they need r-base-core and r-bioc-rhdf5."
 fi
 
-# what is no run is refused with its name
+# a file that is not a run is refused with its name
 PYTHONPATH=$source_dir/python expect 1 $python -c 'import talus; talus.open_run("site/out/blocks.h5")'
 says "site/out/blocks.h5: is of the format talus-blocks, expected talus-run"
 PYTHONPATH=$source_dir/python expect 1 $python -c 'import talus; talus.open_ensemble("site")'

@@ -41,7 +41,7 @@ lost = talus.run(site, *made, "lost.h5", "--no-db", solver__blocks="alone", solv
                  ground__ground__friction_deg=0, solver__max_lost_share=0)
 assert lost.attrs["status"] == "failed" and "left the terrain" in lost.attrs["reason"], lost.attrs["reason"]
 
-# Ctrl-C, and what progress raises: the checkpoint is written, and the run goes on from there
+# Ctrl-C, and exceptions of progress: the checkpoint is written, and the run continues from there
 class Enough(Exception):
     pass
 

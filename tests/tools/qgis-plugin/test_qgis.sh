@@ -1,5 +1,5 @@
 # The plug-in in QGIS without a window: the designed site gives the same bytes as make does, errors are the
-# tool's own, cancel leaves a run that goes on, and without the tools it loads and says so.
+# tool's own, cancel leaves a run that can be resumed, and without the tools it loads and says so.
 . "$source_dir/tests/tools/pipeline/common.sh"
 qgis=$(command -v qgis_process.bin || command -v qgis_process) || skip 'no QGIS here: qgis_process is missing (package qgis)'
 for python in python3 /usr/bin/python3; do
@@ -52,7 +52,7 @@ grep -q 'cell-size-m' both || { cat both >&2; fail "the tool's own words are los
 expect 1 "$qgis" run talus:make_all -- SITE="$PWD/by qgis" VARIABLES="RUNS"
 cat out err | grep -q 'is not NAME=VALUE' || fail "a variable without a value"
 
-# cancel, and go on; layers are loaded with their styles
+# cancel, and resume; layers are loaded with their styles
 cat >check.py <<'PY'
 import os
 import sys
@@ -86,7 +86,7 @@ def run(name, values, cancel_at=None):
     context.setProject(project)
     said = tools.said
 
-    def listen(line):  # to what make says, the progress of single runs with it
+    def listen(line):  # to the messages of make, the progress of single runs with it
         if cancel_at is not None and cancel_at in line:
             feedback.cancel()
         return said(line)

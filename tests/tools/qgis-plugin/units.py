@@ -16,7 +16,7 @@ sys.dont_write_bytecode = True
 
 
 class Stub:
-    """Stands for any class of QGIS: takes everything, keeps what it was made with."""
+    """Replaces any class of QGIS: takes everything, keeps its arguments."""
 
     TypeFile, Double, Integer, Folder, FlagAdvanced, FlagCanCancel = range(6)
 

@@ -1,4 +1,4 @@
-# Cases lie in folders of their own, are weighed, and each is evaluated by itself.
+# Cases lie in folders of their own, are weighed, and each is evaluated alone.
 . "$source_dir/tests/tools/talus-batch/common.sh"
 cp site.toml plain.toml
 # weights SOFT: the alternatives with this weight of one

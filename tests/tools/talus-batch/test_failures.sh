@@ -1,4 +1,4 @@
-# A run that fails stops no other; what became of each is said, and tried again where it may help.
+# A run that fails stops no other; the outcome of each is said, and tried again where it may help.
 . "$source_dir/tests/tools/talus-batch/common.sh"
 stand_in talus-dda <<'END'
 case " $* " in

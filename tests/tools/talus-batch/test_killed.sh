@@ -1,5 +1,6 @@
-# Kills at random moments, of the batch, of a run, of all: nothing is lost, and the next batch goes on to the
-# bytes of one that was left alone. TALUS_SEED=n repeats the choices, TALUS_KILLS=200 does more of them.
+# Kills at random moments, of the batch, of a run, of all: nothing is lost, and the next batch
+# continues to the bytes of one that was left alone. TALUS_SEED=n repeats the choices,
+# TALUS_KILLS=200 does more of them.
 . "$source_dir/tests/tools/talus-batch/common.sh"
 for program in setsid pgrep; do command -v $program >/dev/null || skip "needs $program"; done
 seed=${TALUS_SEED:-$(date +%s)}
@@ -30,7 +31,7 @@ for _ in $(seq "${TALUS_KILLS:-12}"); do
   esac
   [ -z "$victims" ] || { kill -s $signal -- $victims 2>/dev/null && n_killed=$((n_killed + 1)); } || true
   wait $group 2>/dev/null || true
-  # what is there is whole, and readable by everyone
+  # existing files are whole, and readable by everyone
   for run in results/runs/run_*.h5; do
     [ ! -e "$run" ] || cmp "$run" "whole/${run#results/}" || fail "$run is another run"
   done
@@ -44,7 +45,7 @@ rm -f results/runs/.lock whole/runs/.lock results/runs/.*.part* results/runs/*.p
 diff -r results/runs whole/runs || fail "a batch that was killed $n_killed times made something else"
 echo "$n_killed kills"
 
-# a run goes on where it was
+# a run resumes where it was
 rm results/runs/run_1.h5
 talus-batch site.toml --results results --no-db --runs 1 -- --set solver.time_step_s=0.0000001 2>log &
 process=$!

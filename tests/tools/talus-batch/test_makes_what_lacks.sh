@@ -1,4 +1,4 @@
-# Runs are made that are not there, or were made with something else; others are left as they are.
+# Runs that are missing or were made with other inputs are made; the rest is left as it is.
 . "$source_dir/tests/tools/talus-batch/common.sh"
 made_again 3 --runs 3 --jobs 2
 says "runs: 3 done, 0 failed, 0 to go"

@@ -22,7 +22,7 @@ truncate -s -9 results/parts/2-of-2.h5
 expect 0 talus-maps results/runs --trn results/bed.tif -o of_runs --overwrite --no-db || fail "half a part"
 expect 0 batch --runs 5 --part 2/2
 
-# one that was cut off makes no part, and says so; the others are not touched
+# one that was cut off makes no part, and says so; the rest is not touched
 rm results/runs/run_2.h5 results/parts/2-of-2.h5
 stand_in talus-dda <<'END'
 case " $* " in *" --plan "*) ;; *" --seed 2 "*) kill -9 $$ ;; esac

@@ -1,4 +1,4 @@
-# Joints that cannot be meant, with the line of the site file.
+# Implausible joints, with the line of the site file.
 . "$source_dir/tests/tools/talus-blocks/scene.sh"
 make_site
 refused() {

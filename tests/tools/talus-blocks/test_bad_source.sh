@@ -1,4 +1,4 @@
-# Sources that cannot be meant: outside, over nodata, above ground, too small, crossing themselves.
+# Implausible sources: outside, over nodata, above ground, too small, crossing themselves.
 . "$source_dir/tests/tools/talus-blocks/scene.sh"
 make_site
 refused() {

@@ -22,7 +22,7 @@ done
 sed 's/^polygon = .*/polygon_file = "undefined.gpkg"/' site.toml >undefined.toml
 expect 0 talus-blocks undefined.toml --trn trn.tif -o undefined.h5 --no-db --report undefined.json
 [ "$(value undefined.json prism_volume_m3)" = "$a" ] || fail "another volume without a CRS"
-# a GeoJSON without crs says degrees whatever it holds
+# a GeoJSON without crs means degrees for any values
 printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[500012,5200012],[500034,5200012],[500034,5200034],[500012,5200012]]]}}]}' >metres.geojson
 sed 's/^polygon = .*/polygon_file = "metres.geojson"/' site.toml >metres.toml
 expect 1 talus-blocks metres.toml --trn trn.tif -o metres.h5 --no-db

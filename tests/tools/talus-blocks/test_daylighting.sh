@@ -10,7 +10,7 @@ holds "$(value r.json largest_step_at_foot_m) < 0.2"
 holds "$(value r.json largest_depth_m) > 2"
 rm blocks.h5
 
-# Why each set cannot, and what to change.
+# Why each set cannot, and the remedy.
 expect 1 daylighting --set ground.rock.friction_deg=36
 says "no joint set makes a failure surface that daylights at the foot of the source, where the slope dips 40 degrees towards 180"
 says "sliding (35 degrees towards 180) is no steeper than the friction angle of 36 degrees"
@@ -24,7 +24,7 @@ expect 1 talus-blocks bare.toml --trn trn.tif -o blocks.h5 --no-db --set source.
 says 'failure_surface = "daylighting" needs [joints.*]'
 nothing_left blocks.h5
 
-# The friction is that of the ground below the source, whatever holds elsewhere.
+# The friction is that of the ground below the source, independent of the ground elsewhere.
 make_site '[ground.smooth]' 'friction_deg = 20' '[ground.rough]' 'friction_deg = 36' \
   'polygon = [[500010, 5200010], [500036, 5200010], [500036, 5200036], [500010, 5200036]]'
 expect 1 daylighting

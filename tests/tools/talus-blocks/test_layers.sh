@@ -79,7 +79,7 @@ says "500023 5200023"
 says "hint: put its corners in order there; of many polygons: ogr2ogr -makevalid mended.gpkg areas.gpkg"
 ogr2ogr -makevalid mended.gpkg areas.gpkg
 mv mended.gpkg areas.gpkg
-expect 1 cut # two triangles that touch in a point alone are no single area
+expect 1 cut # two triangles that touch in a point alone are not a single area
 says "two outlines of the source area meet"
 
 # release points: the layer is said, two are refused
@@ -102,7 +102,8 @@ says "2 layers hold points, expected one; the layers are: a, b"
 says "hint: put \"|layername=a\" behind the file"
 expect 0 talus-blocks points.toml --trn trn.tif -o other.h5 --no-db --set 'rockfall.a.release_file=points.gpkg|layername=b'
 
-# --- every key that names a vector file takes what the reader takes -------------------------------
+# --- every key that names a vector file takes all that the reader takes
+# -------------------------------
 is_release() { # is_release ARGUMENTS...: the mass is that of the release area
   expect 0 cut "$@"
   holds "($(value out prism_volume_m3) - $volume) ^ 2 < 1e-12"

@@ -1,5 +1,5 @@
 # Settings of GDAL and PROJ that somebody has in the environment, in gdalrc or in proj.ini do not
-# change a byte; what a grid of PROJ says changes the run id.
+# change a byte; the values of a grid of PROJ change the run id.
 . "$source_dir/tests/tools/talus-blocks/scene.sh"
 make_site
 # a raster whose place depends on how it is read, circles as contours, and a source in another zone

@@ -28,7 +28,7 @@ paste -d ' ' f.txt back.txt | awk '
   END { print n_other + 0 >"other.txt"; exit bad }' || fail "blocks came back changed"
 holds "$(cat other.txt) <= $(value r.json n_kept_exact)"
 
-# what other programs leave of the groups is refused or said
+# groups changed by other programs are refused or reported
 name=$(sed -n 's/^g \(block_[0-9]*\)_part_1$/\1/p' blocks.obj | head -n 1)
 awk -v name="$name" '$1 == "o" { is_it = $2 == name; first = n } $1 == "v" { ++n }
   is_it && $1 == "f" { for (i = 2; i <= NF; ++i) $i -= first } is_it' blocks.obj >one.obj

@@ -1,5 +1,5 @@
-# The mass ends at the source polygon: its volume is area times depth whatever the cells are, and
-# what does not look meant is said.
+# The mass ends at the source polygon: its volume is area times depth for any cell size, and
+# odd values are reported.
 . "$source_dir/tests/tools/talus-blocks/scene.sh"
 
 # slope.asc of 20 degrees down to the south, 240 m wide: make_plane CELL

@@ -1,4 +1,4 @@
-# Meshes and shapes: refused when they are no bodies, otherwise set on the ground.
+# Meshes and shapes: refused when they are not bodies, otherwise set on the ground.
 . "$source_dir/tests/tools/talus-blocks/scene.sh"
 placed() { printf '%s\n' '[site]' 'crs = "EPSG:32633"' '[blocks.one]' "$@" >site.toml; }
 cube='v 0 0 0
@@ -74,7 +74,7 @@ printf '%s\n' '[site]' >site.toml
 expect 1 blocks --overwrite
 says "there is no [source], [blocks.*] or [rockfall.*]"
 
-# a hollow body is refused, bodies that stand in each other and below the ground are said to
+# a hollow body is refused, bodies that are inside one another and below the ground are said to
 inner='v 0.25 0.25 0.25
 v 0.75 0.25 0.25
 v 0.75 0.75 0.25

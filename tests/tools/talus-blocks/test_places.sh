@@ -1,4 +1,4 @@
-# Sources, fences and classes whose coordinates cannot be what they say are refused with the way out.
+# Sources, fences and classes whose coordinates contradict their system are refused with the remedy.
 . "$source_dir/tests/tools/talus-blocks/scene.sh"
 make_site
 expect 0 blocks --report here.json
@@ -71,7 +71,7 @@ says "hint: is it the CRS of these coordinates? crs of [site] says so"
 sed 's/^polygon = .*/polygon = [[5200012, 500012], [5200034, 500012], [5200034, 500034], [5200012, 500034]]/' site.toml >other.toml
 expect 1 talus-blocks other.toml --trn trn.tif -o bad.h5 --no-db
 says "with x and y exchanged they would lie in it"
-# an operation is kept in what is said of the layer
+# an operation is kept in the message on the layer
 ogr2ogr -q -f GPKG etrs.gpkg area.gpkg -t_srs EPSG:25833
 sed 's/^polygon = .*/polygon_file = "etrs.gpkg"/' site.toml >other.toml
 expect 0 talus-blocks other.toml --trn trn.tif -o there.h5 --overwrite --report there.json

@@ -82,7 +82,7 @@ done
 cmp first.h5 again_1.h5 || fail 'one sample gives two sets of rocks'
 cmp -s first.h5 again_2.h5 && fail 'another sample draws the same rocks'
 
-# What cannot be meant is refused.
+# Implausible values are refused.
 rocks 'shape = "box"' 'size_m = [1]' 'position_m = [500020, 5200020]' '[solver]' 'blocks = "together"'
 expect 1 blocks --overwrite
 says 'rocks of [rockfall.*] fall one by one'

@@ -1,5 +1,5 @@
-# Boxes that slide straight down a plane, each run by one per cent farther: where observations stand
-# among them has closed forms.
+# Boxes that slide straight down a plane, each run by one per cent farther: the ranks of
+# observations among them has closed forms.
 run-probe . 12 blocks=3 independent=1
 collection() { # collection FILE EPSG FEATURES
   printf '{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:%s"}},"features":[%s]}\n' "$2" "$3" >"$1"
@@ -66,7 +66,7 @@ for a, b in zip(here['boulders']['points'], there['boulders']['points']):
 assert abs(here['outline']['inside_share'] - there['outline']['inside_share']) < 1e-9
 PY
 
-# what cannot be meant
+# implausible observations
 bad() { # bad FILE FEATURES WORDS: a layer in place of the good one
   cp "$1" kept
   collection "$1" 31254 "$2"

@@ -1,5 +1,5 @@
-# A look before the run: volumes, what moves, what stands before the mass, fences, time; what cannot
-# be meant is refused and shown.
+# A look before the run: volumes, moving blocks, rock in front of the mass, fences, time;
+# implausible values are refused and shown.
 . "$source_dir/tests/tools/talus-blocks/scene.sh"
 make_site '[ground.rock]' 'friction_deg = 28' '[fence.low]' 'line = [[500010, 5200006], [500036, 5200006]]' \
   '[fence.high]' 'line = [[500010, 5200042], [500036, 5200042]]'
@@ -12,7 +12,7 @@ look() {
     --probe-s 1.5 --overwrite --no-db "$@"
 }
 
-# A hollow with a step at its foot: it stands in part, and the look says on what it leans.
+# A hollow with a step at its foot: part of it is stable, and the look says where it leans.
 expect 0 look
 prints "of blocks, "
 prints "will it move: "
@@ -34,7 +34,7 @@ done
 hollow=$(value check.json moved_share)
 holds "$(value check.json duration_asked_for_s) >= 10"
 
-# The same inputs give the same page; a run count is no part of it.
+# The same inputs give the same page; a run count is not part of it.
 mv check.html first.html
 expect 0 look
 cmp -s check.html first.html || fail "another page"
@@ -42,8 +42,8 @@ expect 0 talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o
 cmp -s check.html first.html || fail "the count of runs changed the page"
 prints "40 runs about"
 
-# What the stages before doubted is numbered, in words and on the map; every input lies over the terrain,
-# also what is outside.
+# Doubts of the stages before are numbered, in words and on the map; every input lies over the
+# terrain, also those outside.
 cat >before.json <<'END'
 {"layers": [{"name": "contours", "file": "map.gpkg", "magnitudes": {"x_m": {"lowest": 499950, "highest": 500080}, "y_m": {"lowest": 5199970, "highest": 5200080}}}],
  "doubts": [{"state": "accepted", "file": "map.gpkg", "what": "contour", "feature": 5, "expected": "1040 m", "hint": "mend it", "n": 3, "at": [[500020, 5200020, 0]]}]}
@@ -69,7 +69,8 @@ for part in 'map of the inputs' '>source</text>' '<b>refused:</b> off.toml'; do
 done
 says "off.toml"
 
-# Objects are drawn and named, and so is what could leave on a plane; one on the mass is doubted.
+# Objects are drawn and named, and so is a mass that could leave on a plane; one on the mass is
+# doubted.
 cat site.toml >bare.toml
 cat >>site.toml <<'EOF'
 [object.road]
@@ -89,12 +90,12 @@ done
 holds "$(value check.json outlined_m3) > 0"
 mv bare.toml site.toml
 
-# A plane that comes out at the foot: more goes, and nothing stands before it.
+# A plane that comes out at the foot: more goes, and nothing is in front of it.
 expect 0 look --set source.failure_surface=daylighting
 holds "$(value check.json moved_share) > $hollow"
 holds "$(value check.json share_of_foot_with_a_step) < 0.2"
 
-# The hollow without what leans on its foot.
+# The hollow without the part that leans on its foot.
 expect 0 blocks --overwrite --set source.daylight=sliding --report blocks.json
 says "can leave along sliding; the rest leans on the foot and is left out"
 holds "$(value blocks.json leans_on_the_foot_m3) > 0"
@@ -104,7 +105,7 @@ says "there is no joint set slide; there are: sliding, rear, lateral"
 expect 1 blocks --overwrite --set source.daylight='sliding + sliding'
 says "are parallel"
 
-# Friction above the dip: it stands.
+# Friction above the dip: it is stable.
 expect 0 look --set ground.rock.friction_deg=60 --set material.rock.friction_deg=60
 prints "it stands"
 says "this is not a rockslide"
@@ -117,7 +118,7 @@ cut
 expect 0 talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 --no-db --probe-s 0
 prints "no probe of the engine was made"
 
-# What cannot be meant: 800 m for 8 m; the page is there and says so.
+# Implausible: 800 m for 8 m; the page is there and says so.
 rm check.html
 blocks --trn-out bed.tif --overwrite -q --set source.depth_m=800 --set joints.sliding.spacing_m=60 \
   --set joints.rear.spacing_m=60 --set joints.lateral.spacing_m=60 2>err || { cat err; fail "no blocks"; }

@@ -1,4 +1,5 @@
-# What cannot be computed is refused before anything is, with where and a way out; nothing is left.
+# Impossible inputs are refused before anything is computed, with where and a remedy; nothing is
+# left.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
 
@@ -33,7 +34,7 @@ refuses "duration_s is 0.4, less than a time step of 1 s" --set solver.duration_
 refuses "output.cell_size_m: cells of 0.001 m are 1.5e+10 cells on this terrain" --set output.cell_size_m=0.001
 refuses "posts every 1e-05 m are 8e+06 posts" --set fence.low.post_spacing_m=1e-5
 
-# what is said of settings that do not go together
+# messages on settings that do not fit together
 refuses "give [solver] normal_stiffness_n_m" --set solver.law=paper --set solver.duration_s=1
 fault=2
 refuses "did you mean ground.ground?" --set ground.grund.cor=1
@@ -108,14 +109,15 @@ says "largest penetration, m"
 says "; take a smaller time_step_s, or give max_penetration_m"
 [ -s limit.h5 ] || fail "the file of a failed run was not kept"
 
-# Blocks that pass through each other are no result, unless asked for by name, and then said.
+# Blocks that pass through each other are not a result, unless asked for by name, and then said.
 expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o paper.h5 --no-db --set solver.law=paper --set solver.normal_stiffness_n_m=5e10 --set solver.duration_s=0.1
 expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o together.h5 --no-db --set solver.duration_s=0.1
 expect 0 run_dda -o alone.h5 --set solver.duration_s=0.1
 says "warning: 3 blocks move as if each were alone"
 exit 0
 
-# a spin that no step can follow is refused before the run, whatever wrote the block set
+# a spin that no step can follow is refused before the run, independent of the writer of the block
+# set
 sed 's/^spin_rad_s.*/spin_rad_s = [1e9, 1, 0]/' site.toml >spins.toml
 grep -q 1e9 spins.toml || fail "no spin in the site file"
 expect 0 talus-blocks spins.toml --trn slope.tif -o spins.h5 --no-db

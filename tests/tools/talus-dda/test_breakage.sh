@@ -22,7 +22,7 @@ assert sizes["n_pieces"] + sizes["n_unbroken"] == 3 + n and sizes["fracture_j"] 
 assert all(check["pass"] for check in broken["health"] if check["check"].startswith("energy"))
 END
 
-# what evaluates runs reads pieces, with the volume that was released
+# tools that evaluate runs read pieces, with the volume that was released
 expect 0 talus-runout broken.h5 --trn slope.tif -o runout.gpkg --json runout.json --no-db
 expect 0 talus-maps broken.h5 --trn slope.tif -o maps --no-db
 /usr/bin/python3 - <<'END' || fail "the run-out table lost volume"

@@ -1,4 +1,4 @@
-# A block that is in the ground by more than a tenth of its thickness: named with what it is in,
+# A block that is in the ground by more than a tenth of its thickness: named with the body it is in,
 # when and where, in the words of the tool and in its JSON.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs

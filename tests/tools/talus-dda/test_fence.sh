@@ -1,4 +1,4 @@
-# Fences that stand: rigid, giving way, broken; what of them is refused; the slope as fixed blocks.
+# Active fences: rigid, yielding, broken; which are refused; the slope as fixed blocks.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
 line='line = [[500060, 5000010], [500060, 5000090]]'
@@ -12,7 +12,7 @@ prints '"broken": false'
 expect 0 talus-dda rigid.toml --trn slope.tif --blocks blocks.h5 --no-db --plan
 prints 'on   standing fences: 1 fence'
 
-# giving way: each block is taken its energy, which the run file and the result tell
+# yielding: each block is taken its energy, which the run file and the result tell
 sed 's/active = false/capacity_kj = 2000\nmax_deflection_m = 2/' site.toml >soft.toml
 expect 0 talus-dda soft.toml --trn slope.tif --blocks blocks.h5 -o soft.h5 --no-db --json
 cp out soft.json
@@ -20,7 +20,7 @@ prints '"n_crossings": 0'
 expect 0 talus-dda soft.toml --trn slope.tif --blocks blocks.h5 -o again.h5 --no-db -q
 cmp -s soft.h5 again.h5 || fail "two runs with a fence differ"
 
-# too weak: panels break, when and by which block is said, and blocks go on
+# too weak: panels break, when and by which block is said, and blocks continue
 sed 's/active = false/capacity_kj = 20\nmax_deflection_m = 2/' site.toml >weak.toml
 expect 0 talus-dda weak.toml --trn slope.tif --blocks blocks.h5 -o weak.h5 --no-db --json --set solver.duration_s=12
 cp out weak.json
@@ -48,7 +48,7 @@ for p in broken[:5]:
 assert ('all with --json' in said) == (len(broken) > 5), said
 PY
 
-# what does not stand
+# fences that are refused
 refused() {  # LINE TEXT
   sed "s|^line = .*|$1|; s/active = false/height_m = 4/" site.toml >bad.toml
   expect 1 talus-dda bad.toml --trn slope.tif --blocks blocks.h5 -o bad.h5 --no-db

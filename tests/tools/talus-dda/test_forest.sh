@@ -1,4 +1,4 @@
-# Forests: drawn in a polygon, from rasters, from a list; the same bytes. What of them is refused:
+# Forests: drawn in a polygon, from rasters, from a list; the same bytes. Forests that are refused:
 # tests/unit/setup/test_forest_inputs.cpp.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
@@ -19,12 +19,12 @@ prints ' stems hit, '
 expect 0 talus-dda drawn.toml --trn slope.tif --blocks blocks.h5 --no-db --plan
 prints 'on   forest: 1 forest'
 
-# each run may draw a stand of its own
+# each run may draw its own stand
 expect 0 talus-dda drawn.toml --trn slope.tif --blocks blocks.h5 -o other.h5 --no-db \
   --set forest.wood.new_stand_per_run=true
 cmp -s drawn.h5 other.h5 && fail 'a stand of the run is that of all runs'
 
-# layers, and what the evaluation says
+# layers, and the words of the evaluation
 expect 0 talus-runout drawn.h5 --trn slope.tif -o runout.gpkg --json runout.json --no-db -q
 PATH=/usr/bin:$PATH python3 - <<'PY' || fail 'hits of trees'
 import json, sqlite3
@@ -99,7 +99,7 @@ expect 0 talus-dda none.toml --trn slope.tif --blocks blocks.h5 -o x.h5 --no-db 
   --set solver.duration_s=0.001 --set solver.time_step_s=1e-4 --set solver.normal_stiffness_n_m=1e9 --set forest.wood.active=true
 says 'forests stop nothing with law paper'
 
-# what is refused, with a way out
+# refused forests, with a remedy
 refused() {  # LINES TEXT
   with_forest bad "$1"
   expect 1 run bad -q
@@ -108,7 +108,7 @@ refused() {  # LINES TEXT
 }
 refused 'stems_per_ha = 400' 'forest.wood: does not say where it stands'
 
-# diameters in another unit, in whatever file they come
+# diameters in another unit, in any kind of file
 listed() {  # DIAMETER: nine stems, eight of them so thick
   printf 'x,y,dbh_cm\n500060,5000030,30\n'
   for row in 1 2 3 4 5 6 7 8; do echo "500060,50000$((30 + 5 * row)),$1"; done
@@ -128,7 +128,7 @@ if command -v ogr2ogr >/dev/null; then
   refused_unit millimetres 350 'half of the stems are thicker than 350 cm (30 to 350); read as millimetres it would be 35 cm'
 fi
 
-# whole numbers of 8 bits are stems, centimetres and per cent as others
+# whole numbers of 8 bits are stems, centimetres and per cent as any
 if command -v gdal_translate >/dev/null; then
   for name in nrtrees dbhmean dbhstd conif; do
     raster $name.asc 100 100

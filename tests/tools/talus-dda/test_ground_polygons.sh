@@ -1,4 +1,4 @@
-# Polygons of a ground section are united, and the result names their layer; surfaces are no areas.
+# Polygons of a ground section are united, and the result names their layer; surfaces are not areas.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
 polygon='{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[500000,5000000],[500150,5000000],[500150,5000100],[500000,5000100],[500000,5000000]]]}}'
@@ -24,7 +24,7 @@ nested=$(speed "$polygon,$inner")
 grep -q '"layers_read"' out || fail "the result does not name the layers"
 
 make_site
-# surfaces of faces are no areas
+# surfaces of faces are not areas
 for surface in TIN POLYHEDRALSURFACE; do
   printf 'id,WKT\n1,"%s Z (((500000 5000000 1,500150 5000000 1,500150 5000100 1,500000 5000000 1)))"\n' $surface >surface.csv
   rm -f faces.gpkg

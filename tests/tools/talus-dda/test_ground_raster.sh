@@ -56,7 +56,7 @@ sed 's/^ground_raster.*//' site.toml >none.toml
 expect 1 talus-dda none.toml --trn slope.tif --blocks blocks.h5 -o bad.h5 --no-db --set solver.blocks=alone
 says "there is no raster"
 
-# Commands of the hints are run: what they make gives the run of the right raster.
+# Commands of the hints are run: their raster gives the run of the right raster.
 speed_on() { # speed_on RASTER
   sed "s/^ground_raster.*/ground_raster = \"$1\"/" site.toml >other.toml
   expect 0 talus-dda other.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --overwrite --no-db --set solver.blocks=alone --json

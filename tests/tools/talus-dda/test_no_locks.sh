@@ -1,4 +1,4 @@
-# A folder whose server has no locks is read like any other.
+# A folder whose server lacks locks is read like any other.
 command -v cc >/dev/null || skip "there is no C compiler"
 if readelf -Ws "$(command -v talus-dda)" 2>/dev/null | grep -q '__[at]san_init'; then
   skip "sanitizers want to be loaded first"

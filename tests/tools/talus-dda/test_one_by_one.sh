@@ -1,5 +1,5 @@
 # Rocks that fall one by one meet each the fence and the trees as they were at the start: how many
-# are released in one run changes no share, and what one takes of a net no other finds taken.
+# are released in one run changes no share, and a rock never finds a net that another one loaded.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_terrain
 site() {  # SEED N_PER_POINT: rocks that come to a wood, and to a line behind it
@@ -106,7 +106,8 @@ assert any('fell one by one' in note for note in fence['notes']), fence['notes']
 assert not any('dam those' in note or 'sum of their' in note for note in fence['notes'])
 PY
 
-# one that is too weak breaks rock by rock: by whom is said, and who met a whole panel is stopped
+# one that is too weak breaks rock by rock: the rock is named, and one that met a whole panel is
+# stopped
 net weak 600 wood
 expect 0 fall weak weak.h5 --json
 cp out weak.json
@@ -162,7 +163,7 @@ assert abs(forest['broken'] - run['n_stems_broken'] / 90) < 1e-9
 assert 0 < forest['broken'] < forest['hit'] < 0.2 * forest['stems']
 PY
 
-# blocks that meet each other share what they leave of a net
+# blocks that meet each other share the rest of a net
 sed 's/^rocks = .*//; s/^\[rockfall/[blocks/; s/^capacity_kj = .*/capacity_kj = 1500/' weak.toml >meet.toml
 blocks meet
 expect 0 talus-dda meet.toml --trn slope.tif --blocks meet_blocks.h5 -o meet.h5 --no-db --json

@@ -1,11 +1,11 @@
-# A run that is killed or interrupted leaves a readable file, and goes on to the same bytes.
+# A run that is killed or interrupted leaves a readable file, and resumes to the same bytes.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
 slow="--set solver.time_step_s=0.00005 --set output.checkpoint_interval_s=0.02 -q"
 
 expect 0 run_dda -o whole.h5 $slow
 
-# wait_for FILE: until it exists, while the run goes on
+# wait_for FILE: until it exists, while the run continues
 wait_for() {
   n=0
   while [ ! -e "$1" ]; do

@@ -10,7 +10,7 @@ prints '"n_frames": 81'
 prints '"left_domain": 0'
 nothing_left run.h5.part
 
-# what was warned of stays with the run, and goes on its maps
+# warnings stay with the run, and are on its maps
 expect 0 run_dda -o fast.h5 --set solver.duration_s=1 --set material.rock.density_kg_m3=120
 says "warning: 3 blocks move as if each were alone"
 h5dump -d /warnings fast.h5 >kept
@@ -20,7 +20,7 @@ gdalinfo maps/reach.tif >info
 grep -q "WARNINGS=.*3 blocks move as if each were alone" info || fail "the maps do not say what was warned of"
 grep -q "WARNINGS=.*$PWD" info && fail "a warning on a map holds a path"
 
-# the id that it bears finds it in the registry
+# its id finds it in the registry
 expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o registered.h5 --set solver.duration_s=0.1 --set solver.blocks=alone --db runs.sqlite --json
 id=$(sed -n 's/.*"run_id": "\(.*\)".*/\1/p' out)
 expect 0 talus-runs show "$id"
@@ -43,7 +43,7 @@ expect 1 run_dda -o run.h5
 says "exists already"
 expect 0 run_dda -o run.h5 --overwrite -q --set solver.duration_s=1
 
-# the speed is known without passages; who looks at the summary sees what went wrong
+# the speed is known without passages; the summary shows the fault
 expect 0 run_dda -o still.h5 --set output.passages=false --set solver.duration_s=2
 grep -q "largest speed [1-9]" out || fail "no speed without passages"
 grep -q "unconverged\|left the terrain" out && fail "trouble is said where there is none"

@@ -1,4 +1,5 @@
-# Runs that differ in any one input have different ids; what does not bear on the result changes none.
+# Runs that differ in any one input have different ids; settings without effect on the result do not
+# change them.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 command -v ogr2ogr >/dev/null || skip "needs ogr2ogr"
 command -v zip >/dev/null || skip "needs zip"

@@ -1,4 +1,4 @@
-# Soils: a raster of them, what --print-config says, what is refused.
+# Soils: a raster of them, the output of --print-config, refusals.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
 

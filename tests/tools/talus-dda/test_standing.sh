@@ -1,4 +1,5 @@
-# A mass that stands is left after 3 s, and the run says so; one that moves, or may move later, is not.
+# The run of a stable mass ends after 3 s, and the run says so; one that moves, or may move later,
+# does not.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_terrain
 make_site

@@ -1,4 +1,4 @@
-# A step that threads share has the bytes of one thread, also where a run goes on in another number
+# A step that threads share has the bytes of one thread, also where a run resumes in another number
 # of them; the tool says how fast it is and how long it will take.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_terrain
@@ -34,7 +34,7 @@ for n in 2 3 8; do
   cmp one.h5 shared.h5 || fail "$n threads have other bytes than one"
 done
 
-# killed in two threads, it goes on in three and in one
+# killed in two threads, it resumes in three and in one
 for n in 3 1; do
   talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db -o killed.h5 --threads 2 \
     --set output.checkpoint_interval_s=0.02 -q &

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads what talus-export wrote of run.h5, and compares it with the run.
+"""Reads the files of talus-export of run.h5, and compares it with the run.
 
   read_back.py RUN.h5 TRN.tif TIME_S NAME
 

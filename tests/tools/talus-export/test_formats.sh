@@ -1,4 +1,4 @@
-# What is exported is read by the rules of its format and by VTK, and compared with the run.
+# Exported files are read by the rules of its format and by VTK, and compared with the run.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
 expect 0 run_dda -o run.h5 -q

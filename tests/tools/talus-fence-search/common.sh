@@ -1,4 +1,5 @@
-# Three boxes that slide to a house below, and what a fence may be: read by the tests beside it.
+# Three boxes that slide to a house below, and the fences that may be built: read by the tests
+# beside it.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_search() {
   make_terrain

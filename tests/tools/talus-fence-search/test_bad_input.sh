@@ -1,4 +1,5 @@
-# Searches that cannot be made are refused with their section and a way out; so are runs that do not fit.
+# Searches that cannot be made are refused with their section and a remedy; so are runs that do not
+# fit.
 . "$source_dir/tests/tools/talus-fence-search/common.sh"
 make_search
 cp site.toml good.toml
@@ -18,7 +19,7 @@ sed '/^\[fence_search/,$d' good.toml >site.toml
 expect 1 search run_1.h5 -o s.gpkg
 says 'has no section [fence_search.*]'
 
-# runs that did not watch these lines, or watched others
+# runs that did not watch these lines, or watched other ones
 cp site.toml without.toml
 expect 0 talus-dda without.toml --trn slope.tif --blocks blocks.h5 --no-db --set solver.blocks=alone --set solver.duration_s=1 -o blind.h5
 cp good.toml site.toml

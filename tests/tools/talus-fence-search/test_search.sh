@@ -1,4 +1,4 @@
-# A fence is proposed, stands in other runs, and lets through what was predicted.
+# A fence is proposed, is built in other runs, and lets through as much as predicted.
 . "$source_dir/tests/tools/talus-fence-search/common.sh"
 make_search
 runs run 1 12
@@ -25,7 +25,7 @@ assert all(a['stopped_share'] < b['stopped_share'] for a, b in zip(s['curve'], s
 PY
 python3 check.py || fail 'the search says something else'
 
-# the same whatever the order, and from a part, which has no frames to refine with
+# the same in any order, and from a part, which has no frames to refine with
 expect 0 search run_9.h5 run_1[012].h5 run_[1-8].h5 -o again.gpkg --json again.json --proposals again --charts again_charts
 cmp search.json again.json && cmp search.gpkg again.gpkg && cmp proposals/house-1.toml again/house-1.toml || fail 'the order of runs counts'
 expect 0 search run_*.h5 -o plain.gpkg --json plain.json --no-refine
@@ -46,7 +46,7 @@ expect 0 search run_*.h5 -o broken.gpkg --json broken.json
 says 'blocks broke in some runs: fences are not refined'
 rm run_broken_*.h5
 
-# it stands in other runs
+# it is built in other runs
 runs other 101 112 --add proposals/house-1.toml
 mkdir verify
 cp other_*.h5 verify
@@ -73,7 +73,7 @@ assert abs(s['run_share'] - 0.2) < 1e-12, s['run_share']
 assert abs(s['hit_per_a'][0] - 0.01) < 1e-12 and abs(s['hits_a_run'] - 0.6) < 1e-12, s
 PY
 
-# a fence that stood is said
+# a built fence is reported
 expect 0 search other_101.h5 other_102.h5 -o standing.gpkg
 says 'fences stood in the runs: house-1'
 

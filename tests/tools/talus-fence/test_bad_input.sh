@@ -26,7 +26,7 @@ expect 1 talus-fence site.toml run_0.h5 --trn slope.tif -o g.gpkg --code code.cs
 says 'expected uni or onr'
 expect 2 talus-fence site.toml run_0.h5 --trn slope.tif -o g.gpkg --consequence-class 7
 nothing_left g.gpkg
-# Another fence than the one that stood, and runs with and without it in one sample.
+# Another fence than the one that was built, and runs with and without it in one sample.
 mkdir with
 run-probe with 2 standing=1 seed=1
 sed 's/height_m = 3/height_m = 5/' with/site.toml >higher.toml

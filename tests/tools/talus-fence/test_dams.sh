@@ -1,4 +1,4 @@
-# A dam in the terrain: what comes to it, what passes over its crest, and whether it holds, for a
+# A dam in the terrain: arrivals, passages over its crest, and whether it holds, for a
 # high one, a low one and one that is for less energy; lines, layers, report, look before the runs.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 command -v python3 >/dev/null || skip "needs python3"
@@ -54,7 +54,7 @@ n = {k: v["n"] for k, v in high["verdicts"].items()}
 assert sum(n.values()) == 90 and n["overtopped"] == 0 and n["stopped"] > 60, n
 assert high["pass"] is True and low["pass"] is False and of["weak"]["pass"] is False
 assert low["verdicts"]["overtopped"]["n"] == low["passing"]["n"] > 10, low["verdicts"]
-# what comes is the same: the dam begins behind that line
+# the arrivals are the same: the dam begins behind that line
 for key in "n", "mean_angle_to_normal_deg":
     assert abs(high["arriving"][key] - of["weak"]["arriving"][key]) < 1e-9
 # a rock of 1.5 t that fell 57 m at most, with friction
@@ -64,7 +64,7 @@ assert len(rows) == 90 and {r["fence"] for r in rows} == {"dam.road.before"}
 PY
 ogrinfo -q -al high/fence.gpkg dams | grep -q 'verdict (String) = meets' || fail 'no layer of dams'
 
-# before the runs: the crest stands in the look, as what fall lines come to
+# before the runs: the look has the crest, as a line that fall lines come to
 expect 0 talus-check site.toml --trn high/trn.tif --bed high/bed.tif --blocks high/blocks.h5 -o check.html --reports high/trn.json --probe-s 0 --no-db
 prints 'dam.road: 80 m long'
 grep -q 'dam.road' check.html || fail 'no dam on the page'

@@ -2,7 +2,7 @@
 mkdir touches open
 run-probe touches 80 standing=1 hits=stopped capacity=1000
 run-probe open 80 seed=1 capacity=1000
-# the fence holds what touched it; that alone does not pass it
+# the fence holds the blocks that touched it; that alone does not pass it
 expect 0 talus-fence touches/site.toml touches/run_*.h5 --trn touches/slope.tif -o t.gpkg --json t.json
 says 'first touches of the standing fence in 80 runs, which are no design values'
 says 'make WITHOUT=yes; or talus-dda --set fence.check.active=false'
@@ -11,7 +11,7 @@ prints 'not judged: first touches of a standing fence are no design values'
 expect 0 talus-fence touches/site.toml touches/run_*.h5 --without open/run_*.h5 --trn touches/slope.tif -o o.gpkg --json o.json
 prints 'design by 80 crossings of its line in 80 runs without the fence, largest energy'
 whole_lines out >o.out
-# too few arrivals: not judged, with what the largest of them ask for
+# too few arrivals: not judged, with the demand of the largest of them
 expect 0 talus-fence open/site.toml open/run_1.h5 open/run_2.h5 --trn open/slope.tif -o f.gpkg --json f.json
 prints 'not judged: too few arrivals, 2 of the 59 that the code needs; by the largest of them it needs'
 whole_lines out >f.out

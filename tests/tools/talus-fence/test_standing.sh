@@ -1,4 +1,4 @@
-# A fence that stood: arrivals are first touches, with what blocks had before, not what the fence left.
+# A built fence: arrivals are first touches, with the energy before the touch, not after it.
 mkdir stopped broken held pile rigid without many moving
 run-probe stopped 80 standing=1 hits=stopped
 expect 0 talus-fence stopped/site.toml stopped/run_*.h5 --trn stopped/slope.tif -o f.gpkg --json f.json --csv f.csv
@@ -34,7 +34,8 @@ prints 'no capacity given: energy not checked'
 grep -q '"pass": null' r.json || fail 'a fence without capacity is judged'
 ogrinfo -q -al r.gpkg fence_fields | grep -q 'verdict (String) = energy not checked' || fail 'its field is judged'
 
-# A block that hangs in a bulged panel is not behind the line; what the pile holds is kept from passing.
+# A block that hangs in a bulged panel is not behind the line; blocks that the pile holds are kept
+# from passing.
 run-probe held 3 standing=1 hits=held blocks=2
 run-probe without 3 seed=1 blocks=2
 expect 0 talus-fence held/site.toml held/run_*.h5 --without without/run_*.h5 --trn held/slope.tif -o h.gpkg --json h.json
@@ -74,7 +75,7 @@ assert f['free_border_m'] == w['free_border_m'] == 1.5
 assert abs(w['required_height_m'] - w['design_height_m'] - 1.5) < 1e-9
 PY
 
-# Who still moves when the run ends may pass yet.
+# A block that still moves when the run ends may pass yet.
 run-probe moving 1 standing=1 hits=stopped blocks=2 moving=1
 expect 0 talus-fence moving/site.toml moving/run_0.h5 --without without/run_0.h5 --trn moving/slope.tif -o v.gpkg --json v.json
 says '2 of the blocks that it stopped were still moving'

@@ -1,4 +1,4 @@
-# Runs with the fence standing beside runs without: a block that crossed a standing fence came through.
+# Runs with the fence beside runs without: a block that crossed a built fence came through.
 mkdir with without
 run-probe with 3 standing=1
 run-probe without 3 seed=1

@@ -1,4 +1,4 @@
-# What cannot be said is not written, and the tool says why and what to do.
+# A result that is unknown is not written, and the tool says why and the remedy.
 run-probe . 10 blocks=2
 expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o none --json none.json
 says 'no frequency is given: classes, return periods and frequencies are not written'

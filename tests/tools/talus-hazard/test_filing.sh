@@ -6,7 +6,7 @@ sed -i 's/\[250/[2650/g; s/, 350/, 1200/g' site.toml
 cp site.toml plain.toml
 filed() { { cat plain.toml; printf '\n[hazard]\nrecipe = "%s"\n' "$1"; shift; for key in "$@"; do printf '%s\n' "$key"; done; printf '[hazard.class.V1]\nfrequency_per_a = 0.0136\n'; } >site.toml; }
 
-# all three keys, or none; what does not fit the model is refused
+# all three keys, or none; values that do not fit the model are refused
 filed switzerland_ti 'author = "A. Muster, Muster Ltd"' 'date = "2026-05-31"'
 expect 1 talus-hazard site.toml run_*.h5 --trn slope.tif -o maps
 says 'hazard: has no namespace'

@@ -34,7 +34,7 @@ says '[rockfall.cliff] has frequency_per_a'
 # a point that sheds a rock each year is a frequency too
 name=yearly && rocks_of yearly 1 'frequency_per_a = 28' '[hazard.class.V1]'
 
-# where every rock passes, 0.28 a year whatever the sample
+# where every rock passes, 0.28 a year in any sample
 name=more && rocks_of more 4 '[hazard.class.V1]' 'frequency_per_a = 0.28'
 for run in class more; do
   gdal_translate -q -b 1 -of XYZ $run/hazard/passage_frequency.tif $run.xyz

@@ -1,5 +1,5 @@
-# What is brought becomes metres in one system, with every decision recorded; a TIN made from it is the one that is
-# made from the files themselves.
+# Imported data become metres in one system, with every decision recorded; a TIN made from it is the
+# one that is made from the files themselves.
 . "$source_dir/tests/tools/talus-tin/map.sh"
 command -v ogr2ogr >/dev/null || skip "needs gdal-bin"
 cone 32632 1 >map.geojson
@@ -30,7 +30,7 @@ grep -q '"answer": "field hoehe_nn"' import.json || fail "the report holds no de
 expect 0 talus-import site.toml -o again.gpkg
 cmp -s inputs.gpkg again.gpkg || fail "the same inputs give other bytes"
 
-# what is settled is not said again; options of the import stand above the site
+# settled properties are not said again; options of the import override the site
 expect 2 talus-tin inputs.gpkg -o bad.ply --t-srs EPSG:25833
 says "was written by talus-import, with 3 layers, and says units, fields and systems itself"
 says "hint: give layers, fields, units and systems to talus-import (make IMPORT_FLAGS)"

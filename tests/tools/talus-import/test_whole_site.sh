@@ -72,7 +72,7 @@ done
 cmp first sums || fail "the border changes blocks or runs"
 says "inputs.gpkg: layer fences where source = "
 
-# tools that are given the file read it, not what it was made from
+# tools that are given the file read it, not its sources
 expect 0 talus-source site.toml --trn trn.tif -o source.json --inputs inputs.gpkg --no-db
 says "inputs.gpkg: layer source where source = 2, 1 polygon of 2304 m2 in all"
 expect 0 talus-source site.toml --trn trn.tif -o source.json --overwrite --no-db \
@@ -105,7 +105,7 @@ ogrinfo -q contours.gpkg -sql "DELETE FROM contours WHERE fid = 1" >/dev/null
 expect 1 talus-tin inputs.gpkg -o bad.ply
 says "inputs.gpkg: is older than contours.gpkg"
 
-# what is written in the site file stands beside what is in files
+# shapes written in the site file are beside those of files
 expect 0 talus-import site.toml -o written.gpkg --set source.polygon_file= --set \
   'source.polygon=[[500096,5200248],[500144,5200248],[500144,5200296],[500096,5200296]]'
 prints "source: 1 polygon of 2304 m2 in all"

@@ -1,4 +1,4 @@
-# What cannot be mapped is refused before anything is written, saying why and what to do.
+# Runs that cannot be mapped are refused before anything is written, with why and the remedy.
 run-probe . 2
 mkdir other version failed empty half
 run-probe other 1 site=elsewhere seed=5

@@ -1,9 +1,9 @@
-# Whole multiples of the recorded cells are exact; others are refused with a way out.
+# Whole multiples of the recorded cells are exact; other sizes are refused with a remedy.
 run-probe . 1
 expect 0 talus-maps run_0.h5 --trn slope.tif -o coarse --cell-size-m 4
 expect 0 talus-maps run_0.h5 --trn slope.tif -o own
 gdalinfo coarse/velocity.tif | grep -q 'Pixel Size = (4.0' || fail 'the cells are not 4 m'
-# the maximum of the whole way is the same, the cells are a quarter as many and a bit more
+# the maximum of the whole path is the same, the cells are a quarter as many and a bit more
 for folder in coarse own; do
   gdalinfo -mm "$folder/velocity.tif" | grep -m1 'Computed Min/Max' | sed 's/.*,//' >"$folder.max"
 done

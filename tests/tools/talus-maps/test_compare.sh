@@ -1,4 +1,4 @@
-# Two ensembles on one map: what the second has more, from runs or from parts.
+# Two ensembles on one map: the difference of the second, from runs or from parts.
 mkdir a b
 run-probe a 60
 run-probe b 40 seed=2 still_runs=20

@@ -1,4 +1,5 @@
-# What a stranger reads in a map: place, unit, meaning, nodata, from which runs, over what, how sound.
+# Metadata of a map for any reader: place, unit, meaning, nodata, from which runs, over what, how
+# sound.
 run-probe . 3
 expect 0 talus-maps run_0.h5 run_1.h5 run_2.h5 --trn slope.tif -o maps --json
 prints '"n_runs": 3'

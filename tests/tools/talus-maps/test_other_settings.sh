@@ -1,5 +1,5 @@
-# Runs that were made with other settings are no trials of one thing: every tool that evaluates them
-# refuses them, with the keys that differ.
+# Runs that were made with other settings are not trials of one thing: every tool that evaluates
+# them refuses them, with the keys that differ.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
 dda() {
@@ -25,7 +25,7 @@ refused() {
 }
 other="was computed with other settings than x/run_1.h5: "
 
-# by --set, by an option for a key, by an option that is no key, by what a file holds
+# by --set, by an option for a key, by an option that is not a key, by the content of a file
 dda x/run_3.h5 $same --seed 3 --set ground.ground.friction_deg=10
 refused "x/run_3.h5: ${other}ground.ground.friction_deg: 10, there 20" x/run_1.h5 x/run_2.h5 x/run_3.h5
 dda x/run_4.h5 $same --seed 4 --set solver.accuracy=0.05
@@ -65,7 +65,7 @@ refused "part_3.h5 (x/run_3.h5): was computed with other settings than part_1.h5
 expect 0 talus-reduce part_1.h5 x/run_2.h5 --trn slope.tif -o part.h5 --no-db
 refused "ground.ground.friction_deg: 10, there 20" part.h5 part_3.h5
 
-# The ways out: each by itself, or as cases, which differ in what the command line gave and in nothing else.
+# The remedies: each alone, or as cases, which differ in keys of the command line alone.
 expect 0 talus-maps x/run_3.h5 --trn slope.tif -o alone --no-db
 mkdir -p cases/hard cases/soft
 cp site.toml plain.toml
@@ -83,7 +83,7 @@ expect 1 talus-maps cases/hard/run_1.h5 soft_5.h5 --trn slope.tif -o m --no-db
 says "ground.ground.friction_deg: 10, there 20"
 cp plain.toml site.toml
 
-# Samples differ in what they draw. A run without a sample is of another distribution.
+# Samples differ in the values that they draw. A run without a sample is of another distribution.
 printf '[uncertainty.f]\nkeys = ["ground.ground.friction_deg"]\ndistribution = "uniform"\nmin = 15\nmax = 25\n' >>site.toml
 mkdir drawn
 for seed in 1 2; do dda drawn/run_$seed.h5 --set solver.blocks=alone --seed $seed --sample $seed; done

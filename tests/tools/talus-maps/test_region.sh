@@ -22,7 +22,7 @@ run() { # run NAME: the blocks, the run and the maps of NAME.toml
   expect 0 talus-maps "$1.h5" --trn trn.tif -o "$1" --no-db
 }
 
-# without a place all ground that is steep enough; what overhangs the rim is left out
+# without a place all ground that is steep enough; cells that overhang the rim are left out
 site all 'everywhere\n'
 expect 0 talus-blocks all.toml --trn trn.tif -o all.h5 --no-db --set rockfall.everywhere.volume_m3=50
 says 'of the ground of the terrain is 40 deg steep or more'

@@ -1,4 +1,4 @@
-# Lines that cannot be meant, and runs that say nothing of any line.
+# Implausible lines, and runs that say nothing of any line.
 run-probe . 2
 line='250030,350004 250030,350020'
 run() { code=$1; shift; expect "$code" talus-profile run_0.h5 run_1.h5 --trn slope.tif -o p.gpkg "$@"; nothing_left p.gpkg; }
@@ -40,7 +40,7 @@ collection "$(feature a Point '[250030,350004]')" >point.geojson
 ogr2ogr -a_srs EPSG:31254 point.gpkg point.geojson
 run 1 --line-file point.gpkg
 says 'line'
-# metres that are said to be degrees (what GeoJSON is), another zone
+# metres that are said to be degrees (as in GeoJSON), another zone
 run 1 --line-file "two.geojson|subset=name = 'a'"
 says 'two.geojson'
 ogr2ogr -a_srs EPSG:32633 zone.gpkg two.geojson -where "name = 'a'"
@@ -54,7 +54,7 @@ expect 1 talus-profile bare/run_0.h5 --trn bare/slope.tif -o p.gpkg --line "$lin
 says 'bare/run_0.h5: has neither frames nor passages'
 says 'hint: run talus-dda again'
 nothing_left p.gpkg
-# frames alone: what crosses is known, and of the profile along the line the ground
+# frames alone: crossings are known, and of the profile along the line the ground
 mkdir framed
 run-probe framed 1 passages=no
 expect 0 talus-profile framed/run_0.h5 --trn framed/slope.tif -o framed.gpkg --line "$line" --json framed.json

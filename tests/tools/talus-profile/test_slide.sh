@@ -1,5 +1,5 @@
-# Boxes slide down a plane: what crosses a line drawn afterwards is what the runs recorded at the same line, and the
-# closed form; without frames none is missed.
+# Boxes slide down a plane: crossings of a line drawn afterwards are those that the runs recorded at
+# the same line, and the closed form; without frames none is missed.
 run-probe . 12 blocks=3
 line='250030,350004 250030,350020'
 outputs='--tables t --json p.json --overwrite'

@@ -1,4 +1,4 @@
-# What cannot be reduced is refused; no half of a part is ever there.
+# Runs that cannot be reduced are refused; no half of a part is ever there.
 run-probe . 3
 expect 0 talus-reduce run_0.h5 run_1.h5 --trn slope.tif -o part.h5
 expect 1 talus-reduce part.h5 run_1.h5 --trn slope.tif -o both.h5

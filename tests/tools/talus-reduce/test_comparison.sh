@@ -11,7 +11,7 @@ cmp a.csv b.csv && cmp a.json b.json || fail 'verdicts of parts are others'
 for side in a b; do gdal_translate -q -of ENVI $side.tif $side.raw; done
 cmp a.raw b.raw || fail 'the change of parts is another one'
 
-# what a standing fence met, where it recorded nothing, only frames tell
+# hits of a built fence that recorded nothing are known from frames alone
 mkdir old
 run-probe old 2 standing=1 seed=8
 expect 0 talus-reduce old/run_*.h5 --trn old/slope.tif -o old.h5

@@ -1,4 +1,4 @@
-# A part stands for its runs: the same result without them, but for the animation.
+# A part replaces its runs: the same result without them, but for the animation.
 mkdir site
 run-probe site 6 blocks=2
 mkdir -p site/out/runs site/out/parts

@@ -40,7 +40,7 @@ report site.toml
 left_out 'curves.csv: not of the runs that runout.json is of'
 rm results/curves.csv
 
-# all files of a Shapefile, and what an archive holds
+# all files of a Shapefile, and the content of an archive
 if command -v ogr2ogr >/dev/null && command -v python3 >/dev/null; then
   sed -e 's/"properties":{}/"properties":{"kind":"school"}/' school.geojson >kind.geojson
   ogr2ogr -q -f "ESRI Shapefile" school.shp kind.geojson

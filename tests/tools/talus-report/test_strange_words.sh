@@ -50,7 +50,7 @@ if name.endswith(".json"):
     text = json.dumps(spoilt(whole))
 else:
     text = re.sub('label="', 'label="' + script, text)
-    if how == "keys":  # ends the layer that it stands in
+    if how == "keys":  # ends the layer that it is in
         text = text.replace("</qgis>", "</maplayer><Macros>PWN</Macros><maplayer></qgis>")
 open(name, "w").write(text)
 END

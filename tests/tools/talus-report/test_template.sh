@@ -1,10 +1,11 @@
-# --qgis-template: an office's layout in place of the shipped one; what cannot be filled is refused.
+# --qgis-template: an office's layout in place of the shipped one; a template that cannot be filled
+# is refused.
 run-probe . 2 still_runs=1
 mkdir -p results/runs
 mv run_*.h5 results/runs/
 cp slope.tif results/trn.tif
 expect 0 talus-runout results/runs/*.h5 --trn results/trn.tif -o results/runout.gpkg --json results/runout.json --no-db
-# report NAME CODE OPTION...: NAME.qgz, and what is in it
+# report NAME CODE OPTION...: NAME.qgz, and its content
 report() {
   name=$1 code=$2
   shift 2

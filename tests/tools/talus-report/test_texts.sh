@@ -1,5 +1,5 @@
-# --texts: an office's words stand in place of those shipped; what does not fit is refused with its
-# line, what is missing is counted.
+# --texts: an office's words replace those shipped; texts that do not fit are refused with its
+# line, missing ones are counted.
 run-probe . 2 still_runs=1
 mkdir -p results/runs
 mv run_*.h5 results/runs/

@@ -2,7 +2,7 @@
 mkdir all half
 run-probe all 3 still_runs=1
 run-probe half 1 seed=5 status=failed blocks=3 still=2 moving=1
-# report_of FOLDER: of what lies in it, as talus-runout and talus-maps say it
+# report_of FOLDER: of the files in it, as talus-runout and talus-maps say it
 report_of() {
   mkdir -p "$1/out/runs"
   cp "$1/slope.tif" "$1/out/trn.tif"

@@ -1,4 +1,4 @@
-# Runs in any order give the same bytes; the spread over runs stands beside each run.
+# Runs in any order give the same bytes; the spread over runs is beside each run.
 run-probe . 5 blocks=2
 expect 0 talus-runout run_0.h5 run_1.h5 run_2.h5 run_3.h5 run_4.h5 --trn slope.tif -o a.gpkg --json a.json --tables a
 prints 'run-out of 5 runs: H '

@@ -1,4 +1,4 @@
-# Boxes that friction holds have moved nowhere: their extent is no run-out, and it is said.
+# Boxes that friction holds have moved nowhere: their extent is not a run-out, and the tool says so.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_terrain
 make_site

@@ -29,7 +29,8 @@ holds_factors wet.json "abs(row['critical_seismic_coefficient'] - (row['wet'] - 
 expect 0 blocks --set source.failure_surface=daylighting --report blocks.json
 holds "$(value blocks.json prism_volume_m3) == $(value source.json volume_m3)"
 
-# What would leave, as an area: of the volume that is cut but for what each cell that the plane comes out in hides.
+# The mass that would leave, as an area: of the volume that is cut but for the part that each cell
+# that the plane comes out in hides.
 expect 0 talus-source site.toml --trn trn.tif -o source.json --layers source.gpkg --no-db --overwrite
 holds "($(value source.json outlined_m3) / $(value source.json volume_m3) - 1) ^ 2 < 0.02 ^ 2"
 ogrinfo -q -sql "select sum(st_area(geom)) as a, sum(taken) as n from failure_surfaces" source.gpkg >layer

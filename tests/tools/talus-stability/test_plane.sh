@@ -1,5 +1,5 @@
-# A mass on a plane of 25 degrees whose friction is 30: its factor is tan(30) / tan(25), and what
-# water, an earthquake and drawn friction make of it.
+# A mass on a plane of 25 degrees whose friction is 30: its factor is tan(30) / tan(25), and the
+# effect of water, an earthquake and drawn friction on it.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 command -v python3 >/dev/null || skip "needs python3"
 make_terrain
@@ -73,7 +73,8 @@ holds wet "all(abs(row['mass']['factor'] / row['as_one_body'] - 1) < 0.01 for ro
 holds wet "any(w.startswith('By limit equilibrium, as one body on its failure surface, it has a factor of') for w in j['words'])"
 [ -s wet/levels.svg ] || fail "no chart of the levels"
 
-# A tension crack behind it: thrust w h^2 / 2 L, h at most 3.2 m and L 27 m, is half of what it resists.
+# A tension crack behind it: thrust w h^2 / 2 L, h at most 3.2 m and L 27 m, is half of its
+# resistance.
 sed '/^\[water\]/,$d' site.toml >crack.toml
 printf '[water]\ncracks = ["source_side"]\ncrack_fill_m = 1\n' >>crack.toml
 expect 0 talus-stability crack.toml --trn bed.tif --blocks blocks.h5 --no-db -o crack

@@ -1,6 +1,7 @@
 # Water by a raster: one in another projection is doubted by the import and refused, with the command
 # that brings it to the terrain's; after that the factor is that of the same plane by three points.
-# What the raster does not cover is doubted, all of the mass refused, an undeclared nodata value found.
+# Parts that the raster does not cover are doubted, all of the mass refused, an undeclared nodata
+# value found.
 . "$source_dir/tests/tools/talus-dda/common.sh"
 command -v gdalwarp >/dev/null || skip "needs gdal-bin"
 make_terrain

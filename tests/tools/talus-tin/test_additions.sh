@@ -35,7 +35,7 @@ expect 1 talus-tin map.geojson -o bad.ply --breaklines flat_ridge.geojson
 says "the breaklines have no elevation: they are 2-D and no field has a known name"
 says "hint: name the field with --elevation-field breaklines=FIELD"
 
-# a Z of 0 everywhere is no height: a field holds it, or nothing does; Z that tells heights stays
+# a Z of 0 everywhere is not a height: a field holds it, or nothing does; Z that tells heights stays
 spots() { # spots FIELD HEIGHT Z: one spot height on the summit, one beside it
   printf '{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32632"}},"features":['
   printf '{"type":"Feature","properties":{"%s":%s},"geometry":{"type":"Point","coordinates":[500000,5200000,%s]}},' "$@"

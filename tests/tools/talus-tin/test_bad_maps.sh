@@ -1,4 +1,4 @@
-# Maps that make no terrain are refused with place, finding and a way out, and leave nothing behind.
+# Maps that make no terrain are refused with place, finding and a remedy, and leave nothing behind.
 . "$source_dir/tests/tools/talus-tin/map.sh"
 cone >map.geojson
 ogr2ogr -q map.gpkg map.geojson
@@ -35,7 +35,7 @@ refused "contour at 100 m, feature 0, x 500050, y 5200050: meets contour at 110 
 lines "100:500000,5200000;500100,5200000" "110:500050,5200000;500050,5200100" >touching.geojson
 refused "x 500050, y 5200000: meets contour at 110 m" talus-tin touching.geojson
 
-# coordinates that are no numbers: the second point's y in a shapefile of plain lines
+# coordinates that are not numbers: the second point's y in a shapefile of plain lines
 lines "100:500000,5200000;500100,5200000" "110:500000,5200100;500100,5200100" >plain.geojson
 ogr2ogr -q plain.shp plain.geojson
 for bits in '\370\177' '\360\177' '\360\377'; do # nan, inf, -inf
@@ -44,7 +44,7 @@ for bits in '\370\177' '\360\177' '\360\377'; do # nan, inf, -inf
   says "layer plain, feature 0"
 done
 
-# lines that change their height are no contours; polygons and points are no lines
+# lines that change their height are not contours; polygons and points are not lines
 sed '3s/,110\]/,111]/' map.geojson >sloping.geojson
 refused "changes its height along the line, expected contours" talus-tin sloping.geojson
 printf '{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32632"}},"features":[{"type":"Feature","properties":{"ELEV":1},"geometry":{"type":"Point","coordinates":[1,2]}}]}' >points.geojson

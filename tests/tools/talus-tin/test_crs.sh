@@ -1,4 +1,4 @@
-# Coordinates that are no metres are refused with the option that mends them.
+# Coordinates that are not metres are refused with the option that mends them.
 . "$source_dir/tests/tools/talus-tin/map.sh"
 cone >map.geojson
 expect 0 talus-tin map.geojson -o utm.ply --report utm.json
@@ -7,7 +7,7 @@ expect 1 talus-tin degrees.gpkg -o bad.ply
 says "EPSG:4326 (WGS 84), in degrees, expected a projected one in metres"
 says "hint: --t-srs EPSG:32632"
 nothing_left bad.ply
-# what the hint says works, and lands within a millimetre of the original
+# the hint works, and lands within a millimetre of the original
 expect 0 talus-tin degrees.gpkg -o back.ply --t-srs EPSG:32632 --report back.json
 [ "$(value back.json n_triangles)" = "$(value utm.json n_triangles)" ] || fail "other triangles after --t-srs"
 area() { value "$1" area_m2; }
@@ -26,7 +26,7 @@ ogr2ogr -q -a_srs ESRI:102100 web.gpkg mercator.geojson
 expect 1 talus-tin web.gpkg -o bad.ply
 says "whose metres are stretched here"
 
-# a GeoPackage without CRS calls it undefined; a GeoJSON without crs says degrees whatever it holds
+# a GeoPackage without CRS calls it undefined; a GeoJSON without crs means degrees for any values
 for undefined in 0 -1; do
   ogr2ogr -q "undefined$undefined.gpkg" map.geojson
   ogrinfo -q "undefined$undefined.gpkg" -sql "UPDATE gpkg_geometry_columns SET srs_id = $undefined" >/dev/null

@@ -27,7 +27,7 @@ expect 0 talus-tin right.geojson -o right.ply --report right.json
 ! grep -q warning err || fail "a right map is doubted"
 grep -q '"doubts": \[\]' right.json || fail "the report does not say that nothing is in doubt"
 
-# 1150 m may be; 0 m, a kilometre below what stands 20 m beside it, cannot
+# 1150 m may be; 0 m, a kilometre below a point 20 m beside it, cannot
 slope 5 0 >zero.geojson
 expect 1 talus-tin zero.geojson -o bad.ply --doubts places.gpkg
 says "zero.geojson: contour at 0 m, feature 5, x 650"

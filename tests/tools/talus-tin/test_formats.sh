@@ -28,7 +28,7 @@ expect 0 talus-tin 'layers.dxf|layername=HIGH' -o high.ply --crs EPSG:32632 --re
 expect 1 talus-tin 'layers.dxf|layername=NONE' -o no.ply --crs EPSG:32632
 says "the drawing has nothing in a layer \"NONE\""
 
-# 2-D: the height stands in a field, found by its name or named by the user, as number or text
+# 2-D: the height is in a field, found by its name or named by the user, as number or text
 ogr2ogr -q -dim XY flat.shp map.geojson
 expect 0 talus-tin flat.shp -o shp2d.ply
 says "elevation from field ELEV"
@@ -42,13 +42,13 @@ says "elevation from field words"
 data text.ply >found
 cmp -s expected found || fail "heights written as text give other triangles"
 
-# Z of all zeros is no elevation where a field tells heights apart
+# Z of all zeros is not an elevation where a field tells heights apart
 ogr2ogr -q -dim XY zero2d.gpkg map.geojson
 ogr2ogr -q -dim XYZ zero.gpkg zero2d.gpkg
 expect 0 talus-tin zero.gpkg -o zero.ply
 says "elevation from field ELEV"
 
-# the CRS stands in the header, and each format keeps it
+# the CRS is in the header, and each format keeps it
 for file in map.gpkg.ply map.shp.ply dxf.ply; do
   sed '/^end_header$/q' "$file" | grep -a '^comment crs' | grep -qa 'UTM zone 32N' || fail "$file has no CRS"
 done

@@ -1,4 +1,4 @@
-# Contours of a drawing without heights take them from its texts; what has none is refused.
+# Contours of a drawing without heights take them from its texts; a drawing without any is refused.
 . "$source_dir/tests/tools/talus-tin/map.sh"
 drawing() { # drawing N: a plane that rises 1 : 2, contours every 10 m; N of 6 have labels, and one text is a name
   awk -v n="$1" 'BEGIN {
@@ -32,7 +32,7 @@ nothing_left bad.ply
 ogr2ogr -q -f GPKG texts.gpkg map.dxf -sql "SELECT Text AS words FROM entities WHERE Layer = 'LABELS'" -nln texts
 expect 0 talus-tin 'map.dxf|layername=CONTOURS' --labels texts.gpkg --elevation-field labels=words --crs EPSG:32632 -o again.ply
 cmp map.ply again.ply || fail "the same texts give another TIN"
-# labels of another system, unit or height than the contours stand beside none of them
+# labels of another system, unit or height than the contours are beside none of them
 ogr2ogr -q -a_srs EPSG:32632 placed.gpkg texts.gpkg
 ogr2ogr -q -t_srs EPSG:32633 elsewhere.gpkg placed.gpkg
 ogr2ogr -q -f GPKG lines.gpkg map.dxf -a_srs EPSG:32632 -sql "SELECT * FROM entities WHERE Layer = 'CONTOURS'" -nln lines

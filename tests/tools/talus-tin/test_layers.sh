@@ -1,5 +1,5 @@
 # Which layer, which lines, which field: several layers of databases and drawings, other shapes
-# beside, Z that is no number, names as QGIS and download sites write them. The truth is one map.
+# beside, Z that is not a number, names as QGIS and download sites write them. The truth is one map.
 . "$source_dir/tests/tools/talus-tin/map.sh"
 cone >map.geojson
 expect 0 talus-tin map.geojson -o truth.ply
@@ -21,7 +21,7 @@ for triangle in sorted(sorted(corners[i] for i in face[1:]) for face in faces):
     print(triangle)
 END
 }
-is_map() { # is_map ARGUMENTS...: as is_truth, though the lines stand in another order
+is_map() { # is_map ARGUMENTS...: as is_truth, though the lines are in another order
   expect 0 talus-tin "$@" -o found.ply --overwrite --report found.json
   triangles truth.ply >expected_triangles
   triangles found.ply >found_triangles
@@ -139,7 +139,7 @@ says "layer labels also holds 1 point, passed over"
 sed 's/"geometry":\(.*\)}\(,*\)$/"geometry":{"type":"GeometryCollection","geometries":[\1,{"type":"Point","coordinates":[1,2]}]}}\2/' map.geojson >collection.geojson
 is_truth collection.geojson
 says "also holds 4 points, passed over"
-# areas: outlines that each stand at one height, by the command of the hint
+# areas: outlines that are each at one height, by the command of the hint
 sed 's/"LineString","coordinates":\(.*\)}}/"Polygon","coordinates":[\1]}}/' map.geojson >areas.geojson
 refused "holds no lines, but 4 polygons; expected lines" areas.geojson
 eval "$(hint | sed 's/.*height: \(.*\); bands.*/\1/')"
@@ -155,7 +155,7 @@ ogr2ogr -q -nlt MULTILINESTRING lines.gpkg bands.geojson
 refused "meets contour" lines.gpkg
 
 # --- Z and fields ---------------------------------------------------------------------------------
-# Z that is no number beside a good field, in a GeoPackage and in a Shapefile
+# Z that is not a number beside a good field, in a GeoPackage and in a Shapefile
 ogr2ogr -q -nln nan nan.gpkg map.geojson
 ogr2ogr -q -lco SHPT=ARCZ nan.shp map.geojson
 python3 - <<'PY'
@@ -220,7 +220,7 @@ refused "the archive holds 2 vector files, expected one; they are: map.geojson, 
 is_truth "$(hint | sed 's/name one: //')"
 gzip -k map.geojson
 is_truth map.geojson.gz
-# what is named in an archive, or by a part of a name, is part of the run's id
+# a member named in an archive, or by a part of a name, is part of the run's id
 is_truth folder.zip
 one=$(value found.json run_id)
 is_truth folder.zip/maps/whole.shp

@@ -1,4 +1,4 @@
-# What is written: the same bytes every time, nothing over an existing file, mended flats reported.
+# Outputs: the same bytes every time, nothing over an existing file, mended flats reported.
 . "$source_dir/tests/tools/talus-tin/map.sh"
 cone >map.geojson
 expect 0 talus-tin map.geojson -o one.ply --report one.json

@@ -1,4 +1,4 @@
-# Coordinates that cannot be what their CRS says are refused with what they look like; the commands
+# Coordinates that contradict their CRS are refused with the likely system; the commands
 # of the hints give the triangles of the right map.
 . "$source_dir/tests/tools/talus-tin/map.sh"
 cone 25832 1 650000 5200000 >map.geojson

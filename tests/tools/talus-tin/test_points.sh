@@ -1,4 +1,4 @@
-# Scattered points of the ground become a TIN: text, vector layers; what they are not is refused.
+# Scattered points of the ground become a TIN: text, vector layers; other contents are refused.
 . "$source_dir/tests/tools/talus-tin/map.sh"
 command -v ogr2ogr >/dev/null || skip "needs gdal-bin"
 awk 'BEGIN { srand(7); print "id;Easting;Northing;Height (m);code"
@@ -28,7 +28,7 @@ ogr2ogr -q -a_srs EPSG:32632 b.gpkg b.geojson
 expect 0 talus-tin survey.csv --points -o part.ply --crs EPSG:32632 --boundary b.gpkg
 talus-trn part.ply -o part.tif --cell-size-m 5 --no-db -q
 
-# what a point cannot be, and what may be: refused, warned of, written as places
+# impossible points, and doubtful ones: refused, warned of, written as places
 sed '400s/;[0-9.]*;GR/;0;GR/' survey.csv >zero.csv
 expect 1 talus-tin zero.csv --points -o bad.ply --crs EPSG:32632 --doubts zero.gpkg
 says "zero.csv: point at 0 m"

@@ -1,4 +1,5 @@
-# A table beside shapes has a row for each: where one is lost, all behind it have values of others.
+# A table beside shapes has a row for each: where one is lost, all behind it have values of other
+# shapes.
 . "$source_dir/tests/tools/talus-tin/map.sh"
 command -v ogr2ogr >/dev/null || skip "needs gdal-bin"
 awk 'BEGIN {
@@ -43,7 +44,7 @@ for change in 'fewer 10' 'more 12' 'short 8'; do
   done
 done
 
-# the way out: a copy without the table has all shapes
+# the remedy: a copy without the table has all shapes
 mkdir bare
 cp one/map.shp one/map.shx one/map.prj bare
 [ "$(ogrinfo -so bare map | grep 'Feature Count')" = 'Feature Count: 11' ] || fail "shapes were lost"

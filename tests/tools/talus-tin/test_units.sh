@@ -1,4 +1,5 @@
-# Drawings say their unit in the header: what is not metres is refused, and scaled when asked for.
+# Drawings say their unit in the header: units other than metres are refused, and scaled when asked
+# for.
 . "$source_dir/tests/tools/talus-tin/map.sh"
 # drawing CODE SCALE [X0 Y0]: the cone as a DXF drawing, coordinates and heights times SCALE
 drawing() {
@@ -59,7 +60,7 @@ cmp right.ply template.ply || fail "--unit-m 1 scales"
 drawing 4 1000 0 0 >local.dxf
 expect 1 talus-tin local.dxf -o bad.ply --crs none --no-db
 says "the drawing is in millimetres"
-# inches are what GDAL and QGIS write into every drawing: said, and taken as metres
+# GDAL and QGIS write inches into every drawing: said, and taken as metres
 cone 25832 1 650000 5200000 >map.geojson
 ogr2ogr -q -f GPKG map.gpkg map.geojson
 ogr2ogr -q -f DXF gdal.dxf map.gpkg -dialect sqlite -sql "SELECT geom FROM map"

@@ -1,4 +1,4 @@
-# Objects that cannot be meant are refused with their section and a way out.
+# Implausible objects are refused with their section and a remedy.
 run-probe . 2
 expect 1 talus-trace site.toml run_0.h5 --trn slope.tif -o t.gpkg
 says 'has no section [object.*]'

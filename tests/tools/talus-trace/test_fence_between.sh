@@ -18,5 +18,5 @@ prints 'lower: hit by 100 % of the rocks, 3 blocks'
 expect 0 talus-trace site.toml standing.h5 --trn slope.tif -o standing.gpkg --csv standing.csv --no-db
 prints 'upper: hit by 100 % of the rocks, 3 blocks'
 prints 'lower: hit by 0 % of the rocks'
-# what the first object meets is the same in both
+# hits of the first object are the same in both
 grep upper open.csv >a && grep upper standing.csv >b && cmp a b || fail 'the fence changes what comes to the object above it'

@@ -17,7 +17,7 @@ off() {
        END { printf "%.6f %d\n", worst, n }' off.xyz
 }
 
-# is_plane FILE TOLERANCE [N]: its known nodes, at least N, stand on the plane
+# is_plane FILE TOLERANCE [N]: its known nodes, at least N, are on the plane
 is_plane() {
   set -- "$1" "$2" "${3-1000}" $(off "$1")
   awk -v e="$4" -v d="$2" -v n="$5" -v least="$3" 'BEGIN { exit !(e <= d && n >= least) }' ||

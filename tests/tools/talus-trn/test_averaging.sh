@@ -17,7 +17,7 @@ awk -F: '/"largest_m"/ { v = $2 + 0; found = 1; exit } END { exit !(found && v <
   fail "not the mean: $(grep largest_m check.json)"
 grep -q '"covered_share": 1.0' check.json || fail "not all nodes compared"
 
-# an unknown cell makes the nodes unknown that it has a share in, and no others
+# an unknown cell makes the nodes unknown that it has a share in, and only these
 awk 'NR == 36 { $41 = -9999 } { print }' dem.asc >hole.asc
 expect 0 talus-trn hole.asc -o hole.tif --crs EPSG:32632 --cell-size-m 10 --report hole.json
 known=$(gdal_translate -q -of XYZ hole.tif /vsistdout/ | awk '$3 == -9999' | wc -l)

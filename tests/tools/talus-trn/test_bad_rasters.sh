@@ -1,4 +1,4 @@
-# Rasters that no terrain can stand on are refused with what mends them, and leave nothing behind.
+# Rasters that cannot be a terrain are refused with the remedy, and leave nothing behind.
 grid() { # grid NAME CELLSIZE VALUE...: 3 x 3 ASCII grid in local coordinates
   name=$1 size=$2
   shift 2
@@ -25,7 +25,7 @@ gdal_translate -q -of PNG shade.tif shade.png
 refused "as the shades of a picture" talus-trn shade.png $out
 rm -f shade.png.aux.xml
 refused "as the shades of a picture" talus-trn shade.png $out
-# heights that are truly whole metres below 256 go by way of the command that is named
+# heights that are truly whole metres below 256 pass by the command that is named
 gdal_translate -q -ot Byte -a_nodata none good.tif bytes.tif
 refused "as the shades of a picture" talus-trn bytes.tif $out
 says "gdal_translate -ot Float32 bytes.tif heights.tif"

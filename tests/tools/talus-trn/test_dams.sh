@@ -1,5 +1,5 @@
 # Dams of a site are burnt into the terrain: volumes against the sum over its nodes, other nodes bit
-# for bit, lines from a file in another system, what is refused, what is doubtful.
+# for bit, lines from a file in another system, refusals, doubts.
 . "$source_dir/tests/tools/talus-trn/plane.sh"
 plane plane.asc
 gdal_translate -q -ot Float64 -a_srs EPSG:25832 plane.asc dem.tif
@@ -15,7 +15,7 @@ TOML
 expect 0 talus-trn dem.tif site.toml -o dam.tif --cell-size-m 1 --report dam.json
 prints 'dam road: 60 m long, crest 5 to 5 m above the ground, fill '
 
-# net FILE: sum of what its nodes rose [m3], and how many moved
+# net FILE: sum of the rise of its nodes [m3], and how many moved
 net() {
   gdal_translate -q -of XYZ "$1" moved.xyz && gdal_translate -q -of XYZ ground.tif was.xyz
   paste was.xyz moved.xyz | awk '$3 != $6 { s += $6 - $3; n++ } END { printf "%.9f %d\n", s, n }'
@@ -59,7 +59,7 @@ says 'dam.road.crest_width_m, x 650130, y 5200110: 2 m on cells of 5 m: the terr
 says 'dam.road.ditch_m, x 650070, y 5200110: 3 m on cells of 5 m: the terrain has '
 says 'in the cells it is at most 45 degrees steep'
 
-# what cannot be built
+# dams that cannot be built
 expect 1 talus-trn dem.tif site.toml -o no.tif --set 'dam.road.slopes_deg=[60, 28]'
 says 'the downhill face of 28 degrees does not meet the ground within ten heights'
 expect 1 talus-trn dem.tif site.toml -o no.tif --set 'dam.road.line=[[650070, 5200010], [650130, 5200004]]'

@@ -30,7 +30,7 @@ done
 [ "$(gdallocationinfo -valonly -geoloc trn.tif 400006.25 5000003.75)" = -9999 ] || fail "nodata"
 grep -q '"cell_size_m": 2.5' trn.json || fail "no cell size in the report"
 
-# what is known to be nodata stays apart from the rest: the same bytes as GDAL's own copy
+# known nodata stay apart from the rest: the same bytes as GDAL's own copy
 gdal_translate -q -of ENVI -ot Float64 -a_nodata none dem.asc dem.bin
 gdal_translate -q -of ENVI -ot Float64 -a_nodata none trn.tif trn.bin
 cmp -l dem.bin trn.bin | awk 'END { exit NR > 8 }' || fail "more than the nodata cell differs"

@@ -1,5 +1,5 @@
 # An output that cannot be written whole is refused and leaves nothing behind. A limit on the size
-# of files stands in for a full disk: the write fails with an error in both cases.
+# of files replaces a full disk: the write fails with an error in both cases.
 printf 'ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1000\n1 2\n3 4\n' >dem.asc
 trap '' XFSZ
 (

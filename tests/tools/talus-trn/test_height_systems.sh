@@ -24,7 +24,7 @@ gdalinfo other.tif >info
 grep -q "EGM96 height" info || fail "the system of heights was lost"
 grep -q "UTM zone 33N" info || fail "not in UTM zone 33"
 
-# held against each other in plan; what is assumed is said
+# compared with each other in plan; assumptions are reported
 expect 0 talus-trn egm96.tif -o trn.tif --reference utm.tif --no-db
 prints "RMSE 0 m"
 says "utm.tif and the terrain: both are taken to have heights in EPSG:5773 (EGM96 height)"
@@ -32,7 +32,7 @@ expect 0 talus-trn utm.tif -o like.tif --like egm96.tif --no-db
 expect 1 talus-trn egm96.tif -o bad.tif --reference dhhn.tif --no-db
 says "the heights are in EPSG:7837 (DHHN2016 height), those of the terrain in EPSG:5773 (EGM96 height)"
 
-# heights are not changed by --t-srs, nor called what they are not
+# heights are not changed by --t-srs, nor given a wrong system
 for source in utm.tif dhhn.tif; do
   expect 1 talus-trn $source -o bad.tif --t-srs EPSG:25832+5773 --no-db
   says "would have them in EPSG:5773 (EGM96 height)"

@@ -1,5 +1,5 @@
-# What one tool has judged, and the user accepted, no later tool judges again: neither of files made from
-# it nor of copies; heights that were changed since are judged.
+# Heights that one tool has judged, and the user accepted, are not judged again: neither of files
+# made from it nor of copies; heights that were changed since are judged.
 command -v gdal_translate >/dev/null || skip "needs gdal-bin"
 # A slope down to the south with a pit of four cells 700 m below it
 awk 'BEGIN {

@@ -1,4 +1,4 @@
-# A raster whose coordinates cannot be what its CRS says is refused with what they look like; the
+# A raster whose coordinates contradict its CRS is refused with the likely system; the
 # commands of the hints give the right ground.
 . "$source_dir/tests/tools/talus-trn/plane.sh"
 plane plane.asc
@@ -70,7 +70,7 @@ rm mended.tif
 gdal_translate -q -a_ullr 5200000 650205 5200205 650000 -a_srs EPSG:25832 plane.asc exchanged.tif
 refused exchanged.tif "with x and y exchanged they would lie in it"
 
-# degrees under a CRS in metres: what the hint says gives the ground
+# degrees under a CRS in metres: the hint gives the ground
 gdalwarp -q -t_srs EPSG:4326 -r bilinear -dstnodata -9999 utm.tif degrees.tif
 gdal_translate -q -a_srs EPSG:25832 degrees.tif lying.tif
 refused lying.tif "they look like degrees"
@@ -78,7 +78,7 @@ says "hint: --crs EPSG:4326 --t-srs EPSG:25832"
 expect 0 talus-trn lying.tif -o mended_trn.tif --crs EPSG:4326 --t-srs EPSG:25832 --overwrite --no-db
 is_plane mended_trn.tif 0.5
 
-# metres stretched, whatever the projection is called
+# metres stretched, under any name of the projection
 for code in EPSG:32662 EPSG:6933 EPSG:3857 "+proj=eqc +lat_ts=20 +ellps=GRS80 +towgs84=0,0,0"; do
   gdalwarp -q -overwrite -t_srs "$code" -tr 5 5 -r bilinear -dstnodata -9999 utm.tif rimmed.tif
   # without its rim, where gdalwarp repeats values by half a cell
@@ -117,7 +117,7 @@ awk -v z="$(value named.tif "$1" "$2")" 'BEGIN { exit !((z - 1050) ^ 2 < 4) }' |
   fail "the plane is $(value named.tif "$1" "$2") m at its middle, expected 1050"
 expect 0 talus-trn bessel.tif -o guessed.tif --t-srs EPSG:25832 --accept-ballpark --no-db
 says "the place may be off by a hundred metres"
-# what was done is kept
+# the changes are recorded
 expect 0 talus-trn bessel.tif -o kept.tif --crs EPSG:31254 --t-srs EPSG:25832
 talus-runs show 1 >show 2>&1 || true
 grep -q "reprojected from" show || fail "the registry does not hold the operation"

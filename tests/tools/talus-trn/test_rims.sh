@@ -1,4 +1,4 @@
-# What is not known stays unknown: around a raster that is reprojected, below an alpha band or a mask.
+# Unknown cells stay unknown: around a raster that is reprojected, below an alpha band or a mask.
 . "$source_dir/tests/tools/talus-trn/plane.sh"
 
 # a plane in degrees, a third of a second wide, with a hole: the truth at its centres by gdaltransform
@@ -36,7 +36,7 @@ expect 0 talus-trn alpha3.tif -o alpha_trn.tif --no-db
 is_plane alpha_trn.tif 1e-6 1435
 [ "$(off alpha_trn.tif | cut -d' ' -f2)" = 1435 ] || fail "35 rows of 41 nodes are known, not $(off alpha_trn.tif)"
 
-# two bands without a word which is what: the hint that keeps the mask
+# two bands without a statement of their roles: the hint that keeps the mask
 gdal_translate -q -colorinterp gray,undefined alpha3.tif two.tif
 expect 1 talus-trn two.tif -o bad.tif --no-db
 says "the raster has 2 bands, expected one"

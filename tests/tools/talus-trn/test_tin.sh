@@ -58,13 +58,13 @@ bad_points '{"type":"Point","coordinates":[500010,5200010]}' "the points have no
 bad_points '{"type":"LineString","coordinates":[[500010,5200010,1],[500020,5200010,1]]}' "layer bad: holds no points, but 1 line; expected points"
 bad_points null "1 of 1 features have no geometry"
 
-# what does not fit is refused
+# options that do not fit are refused
 expect 1 talus-trn plane.ply -o off.tif --t-srs EPSG:31287
 says "a TIN is not reprojected"
 expect 1 talus-trn plane.ply -o off.tif --crs EPSG:31287
 says "the CRS is EPSG:32632"
 
-# coordinates that are no metres, by the TIN's header or by --crs; a header may hold the code alone
+# coordinates that are not metres, by the TIN's header or by --crs; a header may hold the code alone
 LC_ALL=C sed '/^comment crs/d' plane.ply >local.ply
 header() { # header FILE COMMENT: the TIN without CRS with one comment more
   LC_ALL=C sed "s/^format binary_little_endian 1.0$/&\\ncomment $2/" local.ply >"$1"
@@ -85,7 +85,7 @@ header nonsense.ply "crs EPSG:nonsense"
 expect 1 talus-trn nonsense.ply -o off.tif
 says "nonsense.ply: its CRS: \"EPSG:nonsense\" is not a CRS"
 
-# a TIN that is no ground: no area in plan, higher than the Earth
+# a TIN that is not a ground: no area in plan, higher than the Earth
 triangle() { # triangle BYTES: bytes x, y and two of z for each of the three corners
   printf 'ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty ushort z\n'
   printf 'element face 1\nproperty list uchar uchar vertex_indices\nend_header\n'

@@ -1,4 +1,4 @@
-# What fills rims, gaps and cells without being declared is refused, and the hint's command mends it.
+# Undeclared nodata in rims, gaps and cells are refused, and the hint's command mends it.
 command -v gdal_translate >/dev/null || skip "needs gdal-bin"
 grid() { # grid CONDITION VALUE: a slope from 1000 to 1100 m; cells where the condition holds get VALUE
   awk -v value="$2" 'BEGIN {

@@ -1,4 +1,4 @@
-# Heights change only when asked for, by the one model that is meant; what is missing is refused.
+# Heights change only when asked for, by the one model that applies; a missing model is refused.
 . "$source_dir/tests/tools/talus-trn/plane.sh"
 plane plane.asc
 gdal_translate -q -ot Float64 -a_srs EPSG:25832 plane.asc utm.tif

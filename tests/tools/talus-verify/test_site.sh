@@ -19,7 +19,7 @@ sed '/^\[solver\]/,$d' site.toml >found.toml
 cat s/solver.toml >>found.toml
 expect 0 talus-dda found.toml --trn slope.tif --blocks blocks.h5 --plan --no-db
 
-# the reference is what talus-dda gives with the short step, but for the start of 1 mm/s
+# the reference is the result of talus-dda with the short step, but for the start of 1 mm/s
 mean=$(sed -n 's/^Reference \([0-9.]*\) .*/\1/p' s/out)
 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --set solver.time_step_s=1e-3 --json --no-db >run.json
 east=$(sed -n '/mean_displacement_m/{n;p;}' run.json | tr -d ' ,')
@@ -33,7 +33,7 @@ prints "| 2 of 2 |"
 step=$(sed -n 's/^time_step_s = //p' limited/solver.toml)
 awk -v h="$step" 'BEGIN { exit !(h > 0 && h < 0.01) }' || fail "steps of $step s are recommended"
 
-# the law stands in what it writes; blocks that overlap are refused as ever
+# the law is in its outputs; blocks that overlap are refused as ever
 sed 's/^\[solver\]/[solver]\nlaw = "paper"\nnormal_stiffness_n_m = 5e10/' site.toml >paper.toml
 expect 0 talus-verify --site paper.toml --trn slope.tif --blocks blocks.h5 --runs 2 --no-db -o paper
 grep -qx 'law = "talus"' paper/solver.toml || fail "solver.toml does not name the law"
