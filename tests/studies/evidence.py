@@ -7,8 +7,8 @@
   python3 tests/studies/evidence.py check                                 fails where a page is not as the files say
 
 `run` writes the results of each study to docs/evidence/data/STUDY.csv and writes the pages. It leaves out results of
-the same commit that exist, so it can be stopped and resumed. `list` says what each costs; two halves (names of studies) can be
-run side by side.
+the same commit that exist, so it can be stopped and resumed. `list` says what each costs; two halves (names of
+studies) can be run side by side.
 
 A page is PAGE.md.in with these marks filled:
 
