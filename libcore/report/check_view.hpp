@@ -77,8 +77,8 @@ struct ViewedInput {
 /// Inputs that lie so far off the terrain that the map leaves them out.
 [[nodiscard]] bool is_far(const ViewedInput& input, const Trn& ground);
 
-/// Ground and bed along the section, heights and lengths at one scale; without series where there
-/// is no relief.
+/// Ground and bed along the section, heights and lengths at one scale; without series on flat
+/// ground.
 [[nodiscard]] Chart section_chart(const CheckView& view, const Trn& ground, const Trn& bed);
 
 }  // namespace talus

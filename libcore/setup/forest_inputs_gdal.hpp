@@ -28,7 +28,7 @@ struct StandingForests {
 /// The stems and canopies of the active [forest.*]; none with law paper. Stems of a list off the
 /// known ground are left out with a warning, and so are stems of a drawn stand in a block at its
 /// start. Throws InputError for a forest that does not give its place or gives it twice, that
-/// has no stem on the terrain, that has stems and drags, with keys or rasters that do not go
+/// lacks a stem on the terrain, that has stems and drags, with keys or rasters that do not go
 /// together, with more than 1e6 stems, stems without a diameter, of an unknown species, and a
 /// listed stem in a block or at the place of one of a section before. Warns of stands of one
 /// kind that share ground.

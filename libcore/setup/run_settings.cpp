@@ -121,7 +121,7 @@ void warn_of_plan(InputLog& log, const Site& site, const ScenePlan& plan, DdaInp
   if (!plan.block_contacts)
     warn(std::to_string(n) +
          " blocks move as if each were alone: contacts between them are not computed");
-  // Whoever asks for stress must not read it off blocks that have none.
+  // A user who asks for stress must not read it off blocks without stress.
   else if (site.solver.strain == "on" && site.solver.law == "talus")
     warn(
         "strains are asked for: law talus computes blocks that touch each other rigid, their "

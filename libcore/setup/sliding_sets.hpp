@@ -29,7 +29,7 @@ void check_sliding_set(const Site& site, const FailurePlanes& found);
                                             const std::vector<FailureWedge>& wedges);
 
 /// Dip that a set needs for a mass to slide off on it: "dips 28 to 41 degrees towards 322 to 22";
-/// that such a dip does not exist, where the slope is no steeper than the friction angle.
+/// that such a dip does not exist, where the slope is not steeper than the friction angle.
 [[nodiscard]] std::string what_would_go(const FailurePlanes& found);
 
 /// A number with at most one decimal ("28.4").

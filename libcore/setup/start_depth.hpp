@@ -18,7 +18,7 @@ namespace talus {
 /// Expresses all places of the set relative to another local zero, in map coordinates [m].
 void move_to_origin(BlockSet& blocks, const Vec3& origin);
 
-/// Moves block b by `way` [m], with all that the set holds of it.
+/// Moves block b by the displacement `way` [m], with all that the set holds of it.
 void move_block(BlockSet& blocks, int b, const Vec3& way);
 
 }  // namespace talus
