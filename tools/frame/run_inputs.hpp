@@ -120,7 +120,7 @@ class RunInputs {
   std::vector<RunMember> left_out;  ///< failed runs
 
  private:
-  // Where a member stands: a run of a part, or a file of its own.
+  // Where a member is stored: a run of a part, or a file of its own.
   struct Place {
     int part = -1, run = -1;
   };

@@ -1,5 +1,5 @@
 // tools/frame/staged_files.hpp
-// Outputs on their way: written in a hidden folder of their own beside the output, and put in place
+// Outputs are written in a hidden folder of their own beside the output, and put in place
 // when all of a run are whole.
 // in:    paths of outputs
 // out:   files in their places with equal times, or none of them
