@@ -1,5 +1,5 @@
-"""fields.py PAGE FILE...: every field of the layers (.gpkg) and tables (.csv) has a title and stands
-on the page of fields. With --print as PAGE: what should stand there."""
+"""fields.py PAGE FILE...: every field of the layers (.gpkg) and tables (.csv) has a title and is
+on the page of fields. With --print as PAGE: prints the rows that should be there."""
 import csv
 import re
 import sqlite3

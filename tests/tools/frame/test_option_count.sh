@@ -1,5 +1,5 @@
 # Options of all tools beside those that every tool has, and the message for one that is gone.
-# Whoever adds an option takes another one away. Options that several tools declare in one place
+# For each new option another one goes. Options that several tools declare in one place
 # count once.
 command -v python3 >/dev/null || skip "needs python3"
 for tool in batch blocks calibrate check dda export fence fence-search hazard import maps places profile reduce report runout runs site source stability tin trace trn verify; do

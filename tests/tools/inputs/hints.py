@@ -27,7 +27,7 @@ def row(tool, finding, *ways, options='', code=None, fill=(), tolerance=.05, sha
     """A maker of an input: its finding, and the ways of its hint that are taken.
 
     A way is the first word of a command of the shell, or words of the hint that begin with an option, or "leave
-    --option". `fill`: what stands for EPSG:code and its like; `code`: the plane's, where the terrain is in another;
+    --option". `fill`: values for EPSG:code and its like; `code`: the plane's, where the terrain is in another;
     `then`: options for what the command made."""
     def add(make):
         TABLE.append((make, tool, finding, ways, shlex.split(options), dict(fill), then,
@@ -1209,7 +1209,7 @@ def with_keys(site, section, lines, out):
 
 
 def obey_key(entry, way, z0):
-    """As obey(), of keys that a hint names. Behind "then" stands the second step."""
+    """As obey(), of keys that a hint names. The second step follows "then"."""
     make, tool, finding, section, _, out, truth, options = entry
     plane = Plane(z0)
     site = f'[site]\nname = "t"\ncrs = "{CODE}"\n' + make(plane)

@@ -1,4 +1,4 @@
-"""Inputs that came in wrong once, each kind in a second way than the one that was mended: what the tools make of them
+"""Inputs that came in wrong once, each kind in a second form than the one that was mended: the tools' result
 is right, or they say what is wrong, or warn.
 
   kinds.py [NAME]...   (the tools on PATH; works in the folder that it is called in)

@@ -38,7 +38,7 @@ expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o tiles --pages png,pd
 for file in maps/*.tif maps/*.png maps/*.pdf maps/*.qml; do
   cmp "$file" "parts/${file#maps/}" || fail "$file depends on how the runs are read"
 done
-for file in maps/*.tif; do  # its settings stand in the tags
+for file in maps/*.tif; do  # its settings are in the tags
   gdalinfo -checksum "$file" | grep Checksum >whole
   gdalinfo -checksum "tiles/${file#maps/}" | grep Checksum | cmp - whole || fail "$file depends on the tiles"
 done
