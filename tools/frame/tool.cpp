@@ -317,7 +317,7 @@ struct Tool::Impl {
                        [](const RunCheck& check) { return check.pass; });
   }
 
-  // Keeps the layer of doubts, which helps to mend an input that was refused. A failure here must
+  // Keeps the outputs that help to mend an input that was refused. A failure here must
   // not hide the first one.
   void keep_places() {
     timespec now{};
