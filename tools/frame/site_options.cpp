@@ -14,7 +14,12 @@ namespace talus {
 
 SiteOptions::SiteOptions(Tool& tool, std::optional<DrawScope> draws, bool required)
     : tool_(tool), draws_(draws) {
-  tool.input("site", file_, "site file (TOML)").required(required);
+  const ToolOption site = tool.input("site", file_, "site file (TOML)");
+  site.required(required);
+  if (!required)  // another input may be meant by it
+    site.check([](const std::string& name) {
+      return name.ends_with(".toml") ? "" : name + " not expected: a site file ends with .toml";
+    });
   tool.list("--variant", variants_, "the site as [variant.NAME] makes it; of several in order");
   tool.list("--set", overrides_, "override a key of the site file: section.key=value");
   tool.more_config([this] {

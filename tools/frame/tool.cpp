@@ -594,13 +594,18 @@ namespace {
 // One file of those that are named where one is read; empty where it is not so.
 std::string way_to_one_file(const std::string& tool, const CLI::ParseError& error, int argc,
                             char** argv) {
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return {};
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr &&
+      dynamic_cast<const CLI::ValidationError*>(&error) == nullptr)
+    return {};
+  const std::string finding = error.what();
   std::string files;
   int n_files = 0;
   for (int i = 1; i < argc; ++i) {
     std::error_code failed;
+    const bool is_extra = finding.find(argv[i]) != std::string::npos;
     const bool is_value = i > 1 && argv[i - 1][0] == '-';
-    if (is_value || argv[i][0] == '-' || !std::filesystem::exists(argv[i], failed)) continue;
+    if ((is_value && !is_extra) || argv[i][0] == '-' || !std::filesystem::exists(argv[i], failed))
+      continue;
     files += " " + command_words(argv[i]);
     ++n_files;
   }

@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
 #include "import/dem_gdal.hpp"
@@ -513,11 +512,6 @@ int main(int argc, char** argv) {
   talus::SiteOptions site(tool, {}, false);
   site.take_inputs();
   return tool.run(argc, argv, [&] {
-    if (!site.file().empty() && !site.file().ends_with(".toml"))
-      throw talus::UsageError({site.file(), 0, {}}, "not expected: a site file ends with .toml",
-                              "one raster of all tiles: gdalbuildvrt all.vrt " +
-                                  talus::command_words(o.source) + " " +
-                                  talus::command_words(site.file()));
     if (!talus::is_tin_file(o.source)) talus::read_members(tool, "source", o.source);
     talus::read_members(tool, "like", o.like);
     talus::read_members(tool, "reference", o.reference);

@@ -93,7 +93,7 @@ TOML
 expect 0 talus-stability rough.toml --trn bed.tif --blocks blocks.h5 -q --no-db -o rough
 holds rough "r[0]['as_one_body'] > 1.1 * tan(18) / tan(25)"
 holds rough "abs(r[0]['mass']['factor'] / r[0]['as_one_body'] - 1) < 0.015"
-holds rough "4 <= j['drawn']['failed'] <= 8"
+holds rough "4 <= g['drawn']['failed'] <= 8"
 
 # The failed samples are those whose friction is below 25 degrees: about half of 23 to 27
 sed '/^\[water\]/,$d' site.toml >drawn.toml
