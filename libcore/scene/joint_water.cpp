@@ -158,17 +158,22 @@ struct TopFaces {
   }
 };
 
-double lowest_of(const std::vector<Vec3>& outline) {
-  double low = std::numeric_limits<double>::infinity();
-  for (const Vec3& x : outline) low = std::min(low, x.z());
-  return low;
-}
-
 /// Lowest and highest point of a crack [m].
 struct CrackSpan {
   double foot = -std::numeric_limits<double>::infinity();
   double top = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] double level(double fill) const { return std::min(foot + fill, top); }
 };
+
+CrackSpan span_of(const std::vector<Vec3>& outline) {
+  const auto [low, high] = std::ranges::minmax(outline, {}, [](const Vec3& x) { return x.z(); });
+  return {low.z(), high.z()};
+}
+
+CrackSpan united(const CrackSpan& a, const CrackSpan& b) {
+  return {std::min(a.foot, b.foot), std::max(a.top, b.top)};
+}
 
 // Of the crack of each face: of all faces of cracks in its plane. No bounds where it is in none.
 std::vector<CrackSpan> spans_of(const std::vector<JointFace>& faces, double gap) {
@@ -176,9 +181,7 @@ std::vector<CrackSpan> spans_of(const std::vector<JointFace>& faces, double gap)
   const auto is_crack = [&](size_t i) { return faces[i].fill == JointFill::crack; };
   for (size_t i = 0; i < faces.size(); ++i) {
     if (!is_crack(i)) continue;
-    own[i] = {lowest_of(faces[i].outline), -std::numeric_limits<double>::infinity()};
-    for (const Vec3& x : faces[i].outline) own[i].top = std::max(own[i].top, x.z());
-    spans[i] = own[i];
+    spans[i] = own[i] = span_of(faces[i].outline);
   }
   for (size_t i = 0; i < faces.size(); ++i)
     for (size_t k = 0; k < faces.size() && is_crack(i); ++k) {
@@ -186,7 +189,7 @@ std::vector<CrackSpan> spans_of(const std::vector<JointFace>& faces, double gap)
       const Vec3 &n = faces[i].into_a, &other = faces[k].into_a;
       if (!is_same_face(n, other) && !is_same_face(n, -other)) continue;
       if (std::abs(n.dot(faces[k].outline[0] - faces[i].outline[0])) > gap) continue;
-      spans[i] = {std::min(spans[i].foot, own[k].foot), std::max(spans[i].top, own[k].top)};
+      spans[i] = united(spans[i], own[k]);
     }
   return spans;
 }
@@ -292,9 +295,11 @@ Vec3 water_on_mass(const JointWater& water, const Trn& ground, const Trn& bed, c
   if (water.of_side == JointFill::drained) return sum;
   for (const AreaSide& side : sides_of(area)) {
     const std::vector<std::vector<Vec3>> wall = wall_of(ground, bed, side);
-    double level = std::numeric_limits<double>::infinity();
-    for (const std::vector<Vec3>& piece : wall) level = std::min(level, lowest_of(piece));
-    level = water.of_side == JointFill::crack ? level + water.crack_fill : by_surface;
+    if (wall.empty()) continue;
+    CrackSpan span = span_of(wall[0]);
+    for (const std::vector<Vec3>& piece : wall) span = united(span, span_of(piece));
+    const double level =
+        water.of_side == JointFill::crack ? span.level(water.crack_fill) : by_surface;
     for (const std::vector<Vec3>& piece : wall) add(piece, -side.plane.normal, level);
   }
   return sum;

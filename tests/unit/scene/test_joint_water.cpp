@@ -165,6 +165,12 @@ TEST(WaterOnMass, IsTheUpliftAndTheThrustOfHoekAndBray) {
   const Vec3 thrust = weight * fill * fill / 2 * width * Vec3::UnitX();
   const Vec3 found = water_on_mass(water, ground, bed, area);
   EXPECT_NEAR((found - lift - thrust).norm() / lift.norm(), 0, 1e-9) << found.transpose();
+  // a crack runs over at its top
+  water.crack_fill = 100;
+  const double wall = length * (1 - std::tan(25 * degree));
+  const Vec3 full = weight * wall * wall / 2 * width * Vec3::UnitX();
+  EXPECT_NEAR((water_on_mass(water, ground, bed, area) - lift - full).norm() / full.norm(), 0,
+              1e-9);
   water.of_side = JointFill::drained;
   EXPECT_NEAR((water_on_mass(water, ground, bed, area) - lift).norm() / lift.norm(), 0, 1e-9);
 }
