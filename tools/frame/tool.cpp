@@ -609,7 +609,8 @@ std::string way_to_one_file(const std::string& tool, const CLI::ParseError& erro
     files += " " + command_words(argv[i]);
     ++n_files;
   }
-  if (n_files < 2 || !std::filesystem::exists(argv[1])) return {};
+  std::error_code failed;
+  if (n_files < 2 || !std::filesystem::exists(argv[1], failed)) return {};
   if (tool == "talus-trn") return "one raster of all tiles: gdalbuildvrt all.vrt" + files;
   if (tool == "talus-tin") return "one layer of all maps: ogrmerge.py -single -o all.gpkg" + files;
   return {};

@@ -61,3 +61,8 @@ expect 0 talus-blocks named.toml --trn trn.tif -o c.h5 --print-config
 clean out
 expect 0 talus-runs list --json
 clean out
+
+# A word that is longer than any name of a file, before two files that are not expected.
+touch a.h5 b.h5
+long=$(printf '%300s' '' | tr ' ' a)
+for tool in talus-runs talus-tin talus-trn; do expect 2 "$tool" "$long" show a.h5 b.h5 --no-db; done
