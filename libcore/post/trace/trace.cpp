@@ -50,19 +50,32 @@ bool is_same(const RecordObject& a, const RecordObject& b) {
   return true;
 }
 
-// Cells of a box around an object, by rows and columns.
+struct Box {
+  Vec2 low, high;
+};
+
+// Everything within `slack` of a part of an object.
+Box box_of(const ObjectPart& part, double slack) {
+  Box box{part.points[0], part.points[0]};
+  for (const Vec2& p : part.points) {
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
+  }
+  box.low -= Vec2::Constant(slack);
+  box.high += Vec2::Constant(slack);
+  return box;
+}
+
+bool holds(const Box& box, const Vec2& p) {
+  return (p.array() >= box.low.array()).all() && (p.array() <= box.high.array()).all();
+}
+
+// Cells of boxes around the parts of an object, by rows and columns.
 template <class Visit>
 void for_each_cell_near(const PassageGrid& grid, const RecordObject& object, Visit&& visit) {
   std::set<std::uint32_t> seen;
   for (const ObjectPart& part : object.parts) {
-    Vec2 low = part.points[0], high = low;
-    for (const Vec2& p : part.points) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    const Vec2 margin = Vec2::Constant(object.radius + cell_slack);
-    low -= margin;
-    high += margin;
+    const auto [low, high] = box_of(part, object.radius + cell_slack);
     const auto bound = [](double value, int n) {
       return static_cast<int>(std::clamp(std::floor(value), 0.0, n - 1.0));
     };
@@ -96,22 +109,21 @@ int watched_as(const RunFile& run, const RecordObject& object) {
 
 ObjectCells object_cells(const PassageGrid& grid, const std::vector<RecordObject>& objects) {
   ObjectCells all;
-  for (const RecordObject& object : objects) {
-    std::vector<bool> on(
-        static_cast<std::size_t>(grid.n_rows) * static_cast<std::size_t>(grid.n_cols), false);
-    for (const std::uint32_t cell : cells_of(grid, object)) on[cell] = true;
-    all.push_back(std::move(on));
-  }
+  for (std::size_t o = 0; o < objects.size(); ++o)
+    for (const std::uint32_t cell : cells_of(grid, objects[o]))
+      all.emplace_back(cell, static_cast<std::int32_t>(o));
+  std::sort(all.begin(), all.end());
   return all;
 }
 
 void add_cell_hits(CellHits& hits, const ObjectCells& cells, const std::vector<Passage>& passages,
                    const PassageGrid& grid) {
-  for (const Passage& row : passages)
-    for (std::size_t o = 0; o < cells.size(); ++o) {
-      if (!cells[o][static_cast<std::size_t>(row.cell)]) continue;
+  for (const Passage& row : passages) {
+    const auto cell = static_cast<std::uint32_t>(row.cell);
+    for (auto on = std::lower_bound(cells.begin(), cells.end(), std::pair{cell, 0});
+         on != cells.end() && on->first == cell; ++on) {
       TraceHit hit;
-      hit.object = static_cast<std::int32_t>(o);
+      hit.object = on->second;
       hit.block = row.block;
       hit.time = row.first_time;
       hit.energy = hit.largest_energy = row.largest.total_energy;
@@ -129,12 +141,17 @@ void add_cell_hits(CellHits& hits, const ObjectCells& cells, const std::vector<P
       known.energy = known.largest_energy = std::max(known.energy, hit.energy);
       known.top_height = std::fmax(known.top_height, hit.top_height);
     }
+  }
 }
 
 void add_run(TraceSums& sums, const RunFile& run, double rest_speed, bool by_cells) {
   const auto index = static_cast<std::int32_t>(sums.n_runs);
   sums.n_recorded.resize(sums.objects.size(), 0);
   sums.deposited.resize(sums.objects.size(), 0);
+  std::vector<std::pair<Box, std::size_t>> boxes;  // of the parts; an object
+  for (std::size_t o = 0; o < sums.objects.size(); ++o)
+    for (const ObjectPart& part : sums.objects[o].parts)
+      boxes.emplace_back(box_of(part, sums.objects[o].radius), o);
   for (int b = 0; b < n_blocks(run); ++b) {
     const auto i = static_cast<std::size_t>(b);
     TraceSource& source = sums.source[source_of(sums.sources, run.blocks.rest[i].position)];
@@ -146,17 +163,24 @@ void add_run(TraceSums& sums, const RunFile& run, double rest_speed, bool by_cel
     sums.volume_released += run.blocks.volume[i];
     if (fate_of(run, b, rest_speed) != Fate::deposited) continue;
     const Vec2 end = frame_block(run, n_frames(run.frames) - 1, b).position.head<2>();
-    const bool has_moved = (end - run.blocks.rest[i].position.head<2>()).norm() > 0.1;
-    for (std::size_t o = 0; o < sums.objects.size(); ++o)
-      if (has_moved && gap_to(sums.objects[o], end) <= 0) sums.deposited[o] += run.blocks.volume[i];
+    if ((end - run.blocks.rest[i].position.head<2>()).norm() <= 0.1) continue;
+    std::size_t last = sums.objects.size();  // an object counts once
+    for (const auto& [box, o] : boxes)
+      if (o != last && holds(box, end) && gap_to(sums.objects[o], end) <= 0) {
+        sums.deposited[o] += run.blocks.volume[i];
+        last = o;
+      }
   }
   ++sums.n_runs;
-  for (std::size_t o = 0; o < sums.objects.size(); ++o) {
-    const int watched = by_cells ? -1 : watched_as(run, sums.objects[o]);
-    if (watched < 0) continue;
-    ++sums.n_recorded[o];
-    for (const ObjectHit& row : run.object_hits) {
-      if (row.object != watched) continue;
+  if (by_cells) return;
+  std::vector<std::vector<std::size_t>> asked(run.objects.size());  // for each watched object
+  for (std::size_t o = 0; o < sums.objects.size(); ++o)
+    if (const int watched = watched_as(run, sums.objects[o]); watched >= 0) {
+      ++sums.n_recorded[o];
+      asked[static_cast<std::size_t>(watched)].push_back(o);
+    }
+  for (const ObjectHit& row : run.object_hits)
+    for (const std::size_t o : asked[static_cast<std::size_t>(row.object)]) {
       TraceHit hit;
       hit.run = index;
       hit.object = static_cast<std::int32_t>(o);
@@ -169,7 +193,6 @@ void add_run(TraceSums& sums, const RunFile& run, double rest_speed, bool by_cel
       complete(hit, sums, run);
       sums.hits.push_back(hit);
     }
-  }
 }
 
 void add_hits(TraceSums& sums, const RunFile& run, int run_index, const CellHits& hits,
@@ -245,9 +268,8 @@ int n_behind(const std::vector<double>& descending, double share) {
 ObjectTrace object_trace(const TraceSums& sums, int object, const ShareBasis& basis,
                          const std::vector<SourceLink>& links) {
   ObjectTrace out;
-  std::vector<TraceHit> hits;
-  for (const TraceHit& hit : sums.hits)
-    if (hit.object == object) hits.push_back(hit);
+  const auto of_object = std::ranges::equal_range(sums.hits, object, {}, &TraceHit::object);
+  const std::vector<TraceHit> hits(of_object.begin(), of_object.end());
   std::vector<BlockWeight> blocks;
   std::vector<WeightedValue> heights;
   double weight = 0, volume = 0;
@@ -276,8 +298,8 @@ ObjectTrace object_trace(const TraceSums& sums, int object, const ShareBasis& ba
                : sums.n_recorded[o] == 0         ? "by_cells"
                                                  : "both";
   std::vector<double> shares;
-  for (const SourceLink& link : links)
-    if (link.object == object) shares.push_back(link.share_of_hits);
+  for (const SourceLink& link : std::ranges::equal_range(links, object, {}, &SourceLink::object))
+    shares.push_back(link.share_of_hits);
   out.n_sources = {n_behind(shares, 0.5), n_behind(shares, 0.9), static_cast<int>(shares.size())};
   return out;
 }

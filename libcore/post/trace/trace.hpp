@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "post/deposit.hpp"
@@ -57,8 +58,8 @@ struct TraceSums {
 /// Whether the run watched the object, with the same outline; its index in the run, -1: it did not.
 [[nodiscard]] int watched_as(const RunFile& run, const RecordObject& object);
 
-/// Which cells are cells_of() each object.                               (n_objects x n_cells)
-using ObjectCells = std::vector<std::vector<bool>>;
+/// The cells_of() all objects, as pairs of cell and object, ascending.
+using ObjectCells = std::vector<std::pair<std::uint32_t, std::int32_t>>;
 [[nodiscard]] ObjectCells object_cells(const PassageGrid& grid,
                                        const std::vector<RecordObject>& objects);
 
