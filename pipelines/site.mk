@@ -68,7 +68,7 @@ include $(PIPELINES)inputs.mk
 # made(TOOL): the line behind that of a tool, in a rule: has it really written the file?
 made = $(if $(is_dry_run),,@sh $(PIPELINES)made.sh $1 $@ '$(shell stat -c '%i %Z' $@ 2>/dev/null)')
 # Several shards at once must not make files that all of them read (runs.mk).
-not_in_a_shard = $(if $(SHARD),$(error $1 is to be made again, and a shard makes runs alone: make \
+not_in_a_shard = $(if $(SHARD),$(error $1 is out of date, and shards only compute runs: make \
   prepare, or make submit))
 
 # taken(FILES): in a rule before its tool: takes FILES over from BASE (taken.sh).

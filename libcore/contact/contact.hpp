@@ -48,7 +48,8 @@ struct ContactMemory {
   double stiffness = 0;        ///< k_n of the last step; 0: of a bond [N/m]
   double bond_area = 0;        ///< A_c, share of bonded area; 0 once the bond is broken [m2]
   std::uint8_t state = 0;      ///< ContactState of the last step
-  std::uint8_t rests = 0;      ///< steps until it may stiffen again, since forces were hard to find
+  std::uint8_t cooldown_steps =
+      0;  ///< steps until it may stiffen again, since forces were hard to find
 };
 
 enum class ContactState : std::uint8_t { open = 0, slip = 1, stick = 2 };

@@ -301,7 +301,7 @@ std::string vertical_crs_from_user(const std::string& user_text, const std::stri
 
 std::string target_heights_from_user(const std::string& user_text, const std::string& option) {
   if (user_text == ellipsoidal_heights)
-    throw InputError({"", 0, option}, "heights above the ellipsoid are no system to compute in",
+    throw InputError({"", 0, option}, "heights above the ellipsoid are not a system to compute in",
                      "write the code of a vertical CRS, for example EPSG:5773 (EGM96)");
   return vertical_crs_from_user(user_text, option);
 }

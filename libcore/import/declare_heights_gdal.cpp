@@ -150,7 +150,7 @@ void take_field(RawLayer& layer) {
   if (layer.n_no_number > 0)
     layer.taken.remarks.push_back("Z of " + std::to_string(layer.n_no_number) + " of " +
                                   std::to_string(lines.n_lines()) +
-                                  " is no number and was not looked at");
+                                  " is not a number and was ignored");
   for (std::size_t l = 0; l < heights.size(); ++l)
     for (int i = lines.begin[l]; i < lines.begin[l + 1]; ++i) lines.points[i].z() = heights[l];
 }

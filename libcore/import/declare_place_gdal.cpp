@@ -12,7 +12,7 @@ namespace talus {
 namespace {
 
 constexpr const char* no_degrees =
-    " (a GeoJSON without crs says so), but the coordinates are no degrees";
+    " (a GeoJSON without crs says so), but the coordinates are not degrees";
 
 // The system of the ground, which the frame follows.
 void place_ground(RawLayer& ground, RawInputs& raw) {
@@ -56,7 +56,7 @@ void place_beside(RawLayer& layer, RawInputs& raw) {
   }
   if (is_beyond || layer.own_crs.empty() != raw.frame.empty())
     raw.reading.notes.push_back(layer.path() + ": taken to be in the CRS of the map" +
-                                (is_beyond ? ": its coordinates are no degrees" : ""));
+                                (is_beyond ? ": its coordinates are not degrees" : ""));
 }
 
 }  // namespace

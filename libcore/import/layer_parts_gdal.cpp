@@ -213,7 +213,7 @@ std::string way_to_shape(const OpenLayer& source) {
   if (source.role.shape == LayerShape::line && has("polygon"))
     return (are_contours ? "outlines that each stand at one height: " : "their outlines: ") +
            ("ogr2ogr -nlt MULTILINESTRING lines.gpkg " + command_words(source.ref.path)) +
-           (are_contours ? "; bands between two heights are no contours" : "");
+           (are_contours ? "; bands between two heights are not contours" : "");
   if (source.role.shape == LayerShape::face && has("line"))
     return "contours make a TIN: talus-tin " + command_words(source.ref.path) + " -o tin.ply";
   if (source.role.shape == LayerShape::polygon && has("open line"))

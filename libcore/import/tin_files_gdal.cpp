@@ -299,7 +299,7 @@ std::string crs_of_landxml(const CPLXMLNode* root) {
 TinFile read_landxml(const std::string& path, const std::string& layer, double user_unit_m) {
   const GdalErrors errors;
   const XmlTree tree(CPLParseXMLFile(path.c_str()));
-  if (!tree.root) throw InputError({path}, "is no whole XML: " + errors.failure());
+  if (!tree.root) throw InputError({path}, "is not complete XML: " + errors.failure());
   CPLStripXMLNamespace(tree.root.get(), nullptr, TRUE);
   const double unit_m = unit_of_landxml(tree.root.get(), path, user_unit_m);
   const CPLXMLNode* const surface = chosen_surface(tree.root.get(), path, layer);

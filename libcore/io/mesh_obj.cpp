@@ -78,7 +78,7 @@ class ObjParser {
     const auto [known, is_new] = line_of_object_.emplace(name, where.line);
     if (!name.empty() && !is_new)
       throw InputError(where,
-                       "object " + name + " stands here a second time, first in line " +
+                       "object " + name + " is defined again here, first in line " +
                            std::to_string(known->second),
                        "give each block a name of its own, or remove the copy");
     object_ = name;
@@ -113,7 +113,7 @@ class ObjParser {
       if (own.empty() || known == line_of_object_.end() || part_number(group.name, own) < 0)
         continue;
       throw InputError({path_, line_of_group_[g]},
-                       "group " + group.name + " stands outside of object " + own +
+                       "group " + group.name + " is outside of object " + own +
                            ", which begins in line " + std::to_string(known->second),
                        how_to_name);
     }
@@ -136,7 +136,7 @@ class ObjParser {
       const std::string& object = mesh.object_names[group.object - 1];
       if (group.part < 0)
         throw InputError({path_, line_of_group_[g]},
-                         "faces of object " + object + " stand here outside of its parts (line " +
+                         "faces of object " + object + " are outside of its parts (line " +
                              std::to_string(line_of_part[group.object]) + " begins one)",
                          how_to_name);
       filled[group.object].insert(group.part);

@@ -146,7 +146,7 @@ std::string partner_name(const DeepRow& row, std::span<const RecordLine> lines) 
   return panel + (line < lines.size() ? lines[line].name : std::to_string(row.line));
 }
 
-DeepRow deepest_row(const Scene& scene, const Mishap& deepest) {
+DeepRow deepest_row(const Scene& scene, const NumericalFault& deepest) {
   DeepRow row;
   row.block = static_cast<std::int32_t>(deepest.block);
   set_partner(scene, deepest.partner, row);
@@ -164,11 +164,11 @@ std::string where_words(double time, const Vec3& place) {
          metres(place.z());
 }
 
-std::string mishap_words(const Scene& scene, const Mishap& mishap, const Vec3& origin) {
-  if (mishap.block < 0) return "";
-  return "first block " + std::to_string(mishap.block) + " " +
-         where_words(mishap.time, mishap.place + origin) + ", " +
-         percent(share_of_mass(scene, mishap.block)) + " of the mass";
+std::string fault_words(const Scene& scene, const NumericalFault& fault, const Vec3& origin) {
+  if (fault.block < 0) return "";
+  return "first block " + std::to_string(fault.block) + " " +
+         where_words(fault.time, fault.place + origin) + ", " +
+         percent(share_of_mass(scene, fault.block)) + " of the mass";
 }
 
 std::string deep_words(const DeepRow& row, std::span<const RecordLine> lines, const Vec3& origin) {

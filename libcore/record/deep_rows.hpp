@@ -13,7 +13,7 @@
 
 namespace talus {
 
-struct Mishap;
+struct NumericalFault;
 
 /// A row a block that was deep, at state.time; by block.
 [[nodiscard]] std::vector<DeepRow> deep_rows(const Scene& scene, const State& state,
@@ -29,7 +29,7 @@ struct Mishap;
 [[nodiscard]] std::vector<DeepRow> by_weight(std::span<const DeepRow> rows);
 
 /// The deepest overlap of a run, which need not be deep for its block; `deepest.block` is one.
-[[nodiscard]] DeepRow deepest_row(const Scene& scene, const Mishap& deepest);
+[[nodiscard]] DeepRow deepest_row(const Scene& scene, const NumericalFault& deepest);
 
 /// "the ground", "block 7", "panel 2 of fence NAME".
 [[nodiscard]] std::string partner_name(const DeepRow& row, std::span<const RecordLine> lines);
@@ -40,7 +40,7 @@ struct Mishap;
                                      const Vec3& origin);
 
 /// Block, time, place on the map and share of the mass; nothing where it did not happen.
-[[nodiscard]] std::string mishap_words(const Scene& scene, const Mishap& mishap,
-                                       const Vec3& origin);
+[[nodiscard]] std::string fault_words(const Scene& scene, const NumericalFault& fault,
+                                      const Vec3& origin);
 
 }  // namespace talus

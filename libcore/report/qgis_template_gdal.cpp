@@ -120,7 +120,7 @@ class Filler {
     tree_.reset(CPLParseXMLString(from.xml.c_str()));
     qgis_ = tree_ ? CPLGetXMLNode(tree_.get(), "=qgis") : nullptr;
     if (qgis_ == nullptr)
-      refuse("", "is no project of QGIS: " +
+      refuse("", "is not a QGIS project: " +
                      (errors.failure().empty() ? "it holds no <qgis>" : errors.failure()));
   }
 

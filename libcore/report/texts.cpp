@@ -120,7 +120,7 @@ std::vector<std::string> Texts::replace_by(const Texts& other) {
     const std::set<std::string> names = names_in(own->second.texts);
     for (const std::string& name : names_in(entry.texts))
       if (names.count(name) == 0)
-        throw InputError(where, "has {" + name + "}, which is no value of this text",
+        throw InputError(where, "has {" + name + "}, which is not a value of this text",
                          "its values: " + as_list(names));
   }
   std::vector<std::string> missing;

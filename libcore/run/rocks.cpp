@@ -96,18 +96,19 @@ void add(const RunCounters& counters, RunCounters& sum) {
   sum.left_domain += counters.left_domain;
 }
 
-void take_earlier(Mishap other, int first, Mishap& mishap) {
-  if (other.block < 0 || (mishap.block >= 0 && mishap.time <= other.time)) return;
+void take_earlier(NumericalFault other, int first, NumericalFault& fault) {
+  if (other.block < 0 || (fault.block >= 0 && fault.time <= other.time)) return;
   other.block += first;
-  mishap = other;
+  fault = other;
 }
 
-void add(const Mishaps& mishaps, int first, Mishaps& sum) {
-  for (const auto mishap :
-       {&Mishaps::unconverged, &Mishaps::not_finite, &Mishaps::left_domain, &Mishaps::fell_through})
-    take_earlier(mishaps.*mishap, first, sum.*mishap);
-  if (mishaps.deepest.block < 0 || mishaps.deepest.depth <= sum.deepest.depth) return;
-  sum.deepest = mishaps.deepest;
+void add(const NumericalFaults& numerical_faults, int first, NumericalFaults& sum) {
+  for (const auto fault : {&NumericalFaults::unconverged, &NumericalFaults::not_finite,
+                           &NumericalFaults::left_domain, &NumericalFaults::fell_through})
+    take_earlier(numerical_faults.*fault, first, sum.*fault);
+  if (numerical_faults.deepest.block < 0 || numerical_faults.deepest.depth <= sum.deepest.depth)
+    return;
+  sum.deepest = numerical_faults.deepest;
   sum.deepest.block += first;
 }
 
@@ -148,7 +149,7 @@ void add_state(Batch& batch, int n_rocks, State& state) {
         &EnergyLedger::removed, &EnergyLedger::water})
     state.ledger.*energy += from.ledger.*energy;
   add(from.counters, state.counters);
-  add(from.mishaps, batch.first, state.mishaps);
+  add(from.numerical_faults, batch.first, state.numerical_faults);
   state.time = from.time;
 }
 

@@ -261,7 +261,7 @@ void add_deep_checks(const Runner& runner, std::vector<HealthCheck>& checks) {
 
 void add_penetration_check(const Runner& runner, double penetration,
                            std::vector<HealthCheck>& checks) {
-  const Mishap& deepest = runner.state.mishaps.deepest;
+  const NumericalFault& deepest = runner.state.numerical_faults.deepest;
   checks.push_back(
       check("largest penetration, m", penetration, runner.options.limits.max_penetration, true,
             deepest.block < 0 ? ""
@@ -272,25 +272,25 @@ void add_penetration_check(const Runner& runner, double penetration,
 std::vector<HealthCheck> checks_of(const Runner& runner, const WorstOfRows& worst,
                                    const HealthRow& row) {
   const RunLimits& limits = runner.options.limits;
-  const Mishaps& mishaps = runner.state.mishaps;
-  const auto first = [&runner](const Mishap& mishap) {
-    return mishap_words(runner.scene, mishap, runner.file.info.origin);
+  const NumericalFaults& numerical_faults = runner.state.numerical_faults;
+  const auto first = [&runner](const NumericalFault& fault) {
+    return fault_words(runner.scene, fault, runner.file.info.origin);
   };
   std::vector<HealthCheck> checks = {
       check("steps with a block that is not finite", static_cast<double>(row.not_finite), 0, true,
-            first(mishaps.not_finite)),
+            first(numerical_faults.not_finite)),
       check("steps with a block below the ground", static_cast<double>(row.fell_through), 0, true,
-            first(mishaps.fell_through)),
+            first(numerical_faults.fell_through)),
       check("energy gained, share of the fall energy", worst.gain.value, limits.max_energy_gain,
             true, worst.gain.where())};
   if (least_restitution(runner.scene) >= almost_full && !runner.law)
     checks.push_back(check("energy lost but by friction and hits, share of the fall energy",
                            worst.loss.value, limits.max_energy_gain, false, worst.loss.where()));
   checks.push_back(check("steps accepted unconverged, share", unconverged_share(runner),
-                         limits.max_unconverged_share, false, first(mishaps.unconverged)));
+                         limits.max_unconverged_share, false, first(numerical_faults.unconverged)));
   checks.push_back(check("mass of blocks that left the terrain, share",
                          lost_share(runner.scene, runner.state), limits.max_lost_share, false,
-                         first(mishaps.left_domain)));
+                         first(numerical_faults.left_domain)));
   if (std::isnan(limits.max_penetration))
     add_deep_checks(runner, checks);
   else

@@ -49,9 +49,9 @@ struct SleepLoad {
 };
 
 /// Slip distance of a block, on ground whose friction follows that.
-struct SlidWay {
-  double way = 0;   ///< [m]
-  double time = 0;  ///< when it did so last [s]
+struct SlipMemory {
+  double distance = 0;  ///< [m]
+  double time = 0;      ///< when it did so last [s]
 };
 
 /// Counts since the start.
@@ -88,7 +88,7 @@ struct DeepBlock {
 };
 
 /// A block that something happened to, when and where.
-struct Mishap {
+struct NumericalFault {
   int block = -1;             ///< -1: it did not happen
   int partner = -1;           ///< of an overlap: the other body; -1: the ground
   double depth = 0;           ///< of an overlap [m]
@@ -96,10 +96,10 @@ struct Mishap {
   Vec3 place = Vec3::Zero();  ///< of the block's centroid then [m]
 };
 
-/// Blocks for the limits of a run's health (step/mishaps.hpp): the deepest overlap, and the first
-/// block of each other kind.
-struct Mishaps {
-  Mishap deepest, unconverged, not_finite, left_domain, fell_through;
+/// Blocks for the limits of a run's health (step/numerical_faults.hpp): the deepest overlap, and
+/// the first block of each other kind.
+struct NumericalFaults {
+  NumericalFault deepest, unconverged, not_finite, left_domain, fell_through;
 };
 
 /// Phases, local times and rest of the blocks are those of BlockLives.
@@ -121,14 +121,14 @@ struct State : BlockLives {  // clang-format off
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
   std::vector<double> pressure;             ///< share left of that at the start [-]   (n_wet_faces)
   std::vector<DeepBlock> deep;              ///<                                     (n_blocks)
-  std::vector<SlidWay> slid;                ///< empty: friction follows no distance (n_blocks)
+  std::vector<SlipMemory> slid;                ///< empty: friction follows no distance (n_blocks)
   std::vector<BlockLoad> load;              ///< empty: none is crushed                 (n_blocks)
   std::vector<CrushedBlock> crushed;        ///< by time
   std::vector<double> hit_loss;             ///< of the current step; empty: none breaks [J]
                                             ///< (n_blocks)
   std::vector<std::int32_t> n_hits;         ///< steps with a hit; empty: none breaks   (n_blocks)
   std::vector<Break> breaks;                ///< by time
-  Mishaps mishaps;                          ///< so far
+  NumericalFaults numerical_faults;                          ///< so far
   YieldingState yielding;                   ///< state of fixed bodies that yield
   FenceState fence;                         ///< hits on the panels of fences
   std::vector<StemHit> stem_hits;           ///< in the order of their times, step by step
@@ -137,9 +137,9 @@ struct State : BlockLives {  // clang-format off
   RunCounters counters;
 };  // clang-format on
 
-/// Slip memory of a block up to now; `way` nullptr: no ground keeps it.
+/// Slip memory of a block up to now; `memory` nullptr: no ground keeps it.
 struct Slide {
-  const SlidWay* way = nullptr;
+  const SlipMemory* memory = nullptr;
   double t = 0;  ///< now [s]
 };
 [[nodiscard]] inline Slide slide_of(const State& state, int b, double t) {

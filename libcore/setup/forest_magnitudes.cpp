@@ -60,7 +60,7 @@ void check_diameters(const ForestSection& s, const Spread& cm) {
                               words_of(cm.median) + " cm (" + words_of(cm.low) + " to " +
                               words_of(cm.high) + ")" + in_another_unit(cm.median);
   if (cm.median < thinnest || cm.median > thickest)
-    s.refuse(finding + ": that is no wood",
+    s.refuse(finding + ": that is not a forest",
              said_by(s) + " holds diameters at breast height in centimetres: bring them to these");
   s.warn(finding + ": is " + said_by(s) + " in centimetres?");
 }

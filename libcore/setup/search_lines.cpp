@@ -83,7 +83,7 @@ int protected_object(const Site& site, const FenceSearchSettings& search) {
   throw InputError(where_of_search(site, search),
                    search.protect.empty()
                        ? "does not say what it protects"
-                       : "protects \"" + search.protect + "\", which is no object",
+                       : "protects \"" + search.protect + "\", which is not an object",
                    (nearest.empty() ? std::string() : "did you mean " + nearest + "? ") +
                        "protect names an [object.*]: " + list_of(names));
 }

@@ -27,7 +27,7 @@ void check_field(const std::string& field, std::vector<std::string> keys,
                  const std::vector<std::string>& attributes, const std::string& place) {
   keys.insert(keys.end(), attributes.begin(), attributes.end());
   if (const std::string nearest = nearest_name(field, keys); !nearest.empty())
-    throw InputError({place}, "has a field " + field + " that is no key",
+    throw InputError({place}, "has a field " + field + " that is not a key",
                      "did you mean " + nearest + "? Rename the field, or empty it");
 }
 

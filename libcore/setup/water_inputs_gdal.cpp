@@ -65,9 +65,10 @@ void fill_sets(const Site& site, const std::vector<std::string>& sets, const cha
     if (is_known) continue;
     std::vector<std::string> known = sets;
     known.emplace_back(source_side);
-    throw InputError(where_of(site, std::string("water.") + key),
-                     std::string(key) + " names " + name + ", which is no joint set of the blocks",
-                     "they have " + list_of(known));
+    throw InputError(
+        where_of(site, std::string("water.") + key),
+        std::string(key) + " names " + name + ", which is not a joint set of the blocks",
+        "they have " + list_of(known));
   }
 }
 

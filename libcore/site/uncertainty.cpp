@@ -443,7 +443,7 @@ void check_quantity(const Site& site, const QuantitySettings& q) {
     if (is_orientation(path)) {
       check_orientation(site, q, path);
     } else if (is_fisher(q)) {
-      refuse(site, q, "keys", path + " is no orientation, expected joints.NAME.orientation",
+      refuse(site, q, "keys", path + " is not an orientation, expected joints.NAME.orientation",
              "fisher draws dip and dip direction of a joint set together");
     }
   }

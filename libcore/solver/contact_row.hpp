@@ -79,7 +79,7 @@ struct KeptContact {  // clang-format off
   int memory = -1;                ///< index into A's memory, -1: new
   int pair = 0;                   ///< island: index into its pairs
   int row = 0;                    ///< island: its number among the rows of the solver
-  int rests = 0;                  ///< ContactMemory::rests
+  int cooldown_steps = 0;                  ///< ContactMemory::cooldown_steps
   bool waits = false;             ///< approaches too fast to press without being hit: presses nothing
   // where it is and how it moves in the substep without contact forces
   double gap_start = 0;           ///< gap at the start, without `offset` [m]

@@ -78,7 +78,7 @@ inline constexpr double most_sag_in_motion = 1e-5;
 inline constexpr double soft_sag = 2;
 /// [-] k_n dt^2 / m of the stiffest contact by its load.
 inline constexpr double stiffest_by_load = 4e5;
-/// [-] It is softer by this factor where forces are not found, and stays so for `most_rests`.
+/// [-] It is softer by this factor where forces are not found, and stays so for `longest_cooldown`.
 /// Tried: 64; it changes little and is in vain ...
 inline constexpr double easing = 4096;
 /// [-] ... then all of the island is soft, at once where a block moves; then substeps are halved.
@@ -95,7 +95,7 @@ inline constexpr int hard_passes = 10;
 inline constexpr double relief = 8;
 /// [steps] ... and no stiffer for this long. Tried: 5; a mass that topples takes half as many
 /// passes again.
-inline constexpr int most_rests = 40;
+inline constexpr int longest_cooldown = 40;
 /// [-] Stiffness of a contact whose load asks for more: `stiffens` times the need; times that in
 /// the first step, in which all sag at once. Tried: 2; towers sway ...
 inline constexpr double ample_at_start = 8;

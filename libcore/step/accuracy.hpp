@@ -15,34 +15,36 @@ namespace talus {
 
 /// Estimated error of a block's place after a substep, and the displacement of its points in it
 /// [m].
-struct WayError {
-  double error = 0, way = 0;
+struct DisplacementError {
+  double error = 0, displacement = 0;
 };
 
 /// From the changes of the mean acceleration and spin rate since the substep of `last_h` before.
 /// A linear change by c over h leaves an error of c h^2 / 12.
-[[nodiscard]] inline WayError error_of_way(const BlockNumbers& c, const Vec3& change,
-                                           const Vec3& change_of_spin, const Vec3& path,
-                                           const Vec3& turn, double h, double last_h) {
+[[nodiscard]] inline DisplacementError error_of_displacement(const BlockNumbers& c,
+                                                             const Vec3& change,
+                                                             const Vec3& change_of_spin,
+                                                             const Vec3& path, const Vec3& turn,
+                                                             double h, double last_h) {
   const double over_h = std::min(1.0, 2 * h / (h + last_h));
   const double changed = change.norm() + c.radius * change_of_spin.norm();
   return {over_h * changed * h * h / 12, path.norm() + c.radius * turn.norm()};
 }
 
 /// As a share of the displacement, or of a part of the thickness where that is more [-].
-[[nodiscard]] inline double share_of(const WayError& of, double thickness) {
-  return of.error / (of.way + law::shallow * thickness);
+[[nodiscard]] inline double share_of(const DisplacementError& of, double thickness) {
+  return of.error / (of.displacement + law::shallow * thickness);
 }
 
 /// Of an island or a mass: the mean share, by momentum.
 struct MeanError {
   double share = 0, momentum = 0;
 
-  void add(const BlockNumbers& c, const WayError& of) {
-    share += c.mass * of.way * share_of(of, c.thickness);
-    momentum += c.mass * of.way;
+  void add(const BlockNumbers& c, const DisplacementError& of) {
+    share += c.mass * of.displacement * share_of(of, c.thickness);
+    momentum += c.mass * of.displacement;
   }
-  [[nodiscard]] double over_way() const { return momentum > 0 ? share / momentum : 0; }
+  [[nodiscard]] double over_displacement() const { return momentum > 0 ? share / momentum : 0; }
 };
 
 /// Length of a substep whose error is allowed: `h` where `share`, that of `h`, is [s].

@@ -129,7 +129,7 @@ int partner_of(const Scene& scene, const State& state, int b, DeepWork& w) {
 }
 
 void note_deepest(const Scene& scene, State& state, DeepWork& w, const StepReport& report) {
-  Mishap& deepest = state.mishaps.deepest;
+  NumericalFault& deepest = state.numerical_faults.deepest;
   if (report.deepest_block < 0 || report.largest_penetration <= deepest.depth) return;
   const int b = report.deepest_block;
   deepest = {b, partner_of(scene, state, b, w), report.largest_penetration, state.time,

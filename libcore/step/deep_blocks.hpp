@@ -32,7 +32,7 @@ inline void note_overlap(int block, double overlap, double thickness, DeepWork& 
 }
 
 /// Measures the suspects of the step that has just ended at state.time; the deepest of the run so
-/// far goes into state.mishaps.
+/// far goes into state.numerical_faults.
 void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport& report);
 
 }  // namespace talus

@@ -59,22 +59,23 @@ int add_turn(const Scene& scene, int b, const BlockNumbers& c, double h,
   return static_cast<int>(turns.size()) - 1;
 }
 
-double way_slid(const Slide& slide, const GroundClass& ground) {
-  if (slide.way == nullptr) return 0;
-  return slide.way->way * std::exp(-ground.scar_decay * std::max(0.0, slide.t - slide.way->time));
+double slip_distance(const Slide& slide, const GroundClass& ground) {
+  if (slide.memory == nullptr) return 0;
+  return slide.memory->distance *
+         std::exp(-ground.scar_decay * std::max(0.0, slide.t - slide.memory->time));
 }
 
 void vary_friction(const GroundClass& ground, const Slide& slide, double speed, double time,
                    double& friction) {
   if (varies_friction(ground))
-    friction = mean_friction(ground, speed, way_slid(slide, ground), time * speed);
+    friction = mean_friction(ground, speed, slip_distance(slide, ground), time * speed);
 }
 
 void slide_on(const Scene& scene, const GroundClass& ground, int b, double speed, double time,
               double t, double h, State& state) {
   if (state.slid.empty()) return;
   const double path = speed > law::island_tolerance * scene.gravity.norm() * h ? time * speed : 0;
-  state.slid[static_cast<size_t>(b)] = {way_slid(slide_of(state, b, t), ground) + path, t + h};
+  state.slid[static_cast<size_t>(b)] = {slip_distance(slide_of(state, b, t), ground) + path, t + h};
 }
 
 int begin_soil(const Scene& scene, int b, const BlockNumbers& c, double h, const Slide& slide,

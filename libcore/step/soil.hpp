@@ -42,7 +42,7 @@ int add_turn(const Scene& scene, int b, const BlockNumbers& c, double h,
              std::vector<RowArm>& arms);
 
 /// Slip distance on ground whose friction follows it: less the part forgotten off the ground [m].
-[[nodiscard]] double way_slid(const Slide& slide, const GroundClass& ground);
+[[nodiscard]] double slip_distance(const Slide& slide, const GroundClass& ground);
 
 /// The one place that friction comes from where it varies, for every solver: makes `friction` its
 /// mean over a `time` of slip at the mean speed `speed`; 0: at that speed now. Leaves it where it

@@ -18,7 +18,7 @@
 #include "step/loads.hpp"
 #include "step/lone/step_talus.hpp"
 #include "step/mass/step_mass.hpp"
-#include "step/mishaps.hpp"
+#include "step/numerical_faults.hpp"
 #include "step/settle.hpp"
 #include "step/substep.hpp"
 
@@ -136,7 +136,7 @@ void end_step(const Scene& scene, State& state, Work& work, StepReport& report) 
   break_blocks(scene, state, work);
   crush_blocks(scene, state);
   note_deep_blocks(scene, state, work.deep, report);
-  note_mishaps(scene, report, state);
+  note_numerical_faults(scene, report, state);
   ++state.counters.steps;
   state.counters.substeps += report.substeps;
   state.counters.impacts += report.n_impacts;

@@ -75,8 +75,8 @@ double stiffness_by_load(const BlockNumbers& c, double soft, double ready, doubl
                          const ContactRow& row) {
   const double last = row.last_stiffness;
   double k = std::min(stiffness_to_bear(row, c.sag), std::max(law::stiffens * last, ready));
-  if (last > 0 && row.rests > 0)
-    k = std::min(k, row.rests == law::most_rests ? last / law::relief : last);
+  if (last > 0 && row.cooldown_steps > 0)
+    k = std::min(k, row.cooldown_steps == law::longest_cooldown ? last / law::relief : last);
   const bool moves = row.slip_speed > c.slow || row.speed_start > c.slow;
   if (moves) k = std::min(k, last / law::largest_change);
   return std::clamp(k, soft, std::max(soft, most));
@@ -235,7 +235,7 @@ void forget_last_step(ContactRow& row) {
   row.memory = -1;
   row.stuck = false;
   row.tilt_speed = 0;
-  row.rests = 0;
+  row.cooldown_steps = 0;
   row.cap = 0;
   row.impulse.setZero();
   row.state = ContactState::open;
@@ -275,7 +275,7 @@ void inherit(const ContactMemory& memory, int index, bool same_features, const M
   row.stuck = memory.state == static_cast<std::uint8_t>(ContactState::stick);
   row.last_stiffness = memory.stiffness;
   row.last_force = memory.normal_force;
-  row.rests = memory.rests;
+  row.cooldown_steps = memory.cooldown_steps;
   row.bond_area = memory.bond_area;
   row.offset = std::min(memory.offset, std::max(0.0, -row.gap_start));
   const double jump = memory.gap_end - (row.gap_start + row.offset);
@@ -302,7 +302,7 @@ void take_on_load(std::span<const ContactMemory> memory, int body_b, ContactRow&
     deepest = -c.gap_end;
     row.last_stiffness = c.stiffness;
     row.last_force = c.normal_force;
-    row.rests = c.rests;
+    row.cooldown_steps = c.cooldown_steps;
   }
   row.offset = std::max(0.0, -row.gap_start - deepest);
 }

@@ -19,7 +19,8 @@ static_assert(sizeof(ContactMemory) == 112 &&
               sizeof(HealthRow) == 216 + 8 * substep_cut_names.size());
 static_assert(sizeof(State) == 2 * 8 + 24 * 24 + sizeof(HitChain) + sizeof(EnergyLedger) +
                                    sizeof(RunCounters) + sizeof(PairState) + sizeof(PlacedHulls) +
-                                   sizeof(FenceState) + sizeof(YieldingState) + sizeof(Mishaps));
+                                   sizeof(FenceState) + sizeof(YieldingState) +
+                                   sizeof(NumericalFaults));
 static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
 static_assert(sizeof(MetBody) == 64 && sizeof(StemHit) == 80);
 static_assert(sizeof(FenceState) == 24 + sizeof(HitChain) && sizeof(HitChain) == 2 * 24);
@@ -29,8 +30,8 @@ static_assert(sizeof(FenceHit) == 104);
 static_assert(sizeof(BlockBond) == 40 + sizeof(GroundClass) && sizeof(GroundClass) == 152);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
-static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
-              sizeof(Mishaps) == 5 * 48);
+static_assert(sizeof(SlipMemory) == 16 && sizeof(DeepBlock) == 64 && sizeof(NumericalFault) == 48 &&
+              sizeof(NumericalFaults) == 5 * 48);
 static_assert(sizeof(MassShare) == 20 && sizeof(SleepLoad) == 64);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
@@ -107,17 +108,17 @@ void fields(Fields<Archive>& archive, Break& broken) {
           broken.place, broken.volume, broken.hit_loss, broken.fracture, broken.separation);
 }
 template <class Archive>
-void fields(Fields<Archive>& archive, Mishap& mishap) {
-  archive(mishap.block, mishap.partner, mishap.depth, mishap.time, mishap.place);
+void fields(Fields<Archive>& archive, NumericalFault& fault) {
+  archive(fault.block, fault.partner, fault.depth, fault.time, fault.place);
 }
 template <class Archive>
-void fields(Fields<Archive>& archive, Mishaps& mishaps) {
-  archive(mishaps.deepest, mishaps.unconverged, mishaps.not_finite, mishaps.left_domain,
-          mishaps.fell_through);
+void fields(Fields<Archive>& archive, NumericalFaults& faults) {
+  archive(faults.deepest, faults.unconverged, faults.not_finite, faults.left_domain,
+          faults.fell_through);
 }
 template <class Archive>
-void fields(Fields<Archive>& archive, SlidWay& slid) {
-  archive(slid.way, slid.time);
+void fields(Fields<Archive>& archive, SlipMemory& slid) {
+  archive(slid.distance, slid.time);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, MassShare& share) {
@@ -136,7 +137,7 @@ template <class Archive>
 void fields(Fields<Archive>& archive, ContactMemory& memory) {
   archive(memory.key.mode, memory.key.body_b, memory.key.feature_a, memory.key.feature_b,
           memory.normal, memory.shear, memory.offset, memory.gap_end, memory.normal_force,
-          memory.stiffness, memory.bond_area, memory.state, memory.rests);
+          memory.stiffness, memory.bond_area, memory.state, memory.cooldown_steps);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, Box& box) {
@@ -207,7 +208,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
           state.rest_pose, state.rest_steps, state.strain, state.strain_rate, state.memory,
           state.mass, state.carried, state.pairs, state.placed, state.bonds, state.pressure,
           state.deep, state.slid, state.load, state.crushed, state.hit_loss, state.n_hits,
-          state.breaks, state.mishaps, state.yielding, state.fence, state.stem_hits,
+          state.breaks, state.numerical_faults, state.yielding, state.fence, state.stem_hits,
           state.stem_chain, state.ledger, state.counters, checkpoint.trackers, checkpoint.sampler,
           checkpoint.interval, checkpoint.energy_start, checkpoint.n_done);
 }
@@ -259,10 +260,10 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
       return false;
   for (const CrushedBlock& crushed : state.crushed)
     if (crushed.block < 0 || crushed.block >= static_cast<int>(n_blocks)) return false;
-  const Mishaps& mishaps = state.mishaps;
-  for (const Mishap& mishap : {mishaps.deepest, mishaps.unconverged, mishaps.not_finite,
-                               mishaps.left_domain, mishaps.fell_through})
-    if (mishap.block >= static_cast<int>(n_blocks)) return false;
+  const NumericalFaults& faults = state.numerical_faults;
+  for (const NumericalFault& fault : {faults.deepest, faults.unconverged, faults.not_finite,
+                                      faults.left_domain, faults.fell_through})
+    if (fault.block >= static_cast<int>(n_blocks)) return false;
   if (checkpoint.n_done < 0 || checkpoint.n_done > static_cast<int>(n_blocks)) return false;
   if (!checkpoint.trackers.empty() && checkpoint.trackers.size() != n_blocks) return false;
   for (const PassageTracker& tracker : checkpoint.trackers)

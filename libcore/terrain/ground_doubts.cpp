@@ -32,7 +32,7 @@ class DoubtFinder {
       Doubt& doubt = add(level.row, level.col, level_area);
       doubt.found = std::to_string(level.n_cells) + " nodes of one height, more than " +
                     text(doubtful_, 4) + " m off most of what is beside: is it undeclared nodata?";
-      doubt.hint = "where it is no ground, declare its height as nodata in the file";
+      doubt.hint = "where it is not ground, declare its height as nodata in the file";
     }
     for (const Seam& seam : find_seams(trn_)) add_seam(seam);
     std::stable_sort(found_.begin(), found_.end(),

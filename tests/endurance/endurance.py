@@ -781,7 +781,7 @@ def same_tables_at_other_frames(bench):
                     "fence.gpkg", "--csv", "fence.csv"], folder)
     one, two = (bench.work / f"frames_{i}" for i in intervals)
     for file in outputs_of(one):
-        # pages bear the numbers of their runs: of maps the values count
+        # pages hold the numbers of their runs: of maps the values count
         same = values_of if file.endswith(".tif") else without_ids
         if file.endswith((".tif", ".qml", ".csv")) and same(one / file) != same(two / file):
             losses.append(f"{file} depends on the interval of frames")

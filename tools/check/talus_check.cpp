@@ -50,7 +50,7 @@ void declare(Tool& tool, Options& o) {
             "the runs lift blocks onto the ground and move small overlaps apart");
   tool.inputs("--reports", o.reports,
               "reports of the stages before (JSON), whose doubts are shown too");
-  declare_doubts(tool, o.doubts, "go on with what cannot be meant");
+  declare_doubts(tool, o.doubts, "go on with implausible values");
   tool.footer(
       "Example:\n  talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o "
       "check.html");
@@ -81,7 +81,7 @@ CheckPage page_of(Tool& tool, const Options& o, const std::vector<Doubt>& last) 
   for (const std::string& file : o.reports) {
     page.reports.push_back(Json::parse_or_null(read_file(file)));
     if (!page.reports.back().is_object())
-      throw InputError({file}, "is no report", "name those that talus tools write (--report)");
+      throw InputError({file}, "is not a report", "name those that talus tools write (--report)");
     for (Doubt& doubt : doubts_of(page.reports.back())) page.doubts.push_back(std::move(doubt));
   }
   for (const std::vector<Doubt>& own : {tool.doubts_found(), last})

@@ -219,7 +219,7 @@ std::string crushed_warning(const RunFile& file) {
   return counted(static_cast<std::int64_t>(file.crushed.size()), "small block") + " of " +
          text(volume, 3) + " m3, " + percent(mass / all) + " of the mass, " +
          (is_one ? "was" : "were") +
-         " crushed; the debris bears nothing and counts where it lies (" +
+         " crushed; the debris carries nothing and counts where it lies (" +
          (is_one ? "" : "first ") + "block " + std::to_string(first.block) + " at " +
          text(first.time, 4) + " s near " + text(at.x(), 7) + ", " + text(at.y(), 7) + ", " +
          text(at.z(), 5) + "; all stand in crushed_blocks of the run)";

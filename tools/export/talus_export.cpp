@@ -114,7 +114,7 @@ BlockScene scene_of(const Blocks& blocks, const Vec3& origin, const std::string&
 BlockScene blocks_at_rest(const Options& o) {
   if (!std::isnan(o.time_s))
     throw UsageError({"", 0, "--time-s"}, "is given, but " + o.file + " holds blocks at rest",
-                     "give a run of talus-dda, or leave it away");
+                     "give a run of talus-dda, or omit it");
   const BlockSet set = read_blocks(o.file);
   BlockScene scene = scene_of(set, set.origin, set.crs_wkt, o);
   scene.source = "Talus, blocks " + set.content_hash;

@@ -176,7 +176,7 @@ std::vector<double> verified_factors(const std::vector<RunMember>& members,
                                     [&](const HazardRuns& of) { return of.kind.name == name; });
     if (found == classes.end())
       throw InputError({where_of(member)},
-                       "is of case '" + name + "', which is no class of [hazard.class.*]",
+                       "is of case '" + name + "', which is not a class of [hazard.class.*]",
                        "compute runs of class " + classes[0].kind.name +
                            " with talus-dda --variant " + classes[0].kind.name);
     kind.push_back(static_cast<std::size_t>(found - classes.begin()));

@@ -191,7 +191,7 @@ void verify_all(RunInputs& runs, Verified files, const std::vector<SearchCase>& 
     }
   if (files.empty()) return;
   throw InputError({"", 0, "--verified"},
-                   "names " + files.begin()->first + ", which is no proposal of these runs",
+                   "names " + files.begin()->first + ", which is not a proposal of these runs",
                    "runs, settings and prices decide which proposals there are: verify again what "
                    "is proposed now");
 }

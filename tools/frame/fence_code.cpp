@@ -17,7 +17,7 @@ FenceCode read_fence_code(const std::string& name) {
   out.classes = barrier_classes(
       parse_csv(shipped_data("codes/barrier_classes.csv"), "share/codes/barrier_classes.csv"));
   if (!shipped && !std::filesystem::exists(name))
-    throw InputError({"", 0, "--code"}, "is \"" + name + "\", which is no file",
+    throw InputError({"", 0, "--code"}, "is \"" + name + "\", which is not a file",
                      "give uni, onr, or a data file like those of share/codes/");
   if (shipped) {
     Sha256 hash;

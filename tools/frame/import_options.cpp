@@ -43,13 +43,13 @@ std::pair<LayerRef*, std::string> of_input(ImportOptions& o, const std::string& 
 std::string check_positive(const std::string& word) {
   double value = 0;
   if (parse_double(word, value) && value > 0) return {};
-  return word + " is no size, expected metres above 0";
+  return word + " is not a size, expected metres above 0";
 }
 
 std::string check_not_negative(const std::string& word) {
   double value = 0;
   if (parse_double(word, value) && value >= 0) return {};
-  return word + " is no distance, expected metres, 0 or more";
+  return word + " is not a distance, expected metres, 0 or more";
 }
 
 void declare_crs_options(Tool& tool, CrsOptions& o) {

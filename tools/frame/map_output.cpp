@@ -144,7 +144,8 @@ void add_pages_option(Tool& tool, PageOptions& pages) {
           if (const std::size_t at = rest.find(word); at != std::string::npos)
             rest.erase(at, std::string(word).size());
         if (rest.empty() && (given.has("png") || given.has("pdf"))) return {};
-        return words + " is no list of pages, expected png, pdf or png,pdf, with ,a3 for that size";
+        return words +
+               " is not a list of pages, expected png, pdf or png,pdf, with ,a3 for that size";
       });
 }
 

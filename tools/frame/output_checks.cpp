@@ -100,7 +100,7 @@ void check_output_file(const fs::path& path, const KeptFiles& kept) {
   if (fs::is_directory(path))
     throw InputError({path.string()}, "is a folder, expected a file name to write");
   if (fs::exists(path) && !fs::is_regular_file(path))
-    throw InputError({path.string()}, "is no regular file, expected a file name to write",
+    throw InputError({path.string()}, "is not a regular file, expected a file name to write",
                      "outputs are written beside it and renamed when they are whole");
   // Work in progress is in a folder of a longer name: .NAME.part-HOST-PROCESS-XXXXXX
   constexpr std::size_t longest = 160;

@@ -43,7 +43,7 @@ struct Options {
 std::string check_every(const std::string& word) {
   double value = 0;
   if (talus::parse_double(word, value) && value >= 2 && value == static_cast<int>(value)) return {};
-  return word + " is no step, expected a whole number of 2 or more";
+  return word + " is not a step, expected a whole number of 2 or more";
 }
 
 void declare(Tool& tool, Options& o) {
@@ -292,7 +292,7 @@ void check_no_lines(const Options& o) {
   throw UsageError(
       {"", 0, "--points"},
       "breaklines, spot heights, labels, --hold-out-every and --tolerance-m are for contours",
-      "leave them away, or --points");
+      "omit them, or --points");
 }
 
 Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {

@@ -194,7 +194,7 @@ void add_fence_steps(DesignResult& result, const DesignCode& code, const DesignI
 std::string needs(const DesignResult& r) {
   const std::string largest = r.largest_class > 0
                                   ? ": above the largest, " + grouped_text(r.largest_class / 1e3) +
-                                        " kJ; a net is no option"
+                                        " kJ; a net is not an option"
                                   : "";
   return "needs " + needed_text(r.required_capacity / 1e3) + " kJ (" +
          (r.smallest_class == "none" ? "no ETAG class" + largest
@@ -263,7 +263,7 @@ std::string text(const DesignResult& r) {
     case DesignVerdict::nothing_came:
       return "not judged: nothing came to it";
     case DesignVerdict::first_touches:
-      return "not judged: first touches of a standing fence are no design values; by them it " +
+      return "not judged: first touches of a standing fence are not design values; by them it " +
              needs(r);
   }
   return "";

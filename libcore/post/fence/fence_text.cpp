@@ -116,9 +116,10 @@ std::string basis_note(const FenceResult& r, const std::string& fence, bool one_
       break;
   }
   return rests +
-         (one_by_one ? ", which are no design values: what comes to a line that stops nothing is."
-                     : ", which are no design values: rocks that it stopped dam those behind them, "
-                       "and a line that stops nothing may see several times the energy.") +
+         (one_by_one
+              ? ", which are not design values: what comes to a line that stops nothing is."
+              : ", which are not design values: rocks that it stopped dam those behind them, "
+                "and a line that stops nothing may see several times the energy.") +
          " Compute runs without the fence (make WITHOUT=yes; or talus-dda --set fence." + fence +
          ".active=false) and give them by --without.";
 }

@@ -223,7 +223,7 @@ class RecipeReader {
         const std::string item = of.value_or(std::string());
         if (std::find(items.begin(), items.end(), item) == items.end() || !root_.contains(item))
           refuse(&of, "source.of",
-                 "has \"" + item + "\", which is no part of this recipe that has numbers");
+                 "has \"" + item + "\", which is not part of this recipe that has numbers");
         if (!said.insert(item).second) refuse(&of, "source.of", "has \"" + item + "\" twice");
         source.of.push_back(item);
       }

@@ -160,8 +160,7 @@ std::string cases_text(const std::vector<RunoutRun>& runs) {
   if (cases.empty()) return "";
   std::vector<RunMember> members;
   for (const RunoutRun& run : runs) members.push_back(run.member);
-  return lines + "\nwhat stands for all runs together weighs the cases as " +
-         text(case_shares(members));
+  return lines + "\ntotals over all runs use these case weights: " + text(case_shares(members));
 }
 
 std::string runout_summary(const RunoutRuns& all) {

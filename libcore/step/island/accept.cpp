@@ -75,12 +75,14 @@ struct SubstepAcceptance {
 
   // For how long contacts do not stiffen: those of blocks in motion whose forces were hard to find.
   // A pile at rest would begin to lean.
-  [[nodiscard]] std::uint8_t rests_of(const KeptContact& contact) const {
+  [[nodiscard]] std::uint8_t cooldown_of(const KeptContact& contact) const {
     const auto moves = [&](int b) {
       return b >= 0 && free.substeps[members.at(b)].start.velocity.norm() > members.of(b).slow;
     };
-    const bool eases = is_eased || (system.is_hard && (moves(contact.a) || moves(contact.b)));
-    return static_cast<std::uint8_t>(eases ? law::most_rests : std::max(0, contact.rests - 1));
+    const bool eases =
+        is_eased || (system.converges_slowly && (moves(contact.a) || moves(contact.b)));
+    return static_cast<std::uint8_t>(eases ? law::longest_cooldown
+                                           : std::max(0, contact.cooldown_steps - 1));
   }
 
   // The memory that contact `r`, which pressed and ends with an overlap of `overlap`, leaves to the
@@ -116,7 +118,7 @@ struct SubstepAcceptance {
     const double per_time = members.of(contact.a).recovery_time * h;
     if (contact.bond < 0 && contact.bond_area == 0)
       memory.stiffness = row.normal_damping() / per_time;
-    memory.rests = rests_of(contact);
+    memory.cooldown_steps = cooldown_of(contact);
     memory.state = static_cast<std::uint8_t>(stays);
     memory.bond_area = contact.bond >= 0 ? 0 : contact.bond_area;  // of the ground
     const double k_t = row.shear_damping() / per_time;
@@ -239,7 +241,7 @@ int heaviest_of(const Scene& scene, const IslandMembers& members) {
 }
 
 // Bonds of the substep that broke are gone; those with the ground have left the memories already.
-void break_bonds(const SubstepTries& tries, State& state) {
+void break_bonds(const SubstepRetries& tries, State& state) {
   for (const BondFace& face : tries.broken)
     if (face.bond >= 0) state.bonds[face.bond].area = 0;
 }
@@ -248,7 +250,7 @@ void break_bonds(const SubstepTries& tries, State& state) {
 
 void accept(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
             const IslandSystem& system, const SubstepHits& hits, bool converged,
-            const SubstepTries& tries, SubstepEnd& end, State& state,
+            const SubstepRetries& tries, SubstepEnd& end, State& state,
             std::vector<Segment>& segments, DeepWork& deep, StepReport& report) {
   SubstepAcceptance acceptance{scene,
                                members,

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "solver/law_numbers.hpp"
-#include "step/island/hit_looks.hpp"
+#include "step/island/impact_search.hpp"
 
 namespace talus {
 namespace {
@@ -84,7 +84,7 @@ void wait_for_hit(size_t r, IslandSystem& system) {
 }
 
 // Bodies of the island and their free motion, for member k, which was hit.
-void take_member(const HitLooks& looks, size_t k, FreeMotions& free, IslandSystem& system,
+void take_member(const ImpactSearch& looks, size_t k, FreeMotions& free, IslandSystem& system,
                  SubstepHits& hits) {
   const BlockNumbers& c = looks.members.numbers[k];
   if (c.stands) return;
@@ -92,7 +92,8 @@ void take_member(const HitLooks& looks, size_t k, FreeMotions& free, IslandSyste
   Substep& s = free.substeps[k];
   FreeTurn& turn = free.turns[k];
   const Eigen::AngleAxisd turned(end.pose.attitude * s.free.pose.attitude.conjugate());
-  hits.thrown[k] << end.pose.position - s.free.pose.position, turned.angle() * turned.axis();
+  hits.impact_displacement[k] << end.pose.position - s.free.pose.position,
+      turned.angle() * turned.axis();
   s.free = end;
   s.R = end.pose.attitude.toRotationMatrix();
   s.spin_free = (s.R.transpose() * end.angular_momentum).cwiseProduct(c.per_inertia);
@@ -133,7 +134,7 @@ struct PairRest {
   PlacedMotion a, b, end_a, end_b;  // at its begin, and at the end without contact
 };
 
-PairRest rest_of(const HitLooks& looks, const IslandSystem& system, size_t p,
+PairRest rest_of(const ImpactSearch& looks, const IslandSystem& system, size_t p,
                  const FreeMotions& free) {
   const BodyPair& pair = system.island.pairs[p];
   const auto ka = static_cast<size_t>(pair.a), kb = static_cast<size_t>(std::max(pair.b, 0));
@@ -159,7 +160,7 @@ Vec3 place_of_impulse(const PlacedMotion& end, double rest) {
 }
 
 // Row of a pair of which a member was hit.
-void take_row(const HitLooks& looks, size_t r, const PairRest& of, const FreeMotions& free,
+void take_row(const ImpactSearch& looks, size_t r, const PairRest& of, const FreeMotions& free,
               IslandSystem& system, SubstepHits& hits) {
   KeptContact& contact = system.contacts[r];
   const BodyPair& pair = system.island.pairs[contact.pair];
@@ -197,7 +198,7 @@ void take_row(const HitLooks& looks, size_t r, const PairRest& of, const FreeMot
 }
 
 // The pair acts in the middle of the time over which it presses.
-void take_pair(const HitLooks& looks, size_t p, const FreeMotions& free, IslandSystem& system,
+void take_pair(const ImpactSearch& looks, size_t p, const FreeMotions& free, IslandSystem& system,
                SubstepHits& hits) {
   BodyPair& pair = system.island.pairs[p];
   const PairRest rest = rest_of(looks, system, p, free);
@@ -244,10 +245,11 @@ void set_displacements(double h, const IslandSystem& system, const SubstepHits& 
   }
 }
 
-void take_hits(const HitLooks& looks, FreeMotions& free, IslandSystem& system, SubstepHits& hits) {
+void take_hits(const ImpactSearch& looks, FreeMotions& free, IslandSystem& system,
+               SubstepHits& hits) {
   const size_t n = looks.members.size();
   hits.pair_time.assign(system.island.pairs.size(), free.h / 2);
-  hits.thrown.assign(n, Vec6::Zero());
+  hits.impact_displacement.assign(n, Vec6::Zero());
   for (const int k : hits.hit_members.items)
     take_member(looks, static_cast<size_t>(k), free, system, hits);
   if (!hits.hit_members.items.empty()) find_pressed(system, n, hits.is_pressed);

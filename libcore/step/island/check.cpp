@@ -30,7 +30,7 @@ struct SubstepCheck {
   const FreeMotions& free;
   const IslandSystem& system;
   const SubstepHits& hits;
-  const SubstepTries& tries;
+  const SubstepRetries& tries;
   std::vector<NearFeatures>& near_ground;
   ContactMaking& making;
   SubstepEnd& end;
@@ -65,7 +65,7 @@ struct SubstepCheck {
   // Whether member k ends deep in ground that was not looked for there.
   [[nodiscard]] bool ends_in_ground(size_t k) const {
     const BlockNumbers& c = members.numbers[k];
-    const Vec6 by = end.displacement[k] + hits.thrown[k];
+    const Vec6 by = end.displacement[k] + hits.impact_displacement[k];
     if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < deep_share * c.thickness)
       return false;
     (void)find_contacts(scene.ground, scene.blocks.shapes, members.blocks[k],
@@ -175,7 +175,7 @@ struct SubstepCheck {
         error.add(members.numbers[k],
                   error_of_member(scene, state, members, free, k, change(system.island, k),
                                   end.displacement[k].head<3>(), tries.last_h));
-    return error.over_way();
+    return error.over_displacement();
   }
 
   // --- sleep -----------------------------------------------------------------------------------
@@ -230,16 +230,16 @@ struct SubstepCheck {
 SubstepVerdict check_substep(const Scene& scene, const State& state, const PairSearch& search,
                              const IslandMembers& members, const FreeMotions& free,
                              const IslandSystem& system, const SubstepHits& hits, bool converged,
-                             const SubstepTries& tries, std::vector<NearFeatures>& near_ground,
+                             const SubstepRetries& tries, std::vector<NearFeatures>& near_ground,
                              ContactMaking& making, SubstepEnd& end) {
   return SubstepCheck{scene, state, search,      members, free, system,
                       hits,  tries, near_ground, making,  end}
       .run(converged);
 }
 
-WayError error_of_member(const Scene& scene, const State& state, const IslandMembers& members,
-                         const FreeMotions& free, size_t k, const Vec6& change,
-                         const Vec3& displacement, double last_h) {
+DisplacementError error_of_member(const Scene& scene, const State& state,
+                                  const IslandMembers& members, const FreeMotions& free, size_t k,
+                                  const Vec6& change, const Vec3& displacement, double last_h) {
   const size_t b = members.block(k);
   if (members.numbers[k].stands || state.acceleration[b] == scene.gravity) return {};
   const Substep& s = free.substeps[k];
@@ -249,9 +249,9 @@ WayError error_of_member(const Scene& scene, const State& state, const IslandMem
   const Vec3 mean = (s.free.velocity + change.head<3>() - s.start.velocity) / h,
              spin_rate = (spin_end - turn.spin_start) / h;
   const Vec3 path = s.free.pose.position - s.start.pose.position + displacement;
-  return error_of_way(members.numbers[k], mean - state.acceleration[b],
-                      spin_rate - s.R * state.spin_rate[b], path,
-                      h / 2 * (turn.spin_start + spin_end), h, last_h);
+  return error_of_displacement(members.numbers[k], mean - state.acceleration[b],
+                               spin_rate - s.R * state.spin_rate[b], path,
+                               h / 2 * (turn.spin_start + spin_end), h, last_h);
 }
 
 // Path per time of the points of contact `r` that its impulse works on, over the substep: their

@@ -64,7 +64,7 @@ struct ContactMaker {
   std::span<const int> manifolds;
   const IslandMembers& members;
   const FreeMotions& free;
-  const SubstepTries& tries;
+  const SubstepRetries& tries;
   std::vector<NearFeatures>& near_ground;
   ContactMaking& making;
   IslandSystem& system;
@@ -91,7 +91,7 @@ struct ContactMaker {
     system.first_contact.clear();
     system.ground_pair.clear();
     system.waiting.clear();
-    system.has_bonds = system.fell_through = system.is_hard = false;
+    system.has_bonds = system.fell_through = system.converges_slowly = false;
     system.outsider = -1;
     making.memories.touched_by = -1;
   }
@@ -363,7 +363,7 @@ struct ContactMaker {
 
 bool make_contacts(const Scene& scene, const State& state, const PairSearch& search,
                    std::span<const int> manifolds, const IslandMembers& members,
-                   const FreeMotions& free, const SubstepTries& tries,
+                   const FreeMotions& free, const SubstepRetries& tries,
                    std::vector<NearFeatures>& near_ground, ContactMaking& making,
                    IslandSystem& system) {
   return ContactMaker{scene, state, search,      manifolds, members,

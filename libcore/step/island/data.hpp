@@ -81,7 +81,7 @@ struct LoneBefore {
   Vec3 acceleration, spin_rate, support;
   Vec6 strain, strain_rate;
   std::vector<ContactMemory> memory;
-  SlidWay slid;
+  SlipMemory slid;
   MassShare mass;
   double hit_loss = 0;
   std::uint8_t is_suspect = 0;  ///< of DeepWork
@@ -151,7 +151,7 @@ struct IslandSystem {  // clang-format off
   std::vector<int> ground_pair;             ///< with the ground, -1: none               (n_members)
   std::vector<std::size_t> waiting;         ///< contacts that wait for their hit
   bool has_bonds = false;                   ///< a contact is part of a bond
-  bool is_hard = false;                     ///< 7: its forces took many passes
+  bool converges_slowly = false;                     ///< 7: its forces took many passes
   bool fell_through = false;                ///< a member is wholly below the ground
   int outsider = -1;                        ///< block off the known ground, -1: none
 };  // clang-format on
@@ -196,7 +196,7 @@ struct FlyingMember {
 };
 
 /// A time at which a pair has to be looked at, since it may be hit then.
-struct PairLook {
+struct ImpactCandidate {
   double time = 0;   ///< [s]
   int pair = 0;      ///< of the island
   int version = 0;   ///< of its two members together; older looks are void
@@ -220,7 +220,7 @@ struct SubstepHits {  // clang-format off
   std::vector<PathToHit> paths;             ///< in order of time
   std::vector<double> pair_time;            ///< when contacts change velocities [s]     (n_pairs)
   std::vector<Vec6> displacement;           ///< by contact, hits aside                  (n_members)
-  std::vector<Vec6> thrown;                 ///< displacement by hits                    (n_members)
+  std::vector<Vec6> impact_displacement;                 ///< displacement by hits                    (n_members)
   std::vector<ImpactContact> impulses;      ///< of blocks that may break or be crushed, else none
   std::vector<Vec3> bond_impulse;           ///< of contacts with bonds, by hits [N s]; empty: none
   double dissipated = 0;                    ///< by hits, but for friction [J]
@@ -232,8 +232,8 @@ struct SubstepHits {  // clang-format off
   IndexSet hit_members;
   IndexSet moved;                           ///< by solutions since hits were looked for last
   // scratch
-  std::vector<PairLook> queue;              ///< a heap, by time
-  std::vector<PairLook> due;                ///< taken from it, of one time
+  std::vector<ImpactCandidate> queue;              ///< a heap, by time
+  std::vector<ImpactCandidate> due;                ///< taken from it, of one time
   std::vector<int> pair_begin, pairs;       ///< pairs of each member
   std::vector<int> n_looks, n_pair_hits;    ///<                                         (n_pairs)
   std::vector<std::uint8_t> is_closed;      ///< 1: looked at no more                    (n_pairs)
@@ -282,7 +282,7 @@ struct SubstepVerdict {
 };
 
 /// Record of the attempts at a substep so far, and of those of the step.
-struct SubstepTries {
+struct SubstepRetries {
   // of the substep
   int halvings = 0;              ///< because it did not converge
   int used_up_cuts = 0;          ///< at the time when a yielding body is used up
@@ -305,7 +305,7 @@ struct IslandScratch {
   SubstepHits hits;
   IslandWork solver;  ///< scratch of 7 solve
   SubstepEnd end;
-  SubstepTries tries;
+  SubstepRetries tries;
   StageClock* clock = nullptr;  ///< where the stages' times are wanted; no part of a run
 };
 
@@ -384,16 +384,16 @@ template <class Of>
 }
 
 /// Whether contacts of the island would be softer in another attempt that did not converge.
-[[nodiscard]] inline bool can_ease(const IslandMembers& members, const SubstepTries& tries) {
+[[nodiscard]] inline bool can_ease(const IslandMembers& members, const SubstepRetries& tries) {
   return tries.eased < law::most_eased && !members.is_soft;
 }
 
 /// Whether a substep breaks a bond of blocks; the bond with the ground of a contact of block b.
-[[nodiscard]] inline bool is_broken(const SubstepTries& tries, int bond) {
+[[nodiscard]] inline bool is_broken(const SubstepRetries& tries, int bond) {
   return std::any_of(tries.broken.begin(), tries.broken.end(),
                      [bond](const BondFace& face) { return face.bond == bond; });
 }
-[[nodiscard]] inline bool is_broken(const SubstepTries& tries, int b, const Vec3& normal) {
+[[nodiscard]] inline bool is_broken(const SubstepRetries& tries, int b, const Vec3& normal) {
   return std::any_of(tries.broken.begin(), tries.broken.end(), [&](const BondFace& face) {
     return face.bond < 0 && face.block == b && is_same_face(face.normal, normal);
   });

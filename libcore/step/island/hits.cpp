@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "solver/law_numbers.hpp"
-#include "step/island/hit_looks.hpp"
+#include "step/island/impact_search.hpp"
 
 namespace talus {
 namespace {
@@ -16,7 +16,7 @@ using law::most_hits, law::most_pair_hits;
 
 /// Finds the hits of a substep; a struct so that its parts share common data.
 struct HitPhase {
-  const HitLooks& looks;
+  const ImpactSearch& looks;
   const IslandMembers& members;
   const FreeMotions& free;
   IslandSystem& system;
@@ -297,7 +297,7 @@ struct HitPhase {
     for (looks.take_due(hits.due); !hits.due.empty(); looks.take_due(hits.due)) {
       hits.batch.clear();
       const double time = hits.due.front().time;
-      for (const PairLook& look : hits.due) looks.look_at(look);
+      for (const ImpactCandidate& look : hits.due) looks.look_at(look);
       if (hits.batch.empty()) continue;
       hit(time);
       look_again(time);
@@ -310,7 +310,7 @@ struct HitPhase {
 void find_hits(const Scene& scene, const State& state, const PairSearch& search,
                const IslandMembers& members, std::vector<NearFeatures>& near_ground,
                ContactMaking& making, FreeMotions& free, IslandSystem& system, SubstepHits& hits) {
-  const HitLooks looks{scene, state, search, members, free, system, near_ground, making, hits};
+  const ImpactSearch looks{scene, state, search, members, free, system, near_ground, making, hits};
   HitPhase{looks, members, free, system, hits}.run();
   take_hits(looks, free, system, hits);
 }

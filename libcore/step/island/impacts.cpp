@@ -40,7 +40,7 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
   settings.tolerance *= scene.settings.tolerance_factor;
   const IslandResult solved = solve_island(system.island, settings, solver);
   solution.passes += solved.passes;
-  system.is_hard |= !continues && free.t > 0 && solved.passes > law::hard_passes;
+  system.converges_slowly |= !continues && free.t > 0 && solved.passes > law::hard_passes;
   solution.converged = solved.converged;
   for (const int k : solver.touched_bodies.items) hits.moved.add(k);
 }

@@ -50,8 +50,8 @@ void add_members(const Scene& scene, const State& state, std::vector<int>& block
   let_stand(state, state.time + step_length(scene, state), members);
 }
 
-void see_size(const Scene& scene, const State& state, const PairSearch& search,
-              std::span<const int> manifolds, IslandMembers& members) {
+void classify_size(const Scene& scene, const State& state, const PairSearch& search,
+                   std::span<const int> manifolds, IslandMembers& members) {
   const auto n_pairs = std::count_if(manifolds.begin(), manifolds.end(), [&](int i) {
     const PairManifold& m = search.pairs.manifolds[i];
     return !is_fixed(scene, m.block_b) && has_points(m);
@@ -116,7 +116,7 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
   }
 }
 
-void locate_hits(const Scene& scene, const State& state, const SubstepTries& tries,
+void locate_hits(const Scene& scene, const State& state, const SubstepRetries& tries,
                  IslandMembers& members) {
   members.locates_hits = members.size() <= few_blocks && tries.hits < law::most_hits;
   for (size_t k = 0; k < members.size(); ++k) {

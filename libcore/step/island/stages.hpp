@@ -50,15 +50,15 @@ void find_pairs(const Scene& scene, double h, State& state, PairSearch& search,
 
 // --- 3 choose_stiffness (step/island/members.cpp)
 /// Fills IslandMembers::is_small, which holds for a step.
-void see_size(const Scene& scene, const State& state, const PairSearch& search,
-              std::span<const int> manifolds, IslandMembers& members);
-/// Fills the stiffness of the members' numbers; `eased`: SubstepTries.
+void classify_size(const Scene& scene, const State& state, const PairSearch& search,
+                   std::span<const int> manifolds, IslandMembers& members);
+/// Fills the stiffness of the members' numbers; `eased`: SubstepRetries.
 void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
                       std::span<const int> manifolds, int eased, IslandMembers& members);
 /// Fills IslandMembers::locates_hits and the members' located speed. Hits end a substep in islands
 /// of at most law::few_blocks blocks, but for those between blocks that nothing presses, until
 /// the step has had too many.
-void locate_hits(const Scene& scene, const State& state, const SubstepTries& tries,
+void locate_hits(const Scene& scene, const State& state, const SubstepRetries& tries,
                  IslandMembers& members);
 
 // --- 4 predict (step/island/predict.cpp)
@@ -75,14 +75,14 @@ void predict(const Scene& scene, const State& state, const IslandMembers& member
 /// each block may touch there, kept from search to search.
 [[nodiscard]] bool make_contacts(const Scene& scene, const State& state, const PairSearch& search,
                                  std::span<const int> manifolds, const IslandMembers& members,
-                                 const FreeMotions& free, const SubstepTries& tries,
+                                 const FreeMotions& free, const SubstepRetries& tries,
                                  std::vector<NearFeatures>& near_ground, ContactMaking& making,
                                  IslandSystem& system);
 /// Time at which a block first touches a yielding fixed body, h + 1: none does within the substep.
 [[nodiscard]] double first_touch(const Scene& scene, const State& state, const IslandSystem& system,
                                  double h);
 
-// --- 6 find_hits (step/island/hits.cpp, hit_looks.cpp, after_hits.cpp)
+// --- 6 find_hits (step/island/hits.cpp, impact_search.cpp, after_hits.cpp)
 /// Fills `hits`: the hits of members within the substep, in order of time, each with place and
 /// motion after it. That is part of the motion without contact from now on: changes `free`, and in
 /// `system` bodies and rows that were hit. `near_ground`, `making`: for searches of the ground.
@@ -119,15 +119,16 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
                                            const PairSearch& search, const IslandMembers& members,
                                            const FreeMotions& free, const IslandSystem& system,
                                            const SubstepHits& hits, bool converged,
-                                           const SubstepTries& tries,
+                                           const SubstepRetries& tries,
                                            std::vector<NearFeatures>& near_ground,
                                            ContactMaking& making, SubstepEnd& end);
 /// Error by the forces of member `k`, `change` being that of its velocity by contact and
 /// `displacement` that of its centroid. None where the previous contact force is unknown.
-[[nodiscard]] WayError error_of_member(const Scene& scene, const State& state,
-                                       const IslandMembers& members, const FreeMotions& free,
-                                       std::size_t k, const Vec6& change, const Vec3& displacement,
-                                       double last_h);
+[[nodiscard]] DisplacementError error_of_member(const Scene& scene, const State& state,
+                                                const IslandMembers& members,
+                                                const FreeMotions& free, std::size_t k,
+                                                const Vec6& change, const Vec3& displacement,
+                                                double last_h);
 /// Displacement of the members by contact over the substep of `h`, hits aside: each pair acts at
 /// its own time.
 void set_displacements(double h, const IslandSystem& system, const SubstepHits& hits,
@@ -170,7 +171,7 @@ void wake_members(const Scene& scene, double t, SleepScratch& wake, State& state
 /// segments, and the report. Nothing before it changes anything of these.
 void accept(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
             const IslandSystem& system, const SubstepHits& hits, bool converged,
-            const SubstepTries& tries, SubstepEnd& end, State& state,
+            const SubstepRetries& tries, SubstepEnd& end, State& state,
             std::vector<Segment>& segments, DeepWork& deep, StepReport& report);
 
 }  // namespace talus

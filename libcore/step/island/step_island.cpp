@@ -40,14 +40,14 @@ SubstepVerdict try_substep(const Scene& scene, const State& state, const PairSea
                        solution.converged, w.tries, near_ground, w.making, w.end);
 }
 
-void begin_substep(SubstepTries& tries) {
+void begin_substep(SubstepRetries& tries) {
   tries.halvings = tries.used_up_cuts = 0;
   tries.broken.clear();
 }
 
 // Notes why a substep is made again.
 void note_cut(SubstepCut reason, const SubstepEnd& end, const IslandMembers& members,
-              SubstepTries& tries) {
+              SubstepRetries& tries) {
   switch (reason) {
     case SubstepCut::yielding_touched:
       break;
@@ -80,7 +80,7 @@ void note_cut(SubstepCut reason, const SubstepEnd& end, const IslandMembers& mem
 }
 
 // How far the next substep may go by the error of this one.
-void note_accuracy(const Scene& scene, double h, double error, SubstepTries& tries,
+void note_accuracy(const Scene& scene, double h, double error, SubstepRetries& tries,
                    StepReport& report) {
   report.largest_error = std::max(report.largest_error, error);
   tries.last_h = h;
@@ -159,7 +159,7 @@ double prepare_substep(const Scene& scene, int k, bool is_mass, double t, double
   }
   const StageTimer timer(w.clock, IslandStage::choose_stiffness);
   if (is_mass) return longest_mass_substep(scene, search, w.members, w.manifolds, ahead);
-  if (begins) see_size(scene, state, search, w.manifolds, w.members);
+  if (begins) classify_size(scene, state, search, w.manifolds, w.members);
   choose_stiffness(scene, state, search, w.manifolds, w.tries.eased, w.members);
   locate_hits(scene, state, w.tries, w.members);
   return longest_substep(scene, state, search, w.members, w.manifolds, ahead);

@@ -90,14 +90,17 @@ struct UntouchedCheck {
   Work& work;
   double t_end;
   size_t first_segment;  // of the island at hand
-  double thrown = 0;     // hits may move a block of the island that is not alone by this more [m]
+  double impact_displacement =
+      0;  // hits may move a block of the island that is not alone by this more [m]
 
   // Contacts of the blocks that are not alone with each other and the ground throw none of them
   // faster than twice the speed of their fastest point.
   void see_throws(std::span<const int> members) {
-    thrown = 0;
+    impact_displacement = 0;
     for (const int b : members)
-      if (!is_alone(b)) thrown = std::max(thrown, 2 * (search().step[b].norm() + search().turn[b]));
+      if (!is_alone(b))
+        impact_displacement =
+            std::max(impact_displacement, 2 * (search().step[b].norm() + search().turn[b]));
   }
 
   [[nodiscard]] const PairSearch& search() const { return work.search; }
@@ -146,7 +149,7 @@ struct UntouchedCheck {
       ahead.attitude = (rotation_by(search().rotation[i]) * ahead.attitude).normalized();
       add_part(part, ahead, t_end, sight, heights);
       const double h = t_end - sight.time, turn = search().rotation[i].norm();
-      off = thrown + search_margin(numbers_of(scene, b), h) +
+      off = impact_displacement + search_margin(numbers_of(scene, b), h) +
             scene.blocks.shapes.radius[i] * turn * turn / 8;
     } else {
       for (size_t at = first_segment; at < work.segments.size(); ++at) {

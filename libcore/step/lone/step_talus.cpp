@@ -244,11 +244,11 @@ struct Advance {
     const Vec3 spin_end =
         (end.pose.attitude.conjugate() * end.angular_momentum).cwiseProduct(c.per_inertia);
     const Vec3 mean = (end.velocity - s.start.velocity) / s.h;
-    return share_of(
-        error_of_way(c, mean - before, (spin_end - s.spin_start) / s.h - state.spin_rate[i()],
-                     end.pose.position - s.start.pose.position, s.h / 2 * (s.spin_start + spin_end),
-                     s.h, last_h),
-        c.thickness);
+    return share_of(error_of_displacement(c, mean - before,
+                                          (spin_end - s.spin_start) / s.h - state.spin_rate[i()],
+                                          end.pose.position - s.start.pose.position,
+                                          s.h / 2 * (s.spin_start + spin_end), s.h, last_h),
+                    c.thickness);
   }
   void note_accuracy(double error, double h) {
     report.largest_error = std::max(report.largest_error, error);

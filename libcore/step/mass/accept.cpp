@@ -96,12 +96,13 @@ struct MassEnd {
       const Substep& s = free.substeps[k];
       Vec6 change;
       change << by.velocity, by.spin;
-      error.add(members.numbers[k],
-                by.was_hit ? WayError{by_hit, (s.free.pose.position - s.start.pose.position).norm()}
-                           : error_of_member(scene, state, members, free, k, change,
-                                             h / 2 * by.velocity, h));
+      error.add(
+          members.numbers[k],
+          by.was_hit
+              ? DisplacementError{by_hit, (s.free.pose.position - s.start.pose.position).norm()}
+              : error_of_member(scene, state, members, free, k, change, h / 2 * by.velocity, h));
     }
-    return error.over_way();
+    return error.over_displacement();
   }
 
   // Calls visit(row number, pair, row in doubles) for all rows that press.

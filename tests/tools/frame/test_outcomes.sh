@@ -25,7 +25,7 @@ says "is named for an output and for the run registry"
 expect 2 frame-probe in.txt -o ""
 says "the name is empty"
 frame-probe in.txt -o /dev/stdout 2>err | cat >piped
-says "/dev/stdout: is no regular file"
+says "/dev/stdout: is not a regular file"
 [ ! -s piped ] || fail "something was written into a pipe"
 expect 1 frame-probe in.txt -o no/such/folder/new.txt
 says "there is no such folder"

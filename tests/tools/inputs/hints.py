@@ -628,7 +628,7 @@ def points_in_utf16(plane):
     return 'list.csv'
 
 
-@row(TIN, 'are no degrees', '--crs EPSG:code', fill={'EPSG:code': CODE})
+@row(TIN, 'are not degrees', '--crs EPSG:code', fill={'EPSG:code': CODE})
 def geojson_in_metres(plane):
     contours('map.geojson', plane, code='', driver='GeoJSON')
     return 'map.geojson'
@@ -801,7 +801,7 @@ def ground_that_crosses_itself(_plane):
             BLOCK + END)
 
 
-@site_row(BLOCKS, 'are no degrees', 'ogr2ogr', 'polygon of 6,400 m2', {'EPSG:code': CODE})
+@site_row(BLOCKS, 'are not degrees', 'ogr2ogr', 'polygon of 6,400 m2', {'EPSG:code': CODE})
 def outline_as_geojson_in_metres(_plane):
     return outline('area.geojson', code='', driver='GeoJSON')
 

@@ -12,7 +12,7 @@ made slope -j2 "$@" runout
 prints "2 of 4 runs did not move"
 prints "case far: 2 of 2 runs moved"
 prints "case near: 0 of 2 runs moved, 0 % of the mass"
-prints "what stands for all runs together weighs the cases as far 0.5 (2 runs), near 0.5 (2 runs)"
+prints "totals over all runs use these case weights: far 0.5 (2 runs), near 0.5 (2 runs)"
 if grep -q pooled err; then fail "weighed cases are said to be pooled: $(cat err)"; fi
 made slope "$@" report
 python3 - <<'PY' || fail "cases are not side by side"

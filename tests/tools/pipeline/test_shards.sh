@@ -66,7 +66,7 @@ rm slope/out/shards/*.sqlite
 # another site file: not made by a shard; another seed range: only missing runs
 cp slope/site.toml kept.toml
 sed -i 's/^spacing_m = 7.8/spacing_m = 7.9/' slope/site.toml
-refused "is to be made again, and a shard makes runs alone" SHARD=1 SHARDS=2 runs-shard
+refused "is out of date, and shards only compute runs" SHARD=1 SHARDS=2 runs-shard
 cp kept.toml slope/site.toml
 made slope RUNS=6 WITHOUT=no prepare
 prints "runs: 1 to make"

@@ -84,7 +84,7 @@ edit drawn "DELETE FROM fences WHERE fid = 2"
 edit drawn "ALTER TABLE fences ADD COLUMN capacity_k REAL"
 edit drawn "UPDATE fences SET capacity_k = 500"
 expect 1 stages
-says "has a field capacity_k that is no key"
+says "has a field capacity_k that is not a key"
 says "did you mean capacity_kj?"
 edit drawn "UPDATE fences SET capacity_k = NULL"
 printf '[fence.valley]\nheight_m = 8\n' >>drawn/site.toml

@@ -101,6 +101,6 @@ made auto -j2 WITHOUT=no RUNS=auto RUNS_MOST=12 maps
 says "--runs auto: 12 runs do"
 sed -i 's/^half_width = .*/half_width = 0.01/' auto/site.toml
 made auto -j2 WITHOUT=no RUNS=auto RUNS_MOST=12 places
-says "--runs auto: 12 runs do not do"
+says "--runs auto: 12 runs are not enough"
 made slope clean
 [ ! -d slope/out ] || fail "clean left $(find slope/out)"

@@ -26,7 +26,7 @@ expect 0 talus-blocks undefined.toml --trn trn.tif -o undefined.h5 --no-db --rep
 printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[500012,5200012],[500034,5200012],[500034,5200034],[500012,5200012]]]}}]}' >metres.geojson
 sed 's/^polygon = .*/polygon_file = "metres.geojson"/' site.toml >metres.toml
 expect 1 talus-blocks metres.toml --trn trn.tif -o metres.h5 --no-db
-says "but the coordinates are no degrees"
+says "but the coordinates are not degrees"
 says "hint: name the CRS in the file: ogr2ogr -a_srs EPSG:code named.gpkg metres.geojson"
 nothing_left metres.h5
 

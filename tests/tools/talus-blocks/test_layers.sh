@@ -152,7 +152,7 @@ hint() { sed -n 's/^  hint: //p' err; }
 # metres that the file calls degrees, with a code for the word of the hint
 sed 's/"crs":{[^}]*}},//' area.geojson >metres.geojson
 expect 1 cut --set source.polygon_file=metres.geojson
-says "the coordinates are no degrees"
+says "the coordinates are not degrees"
 eval "$(hint | sed 's/.*\(ogr2ogr.*\)/\1/; s/EPSG:code/EPSG:32633/')"
 is_release --set source.polygon_file=named.gpkg
 # a layer named as QGIS does is a word of its own in the command, which mends it alone

@@ -49,7 +49,7 @@ read_again 0
 says "bodies are named like parts, as ${name}_part_0, and move apart"
 sed 's/^g .*_part_0/g base/' one.obj >changed.obj
 read_again 1
-says "changed.obj:2: faces of object $name stand here outside of its parts"
+says "changed.obj:2: faces of object $name are outside of its parts"
 awk '/^g / { ++k } $1 == "v" && k == 1 { $4 += 3 } { print }' one.obj >changed.obj
 read_again 0
 says "$name has parts that do not lie against the others"

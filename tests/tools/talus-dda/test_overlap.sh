@@ -48,4 +48,4 @@ says 'solver.normal_stiffness_n_m is 1e+15 N/m'
 printf 'o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\no a\n' >twice.obj
 printf '[material.rock]\n[blocks.a]\nfile = "twice.obj"\nposition_m = [[500120, 5000030]]\n' >twice.toml
 expect 1 talus-blocks twice.toml --trn slope.tif -o twice.h5 --no-db
-says 'twice.obj:10: object a stands here a second time, first in line 1'
+says 'twice.obj:10: object a is defined again here, first in line 1'

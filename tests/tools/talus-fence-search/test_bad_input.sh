@@ -45,7 +45,7 @@ says 'has seed 1, as has one of the runs'
 expect 1 search run_1.h5 run_2.h5 -o v.gpkg --verified house-1=other_11.h5
 says 'did not have fence house-1 standing where it is now'
 expect 1 search run_1.h5 run_2.h5 -o v.gpkg --verified house-9=other_11.h5
-says 'which is no proposal of these runs'
+says 'which is not a proposal of these runs'
 expect 2 search run_1.h5 -o v.gpkg --verified house-1
 says 'expected NAME=FOLDER or NAME=FILE'
 nothing_left v.gpkg

@@ -4,9 +4,9 @@ run-probe touches 80 standing=1 hits=stopped capacity=1000
 run-probe open 80 seed=1 capacity=1000
 # the fence holds the blocks that touched it; that alone does not pass it
 expect 0 talus-fence touches/site.toml touches/run_*.h5 --trn touches/slope.tif -o t.gpkg --json t.json
-says 'first touches of the standing fence in 80 runs, which are no design values'
+says 'first touches of the standing fence in 80 runs, which are not design values'
 says 'make WITHOUT=yes; or talus-dda --set fence.check.active=false'
-prints 'not judged: first touches of a standing fence are no design values'
+prints 'not judged: first touches of a standing fence are not design values'
 # with the runs without it the line is judged by their crossings
 expect 0 talus-fence touches/site.toml touches/run_*.h5 --without open/run_*.h5 --trn touches/slope.tif -o o.gpkg --json o.json
 prints 'design by 80 crossings of its line in 80 runs without the fence, largest energy'
@@ -17,7 +17,7 @@ prints 'not judged: too few arrivals, 2 of the 59 that the code needs; by the la
 whole_lines out >f.out
 # ten times the rock: no class is large enough
 expect 0 talus-fence open/site.toml open/run_*.h5 --trn open/slope.tif -o n.gpkg --json n.json --design-block-m3 10
-prints '(no ETAG class: above the largest, 4,500 kJ; a net is no option)'
+prints '(no ETAG class: above the largest, 4,500 kJ; a net is not an option)'
 whole_lines out >n.out
 ogrinfo -q -al o.gpkg fences >o.layer
 ogrinfo -q -al f.gpkg fences >f.layer

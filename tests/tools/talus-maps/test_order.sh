@@ -19,4 +19,4 @@ grep -q 'CreationDate' a/reach.pdf && fail 'a page says when it was made'
 grep -q '/MediaBox \[ 0 0 1190.551181 841.889764 \]' a/reach.pdf || fail 'the page is not A3'
 gdalinfo a/reach.png | grep -q 'Size is 2480, 1754' || fail 'the picture is not A3 at 150 dots an inch'
 expect 2 talus-maps run_0.h5 --trn slope.tif -o d --pages png,a5
-says 'png,a5 is no list of pages, expected png, pdf or png,pdf'
+says 'png,a5 is not a list of pages, expected png, pdf or png,pdf'

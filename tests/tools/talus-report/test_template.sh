@@ -46,7 +46,7 @@ refused 's/type="65639"/type="65640"/' 'wrong.qgs: layout Map: has no map item, 
 line=$(grep -n 'labelText="Signature:"' "$shipped" | cut -d: -f1)
 refused 's/labelText="Signature:"/labelText="{tittle}"/' "wrong.qgs:$line: layout Map, item Signature: has {tittle}, expected one of {author}, {crs}, {date}, {remark}, {run_id}, {site}, {statement}, {title}, {version}"
 says 'did you mean {title}?'
-refused 's/<\/qgis>//' 'wrong.qgs: is no project of QGIS: '
+refused 's/<\/qgis>//' 'wrong.qgs: is not a QGIS project: '
 python3 -m zipfile -c empty.qgz out
 report wrong 1 --qgis-template empty.qgz
 says 'empty.qgz: holds no .qgs that can be read'

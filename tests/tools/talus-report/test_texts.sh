@@ -57,7 +57,7 @@ refused() {
 }
 refused '[maps]\n\ntitel = "Karten"' 'wrong.toml:3: maps.titel: is not a key of these texts'
 says 'did you mean maps.title?'
-refused 'maps.plan = "Lauf {lauf}"' 'wrong.toml:1: maps.plan: has {lauf}, which is no value of this text'
+refused 'maps.plan = "Lauf {lauf}"' 'wrong.toml:1: maps.plan: has {lauf}, which is not a value of this text'
 says 'its values: {interval}, {run}'
 refused '[maps]\ntitle = "Karten' 'wrong.toml:2: '
 talus-report --describe json >out.json

@@ -45,10 +45,10 @@ for source in undefined0.gpkg undefined-1.gpkg without.geojson; do
   expect 0 talus-tin $source -o named.ply --crs EPSG:32632 --t-srs EPSG:25833 --overwrite
 done
 expect 1 talus-tin without.geojson -o bad.ply
-says "(a GeoJSON without crs says so), but the coordinates are no degrees"
+says "(a GeoJSON without crs says so), but the coordinates are not degrees"
 printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[500000,5200000,138]}}]}' >spot.geojson
 expect 0 talus-tin map.geojson -o spot.ply --spots spot.geojson
-says "spot.geojson: taken to be in the CRS of the map: its coordinates are no degrees"
+says "spot.geojson: taken to be in the CRS of the map: its coordinates are not degrees"
 
 # no CRS
 ogr2ogr -q none.shp map.geojson

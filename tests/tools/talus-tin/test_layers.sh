@@ -169,7 +169,7 @@ PY
 for file in nan.gpkg nan.shp; do
   is_truth $file
   says "elevation from field ELEV"
-  says "Z of 4 of 4 is no number and was not looked at"
+  says "Z of 4 of 4 is not a number and was ignored"
   is_truth $file --elevation-field ELEV
   refused "the Z of 4 of 4 is not a finite number" $file --elevation-field Z
 done

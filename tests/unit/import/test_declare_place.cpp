@@ -39,7 +39,7 @@ TEST_F(DeclarePlace, ALayerWithoutASystemIsInTheFrame) {
 
 TEST_F(DeclarePlace, TheGroundItselfMustSayItsSystem) {
   ask(InputRole::contours, contours(0));
-  EXPECT_NE(error_of([&] { (void)declared(); }).find("the coordinates are no degrees"),
+  EXPECT_NE(error_of([&] { (void)declared(); }).find("the coordinates are not degrees"),
             std::string::npos);
   request.crs_given = true;
   request.crs = utm;

@@ -122,7 +122,7 @@ TEST(ReadVectors, MetresThatAreCalledDegreesAreRefused) {
         read_vectors({path, VectorKind::points}, crs_from_user("EPSG:32633", "test")));
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("the coordinates are no degrees"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("the coordinates are not degrees"), std::string::npos);
     EXPECT_NE(error.hint().find("ogr2ogr -a_srs EPSG:code"), std::string::npos);
   }
 }

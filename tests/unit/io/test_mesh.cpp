@@ -443,11 +443,11 @@ TEST(MeshParts, PartsMayShareVerticesOrRepeatThem) {
 TEST(MeshParts, WhatIsNoWholeSetOfPartsIsRefused) {
   const std::string one = "o r\ng r_part_0\n" + tetrahedron(0);
   EXPECT_EQ(words_of_refusal(one + "g base\n" + tetrahedron(2)),
-            "m:11: faces of object r stand here outside of its parts (line 2 begins one)");
+            "m:11: faces of object r are outside of its parts (line 2 begins one)");
   EXPECT_EQ(words_of_refusal("o r\n" + tetrahedron(2) + "g r_part_0\n" + tetrahedron(0)),
-            "m:1: faces of object r stand here outside of its parts (line 10 begins one)");
+            "m:1: faces of object r are outside of its parts (line 10 begins one)");
   EXPECT_EQ(words_of_refusal(one + "g r_part_01\n" + tetrahedron(2)),
-            "m:11: faces of object r stand here outside of its parts (line 2 begins one)");
+            "m:11: faces of object r are outside of its parts (line 2 begins one)");
   EXPECT_EQ(words_of_refusal(one + "g r_part_2\n" + tetrahedron(2)),
             "m:2: object r has parts up to number 2 and no face of number 1");
   EXPECT_EQ(words_of_refusal(one + "g r_part_1\n"),
@@ -455,9 +455,9 @@ TEST(MeshParts, WhatIsNoWholeSetOfPartsIsRefused) {
   EXPECT_EQ(words_of_refusal(one + "g r_part_1 r_part_2\n" + tetrahedron(2)),
             "m:11: faces are said to belong to two parts of object r");
   EXPECT_EQ(words_of_refusal(one + "o s\ng r_part_1\n" + tetrahedron(2)),
-            "m:12: group r_part_1 stands outside of object r, which begins in line 1");
+            "m:12: group r_part_1 is outside of object r, which begins in line 1");
   EXPECT_EQ(words_of_refusal("g r_part_0\n" + tetrahedron(0) + "o r\n" + tetrahedron(2)),
-            "m:1: group r_part_0 stands outside of object r, which begins in line 10");
+            "m:1: group r_part_0 is outside of object r, which begins in line 10");
 }
 
 // Other groups read as ever; groups that may have been meant as one body are reported.

@@ -437,7 +437,7 @@ TEST(CheckDesign, NamesNoClassAboveTheLargest) {
   const DesignInput input{60, 0.8, 2700, 2, false, NAN, NAN};
   const DesignResult r = check_design(uni(), classes, input, hundred_arrivals(), straight_fence());
   EXPECT_EQ(r.smallest_class, "none");
-  EXPECT_NE(text(r).find("(no ETAG class: above the largest, 4,500 kJ; a net is no option)"),
+  EXPECT_NE(text(r).find("(no ETAG class: above the largest, 4,500 kJ; a net is not an option)"),
             std::string::npos)
       << text(r);
 }

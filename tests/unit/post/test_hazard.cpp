@@ -588,7 +588,7 @@ TEST(Recipe, HolesAreRefusedWithTheirPlace) {
   expect("mark = \"v\"", "makr = \"v\"", "is not a key of a recipe");
   expect("mark = \"v\"", "mark = \"x\"", "v: read in the document");
   expect("\"matrix\", \"class\"]", "\"class\"]", "matrix: has no source");
-  expect("of = [\"mass\"]", "of = [\"risk\"]", "which is no part of this recipe");
+  expect("of = [\"mass\"]", "of = [\"risk\"]", "which is not part of this recipe");
   expect("of = [\"mass\"]", "of = [\"class\"]", "has \"class\" twice");
   expect("page = ", "pgae = ", "known: of, document, page, mark");
   expect("label = \"low hazard\"", "", "class.yellow.label");

@@ -89,8 +89,8 @@ TEST(DeepRows, BrokenLimitsNameABlock) {
   Row::sink(deep);
   row.options.limits.max_penetration = 0.01;
   Runner shallow = row.begin();
-  shallow.state.mishaps.deepest = {3, 4, 0.02, 1.5, Vec3(1, 2, 3)};
-  shallow.state.mishaps.left_domain = {5, -1, 0, 2, Vec3(1, 2, 3)};
+  shallow.state.numerical_faults.deepest = {3, 4, 0.02, 1.5, Vec3(1, 2, 3)};
+  shallow.state.numerical_faults.left_domain = {5, -1, 0, 2, Vec3(1, 2, 3)};
   shallow.state.counters.left_domain = 1;
   shallow.state.phase[5] = Phase::left_domain;
   shallow.file.health.push_back({});

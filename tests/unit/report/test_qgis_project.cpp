@@ -188,8 +188,8 @@ TEST(QgisProject, LayersSayWhatTheyAreAndWhatElseTheyCanShow) {
 
 TEST(QgisProject, TemplatesThatCannotBeFilledAreRefused) {
   EXPECT_EQ(refusal({"a.qgs", "<html/>"}).substr(0, 48),
-            "a.qgs: is no project of QGIS: it holds no <qgis>");
-  EXPECT_TRUE(has(refusal({"a.qgs", "<qgis><Layouts>"}), "a.qgs: is no project of QGIS: "));
+            "a.qgs: is not a QGIS project: it holds no <qgis>");
+  EXPECT_TRUE(has(refusal({"a.qgs", "<qgis><Layouts>"}), "a.qgs: is not a QGIS project: "));
   EXPECT_TRUE(has(refusal({"a.qgs", "<qgis/>"}), "a.qgs: has no print layout, expected one"));
   EXPECT_TRUE(has(refusal({"a.qgs", "<qgis><Layouts><Layout name=\"A\"/></Layouts></qgis>"}),
                   "a.qgs: layout A: has no map item, expected one"));

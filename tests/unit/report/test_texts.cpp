@@ -56,10 +56,11 @@ TEST(Texts, WhatDoesNotFitIsRefusedWithItsLine) {
   EXPECT_EQ(refusal("[maps]\n\ntitel = 'Karten'"),
             "office.toml:3: maps.titel: is not a key of these texts; did you mean maps.title?");
   EXPECT_EQ(refusal("[maps]\nplan = 'Lauf {lauf}'"),
-            "office.toml:2: maps.plan: has {lauf}, which is no value of this text; its values: "
+            "office.toml:2: maps.plan: has {lauf}, which is not a value of this text; its values: "
             "{run}, {side}");
-  EXPECT_EQ(refusal("[maps]\ntitle = '{n} Karten'"),
-            "office.toml:2: maps.title: has {n}, which is no value of this text; its values: none");
+  EXPECT_EQ(
+      refusal("[maps]\ntitle = '{n} Karten'"),
+      "office.toml:2: maps.title: has {n}, which is not a value of this text; its values: none");
   EXPECT_EQ(refusal("[maps]\nheads = ['Lauf']").substr(0, 72),
             "office.toml:2: maps.heads: is a list of 1 text, expected a list of 2 tex");
   EXPECT_EQ(refusal("[maps]\nheads = 'Lauf'").substr(0, 60),

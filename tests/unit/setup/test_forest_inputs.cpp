@@ -198,7 +198,7 @@ TEST_F(Magnitudes, ShowAUnitThatWasNotMeant) {
   EXPECT_EQ(of(1.2), "accepted");
   EXPECT_TRUE(log.has_warning("forest.wood: half of the stems are thinner than 1.2 cm"));
   const std::string stand = polygon + "stems_per_ha = 400\n";
-  EXPECT_HOLDS(refusal(stand + "dbh_mean_cm = 0.3\ndbh_std_cm = 0.05\n"), "that is no wood");
+  EXPECT_HOLDS(refusal(stand + "dbh_mean_cm = 0.3\ndbh_std_cm = 0.05\n"), "that is not a forest");
   EXPECT_HOLDS(refusal(stand + "height_m = 250\n"), "has trees of 250 m, expected up to 130");
 }
 

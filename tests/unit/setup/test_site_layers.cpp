@@ -60,7 +60,7 @@ TEST_F(LayersOfSite, EachNameIsASection) {
 
 TEST_F(LayersOfSite, MisspeltFieldsNamesAndLayersAreRefused) {
   write_fences(folder.file("site.gpkg"), "heigth_m", {{"low", 3}});
-  EXPECT_HOLDS(refusal(), "has a field heigth_m that is no key");
+  EXPECT_HOLDS(refusal(), "has a field heigth_m that is not a key");
   write_fences(folder.file("site.gpkg"), "height_m", {{"low one", 3}});
   EXPECT_HOLDS(refusal(), "has the name \"low one\"");
   write_fences(folder.file("site.gpkg"), "height_m", {{"low", 3}}, "fencs");

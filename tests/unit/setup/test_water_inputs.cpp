@@ -114,7 +114,7 @@ TEST_F(WaterInputs, AreRefusedWithAWayOut) {
   EXPECT_HOLDS(refusal("cracks = [\"rear\"]\n"), "crack_fill_m of the cracks is not given");
   EXPECT_HOLDS(refusal("depth_m = 1\ncrack_fill_m = 2\n"), "crack_fill_m fills no joint set");
   EXPECT_HOLDS(refusal("depth_m = 1\ndrained = [\"side\"]\n"),
-               "drained names side, which is no joint set of the blocks hint: they have bed, "
+               "drained names side, which is not a joint set of the blocks hint: they have bed, "
                "rear_1, rear_2, source_side");
   EXPECT_HOLDS(refusal("cracks = [\"rear\"]\ncrack_fill_m = 1\ndrained = [\"rear_2\"]\n"),
                "joint set rear_2 is among the cracks and drained hint: name it in one of the two");

@@ -120,7 +120,7 @@ TEST(ReadOrientations, WhatCannotBeMeantIsRefusedWithItsLine) {
                     "1"),
             "f.txt: is written in UTF-16, expected UTF-8");
   EXPECT_EQ(refused(std::string("1\0", 2)),
-            "f.txt: is no plain text (UTF-16, or binary), expected columns of numbers");
+            "f.txt: is not plain text (UTF-16, or binary), expected columns of numbers");
 }
 
 }  // namespace

@@ -340,8 +340,8 @@ TEST(Uncertainty, WhatCannotBeDrawnIsRefusedWithPlaceAndWayOut) {
   EXPECT_TRUE(
       has(refusal(friction + "distribution = \"discrete\"\nvalues = [20, 30]\nweights = [1]\n"),
           "there are 1 weight, expected one for each of 2 values"));
-  EXPECT_TRUE(
-      has(refusal(friction + "distribution = \"fisher\"\nn_measured = 5\n"), "is no orientation"));
+  EXPECT_TRUE(has(refusal(friction + "distribution = \"fisher\"\nn_measured = 5\n"),
+                  "is not an orientation"));
   EXPECT_TRUE(
       has(refusal("keys = \"joints.J1.orientation\"\ndistribution = \"fisher\"\nn_measured = 5\n",
                   "[uncertainty]\nrock_masses = 4\n"),

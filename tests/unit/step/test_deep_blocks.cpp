@@ -139,7 +139,7 @@ TEST(DeepBlocks, TheDeepestOverlapOfARunIsNamed) {
   OnASlope pair(0,
                 {cube_at({0, 0, 0}), cube_at({-1.5, -1.5, 30}, 3), cube_at({-0.5, -0.5, 32.99})});
   pair.go();
-  const Mishap first = pair.state.mishaps.deepest;
+  const NumericalFault first = pair.state.numerical_faults.deepest;
   EXPECT_EQ(first.block, 2);
   EXPECT_EQ(first.partner, 1);
   EXPECT_NEAR(first.depth, 0.01, 1e-3);
@@ -147,27 +147,27 @@ TEST(DeepBlocks, TheDeepestOverlapOfARunIsNamed) {
   EXPECT_LT((first.place - Vec3(0, 0, 33.49)).norm(), 0.02);
   pair.state.motion[2].pose.position.z() += 1;
   for (int i = 0; i < 3; ++i) pair.go();
-  EXPECT_EQ(pair.state.mishaps.deepest.time, first.time);  // they are apart
+  EXPECT_EQ(pair.state.numerical_faults.deepest.time, first.time);  // they are apart
   pair.state.motion[0].pose.position.z() -= 0.03;
   pair.go();
-  EXPECT_EQ(pair.state.mishaps.deepest.block, 0);
-  EXPECT_EQ(pair.state.mishaps.deepest.partner, -1);
+  EXPECT_EQ(pair.state.numerical_faults.deepest.block, 0);
+  EXPECT_EQ(pair.state.numerical_faults.deepest.partner, -1);
   EXPECT_EQ(pair.state.deep[0].steps, 0);
 }
 
 // So is the first block that leaves the terrain.
-TEST(Mishaps, NameTheFirstBlockThatLeft) {
+TEST(NumericalFaults, NameTheFirstBlockThatLeft) {
   std::vector<Body> bodies = {cube_at({0, 0, 0}), cube_at({40, 0, 0}), cube_at({45, 3, 5})};
   bodies[2].velocity = Vec3(20, 0, 0);
   OnASlope slope(0, bodies);
   for (int i = 0; i < 100; ++i) slope.go();
   ASSERT_EQ(slope.state.counters.left_domain, 1) << slope.state.motion[2].pose.position.transpose();
-  const Mishap& left = slope.state.mishaps.left_domain;
+  const NumericalFault& left = slope.state.numerical_faults.left_domain;
   EXPECT_EQ(left.block, 2);
   EXPECT_GT(left.place.x(), 46);
   EXPECT_GT(left.time, 0);
-  EXPECT_EQ(slope.state.mishaps.fell_through.block, -1);
-  EXPECT_EQ(slope.state.mishaps.not_finite.block, -1);
+  EXPECT_EQ(slope.state.numerical_faults.fell_through.block, -1);
+  EXPECT_EQ(slope.state.numerical_faults.not_finite.block, -1);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ struct FirstSubstep {
     form_islands(scene, state, work);
     gather_members(scene, blocks_of(work.search.groups, 0), w.members);
     take_pairs(scene, state, work.search, 0, w.members, w.manifolds);
-    see_size(scene, state, work.search, w.manifolds, w.members);
+    classify_size(scene, state, work.search, w.manifolds, w.members);
     choose_stiffness(scene, state, work.search, w.manifolds, 0, w.members);
   }
   SubstepVerdict attempt(double h) {

@@ -170,8 +170,8 @@ TEST(SoilFriction, GrowsAlongTheWaySlid) {
   EXPECT_NEAR(friction_on(medium, 0, 0.1), 0.5573, 1e-4);
   EXPECT_NEAR(friction_on(medium, 0, 1), 1.5130, 1e-4);
   EXPECT_NEAR(friction_on(medium, 0, 5), 1.8953, 1e-4);
-  const SlidWay slid{2, 1};
-  EXPECT_NEAR(way_slid({&slid, 1.05}, soft) / 2, 6.738e-3, 1e-6);
+  const SlipMemory slid{2, 1};
+  EXPECT_NEAR(slip_distance({&slid, 1.05}, soft) / 2, 6.738e-3, 1e-6);
   // the mean over a path is the difference quotient of its work, and meets it where it is short
   EXPECT_NEAR(mean_friction(medium, 0, 0.3, 1e-5), friction_on(medium, 0, 0.300005), 1e-9);
 }

@@ -593,7 +593,7 @@ TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
     row.slip_speed = slips;
     row.speed_start = opens;
     forget_last_step(row);
-    row.rests = rests;
+    row.cooldown_steps = rests;
     row.last_force = force;
     row.last_stiffness = last;
     row.bond_area = bond_area;
@@ -619,7 +619,7 @@ TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
     EXPECT_NEAR(stiffness(2e3 * force, k), 4e3 * force / 5e-4, 1e-6 * k);
     *speed = 0;
   }
-  rests = law::most_rests;
+  rests = law::longest_cooldown;
   EXPECT_DOUBLE_EQ(stiffness(10 * force, k), k / 8);
   rests = 1;
   EXPECT_DOUBLE_EQ(stiffness(100 * force, k), k);

@@ -1,5 +1,5 @@
 // Looks at pairs of an island: when they may be hit, and which contacts touch then.
-#include "step/island/hit_looks.hpp"
+#include "step/island/impact_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +78,7 @@ RowMotion row_motion(const FreeMotions& free, const IslandSystem& system, size_t
   return out;
 }
 
-void HitLooks::begin() const {
+void ImpactSearch::begin() const {
   const Hulls& hulls = scene.blocks.hulls;
   if (hits.placed.turned.size() != hulls.radius.size())
     place_hulls(hulls, search.poses, {}, {}, hits.placed);
@@ -110,7 +110,7 @@ void HitLooks::begin() const {
       if (k >= 0) hits.pairs[--hits.pair_begin[k]] = static_cast<int>(p);
 }
 
-Motion HitLooks::motion_of(size_t k, double time) const {
+Motion ImpactSearch::motion_of(size_t k, double time) const {
   const FlyingMember& flying = hits.members[k];
   const Substep& s = free.substeps[k];
   const double dt = time - flying.clock;
@@ -124,14 +124,14 @@ Motion HitLooks::motion_of(size_t k, double time) const {
   return m;
 }
 
-PlacedMotion HitLooks::place(size_t k, const Motion& motion) const {
+PlacedMotion ImpactSearch::place(size_t k, const Motion& motion) const {
   const Mat3 R = motion.pose.attitude.toRotationMatrix();
   const Vec3 in_body = R.transpose() * motion.angular_momentum;
   return {motion.pose.position, R * free.substeps[k].R_start.transpose(), motion.velocity,
           R * in_body.cwiseProduct(members.numbers[k].per_inertia)};
 }
 
-const MemberMotion& HitLooks::member_at(size_t k, double time) const {
+const MemberMotion& ImpactSearch::member_at(size_t k, double time) const {
   FlyingMember& flying = hits.members[k];
   if (flying.now_version != flying.version || flying.now_time != time) {
     flying.now.motion = motion_of(k, time);
@@ -142,7 +142,7 @@ const MemberMotion& HitLooks::member_at(size_t k, double time) const {
   return flying.now;
 }
 
-const PlacedMotion& HitLooks::end_of_member(size_t k) const {
+const PlacedMotion& ImpactSearch::end_of_member(size_t k) const {
   FlyingMember& flying = hits.members[k];
   if (flying.end_version != flying.version) {
     flying.end = place(k, motion_of(k, free.h));
@@ -151,18 +151,18 @@ const PlacedMotion& HitLooks::end_of_member(size_t k) const {
   return flying.end;
 }
 
-int HitLooks::version_of(size_t p) const {
+int ImpactSearch::version_of(size_t p) const {
   const BodyPair& pair = system.island.pairs[p];
   const int of_b = pair.b < 0 ? 0 : hits.members[pair.b].version;
   return hits.members[pair.a].version + of_b;
 }
 
-void HitLooks::push(const PairLook& look) const {
+void ImpactSearch::push(const ImpactCandidate& look) const {
   hits.queue.push_back(look);
   std::push_heap(hits.queue.begin(), hits.queue.end(), comes_after);
 }
 
-double HitLooks::size_of(size_t p) const {
+double ImpactSearch::size_of(size_t p) const {
   const BodyPair& pair = system.island.pairs[p];
   const double a = members.numbers[pair.a].radius;
   return pair.b < 0 ? a : std::min(a, members.numbers[pair.b].radius);
@@ -170,18 +170,18 @@ double HitLooks::size_of(size_t p) const {
 
 // Approach above which a pair is hit at `time`: a contact that touches when the substep begins, and
 // closed slowly in the one before, is located; later ones end this substep.
-double HitLooks::hit_speed(size_t k, double time) const {
+double ImpactSearch::hit_speed(size_t k, double time) const {
   const BlockNumbers& c = members.numbers[k];
   return time == 0 ? c.located_speed : c.resting_speed;
 }
 
 // Whether something presses member k until its first hit: then it is not in free flight.
-bool HitLooks::is_pressed(size_t k) const {
+bool ImpactSearch::is_pressed(size_t k) const {
   const FlyingMember& flying = hits.members[k];
   return !flying.was_hit && !flying.borne.isZero(0);
 }
 
-void HitLooks::look_ahead(size_t p, double from, double not_before) const {
+void ImpactSearch::look_ahead(size_t p, double from, double not_before) const {
   if (hits.is_closed[p] != 0) return;
   if (++hits.n_looks[p] > 2 * law::most_hits) {
     hits.is_closed[p] = 1;
@@ -196,14 +196,14 @@ void HitLooks::look_ahead(size_t p, double from, double not_before) const {
   const PlacedMotion& end_a = end_of_member(ka);
   const PlacedMotion* end_b = pair.b < 0 ? nullptr : &end_of_member(kb);
   const double resting = members.numbers[ka].resting_speed, open = negligible * size_of(p);
-  PairLook look;
+  ImpactCandidate look;
   look.time = h + 1;
   for (const size_t r : contacts_of(system, p)) {
     const KeptContact& contact = system.contacts[r];
     if (contact.bond_area != 0 || row_of(system, r).normal_limit() < no_normal_limit) continue;
     const RowMotion now = row_motion(free, system, r, a, b);
     const RowMotion then = row_motion(free, system, r, end_a, end_b);
-    PairLook of_row;
+    ImpactCandidate of_row;
     of_row.time = h + 1;
     of_row.speed = std::max(-now.speed, -then.speed);
     if (now.gap <= open) {
@@ -234,16 +234,16 @@ void HitLooks::look_ahead(size_t p, double from, double not_before) const {
   push(look);
 }
 
-void HitLooks::take_due(std::vector<PairLook>& due) const {
+void ImpactSearch::take_due(std::vector<ImpactCandidate>& due) const {
   due.clear();
   const auto pop = [&] {
     std::pop_heap(hits.queue.begin(), hits.queue.end(), comes_after);
-    const PairLook look = hits.queue.back();
+    const ImpactCandidate look = hits.queue.back();
     hits.queue.pop_back();
     return look;
   };
   while (!hits.queue.empty()) {
-    const PairLook& next = hits.queue.front();
+    const ImpactCandidate& next = hits.queue.front();
     const auto p = static_cast<size_t>(next.pair);
     if (next.version != version_of(p) || hits.is_closed[p] != 0) {
       (void)pop();
@@ -253,7 +253,7 @@ void HitLooks::take_due(std::vector<PairLook>& due) const {
       const double after = next.time - due.front().time;
       if (after > rounding * free.h && after * next.speed > negligible * size_of(p)) return;
     }
-    PairLook look = pop();
+    ImpactCandidate look = pop();
     if (!due.empty()) look.time = due.front().time;
     due.push_back(look);
   }
@@ -270,8 +270,9 @@ double slip_of(const ImpactContact& contact, const PlacedMotion& a, const Placed
 
 }  // namespace
 
-ImpactContact& HitLooks::add_touching(size_t p, const Vec3& normal, const Vec3& point, double gap,
-                                      const ContactKey& key, const GroundClass& faces) const {
+ImpactContact& ImpactSearch::add_touching(size_t p, const Vec3& normal, const Vec3& point,
+                                          double gap, const ContactKey& key,
+                                          const GroundClass& faces) const {
   const BodyPair& pair = system.island.pairs[p];
   ImpactContact touching;
   touching.a = pair.a;
@@ -288,7 +289,7 @@ ImpactContact& HitLooks::add_touching(size_t p, const Vec3& normal, const Vec3& 
   return hits.touching.back();
 }
 
-void HitLooks::find_touching_ground(size_t p, double time) const {
+void ImpactSearch::find_touching_ground(size_t p, double time) const {
   const auto k = static_cast<size_t>(system.island.pairs[p].a);
   const BlockNumbers& c = members.numbers[k];
   const Motion& m = member_at(k, time).motion;
@@ -310,7 +311,7 @@ void HitLooks::find_touching_ground(size_t p, double time) const {
   }
 }
 
-void HitLooks::find_touching_bodies(size_t p, double time) const {
+void ImpactSearch::find_touching_bodies(size_t p, double time) const {
   const BodyPair& pair = system.island.pairs[p];
   const PairManifold& of = search.pairs.manifolds[system.pair_manifold[p]];
   const Hulls& hulls = scene.blocks.hulls;
@@ -345,7 +346,7 @@ void HitLooks::find_touching_bodies(size_t p, double time) const {
   }
 }
 
-void HitLooks::find_touching(size_t p, double time) const {
+void ImpactSearch::find_touching(size_t p, double time) const {
   hits.touching.clear();
   if (system.pair_manifold[p] < 0)
     find_touching_ground(p, time);
@@ -353,13 +354,13 @@ void HitLooks::find_touching(size_t p, double time) const {
     find_touching_bodies(p, time);
 }
 
-void HitLooks::look_at(const PairLook& look) const {
+void ImpactSearch::look_at(const ImpactCandidate& look) const {
   const auto p = static_cast<size_t>(look.pair);
   const BodyPair& pair = system.island.pairs[p];
   const double h = free.h, open = negligible * size_of(p);
-  const auto look_on = [&] { look_ahead(p, look.time, look.time + after_hit * h); };
+  const auto schedule = [&] { look_ahead(p, look.time, look.time + after_hit * h); };
   find_touching(p, look.time);
-  if (hits.touching.empty()) return look_on();
+  if (hits.touching.empty()) return schedule();
   const auto ka = static_cast<size_t>(pair.a);
   const PlacedMotion& a = member_at(ka, look.time).placed;
   const PlacedMotion* b =
@@ -374,8 +375,8 @@ void HitLooks::look_at(const PairLook& look) const {
     c.approach = c.normal.dot(u);
     if (c.approach < -resting && c.gap <= least) least = c.gap, approach_of_least = c.approach;
   }
-  if (least == none) return look_on();
-  PairLook again = look;
+  if (least == none) return schedule();
+  ImpactCandidate again = look;
   ++again.tries;
   if (again.tries <= most_looks_for_time) {
     if (least > open) {  // not yet
@@ -392,7 +393,7 @@ void HitLooks::look_at(const PairLook& look) const {
       if (again.time < look.time) return push(again);
     }
   } else if (least > open) {
-    return look_on();
+    return schedule();
   }
   double fastest = 0;
   const double below = std::max(least, 0.0) + open;

@@ -1,4 +1,4 @@
-// libcore/step/island/hit_looks.hpp
+// libcore/step/island/impact_search.hpp
 // When pairs of an island may be hit within its substep, and which contacts touch then: the looks
 // of stage 6. Between its hits a member moves freely; a pair is looked at when the gaps of its rows
 // say that it may be hit, and where it is then, its features are searched anew.
@@ -13,7 +13,7 @@
 namespace talus {
 
 /// Input and results of looks: a struct so that its parts share them.
-struct HitLooks {
+struct ImpactSearch {
   const Scene& scene;
   const State& state;
   const PairSearch& search;
@@ -34,16 +34,16 @@ struct HitLooks {
   /// `not_before`.
   void look_ahead(std::size_t p, double from, double not_before) const;
   /// Takes the looks that are due first, all those of one time; empty: there is none.
-  void take_due(std::vector<PairLook>& due) const;
+  void take_due(std::vector<ImpactCandidate>& due) const;
   /// The contacts that touch where the pair of `look` is at its time: appended to
   /// SubstepHits::batch where the pair is hit. Else it looks on.
-  void look_at(const PairLook& look) const;
+  void look_at(const ImpactCandidate& look) const;
 
   // parts of these
   [[nodiscard]] PlacedMotion place(std::size_t k, const Motion& motion) const;
   [[nodiscard]] const PlacedMotion& end_of_member(std::size_t k) const;
   [[nodiscard]] int version_of(std::size_t p) const;
-  void push(const PairLook& look) const;
+  void push(const ImpactCandidate& look) const;
   [[nodiscard]] double hit_speed(std::size_t k, double time) const;
   [[nodiscard]] bool is_pressed(std::size_t k) const;
   [[nodiscard]] double size_of(std::size_t p) const;
@@ -73,10 +73,11 @@ inline void note_hit(std::size_t r, double time, IslandSystem& system, SubstepHi
 }
 
 /// Makes the hits found part of the motion without contact.
-void take_hits(const HitLooks& looks, FreeMotions& free, IslandSystem& system, SubstepHits& hits);
+void take_hits(const ImpactSearch& looks, FreeMotions& free, IslandSystem& system,
+               SubstepHits& hits);
 
 /// Earlier looks first, then those of lower pairs: for a heap.
-[[nodiscard]] inline bool comes_after(const PairLook& a, const PairLook& b) {
+[[nodiscard]] inline bool comes_after(const ImpactCandidate& a, const ImpactCandidate& b) {
   return a.time != b.time ? a.time > b.time : a.pair > b.pair;
 }
 
