@@ -474,7 +474,7 @@ GDAL_CACHE_MB = 128
 LARGE_NODES = (1400, 2000)
 MANY_FRAMES, FRAME_INTERVAL_S = 10001, 0.002
 BYTES_A_BLOCK_AND_FRAME = {"talus-dda": 300, "talus-runout": 80, "talus-fence": 80, "talus-report": 150}
-MANY_RUNS, BYTES_A_RUN = 10000, 4096
+MANY_RUNS, BYTES_A_RUN = 100000, 4096
 MANY_CONTOURS, POINTS_A_CONTOUR, BYTES_A_POINT = 200, 1000, 210
 
 
@@ -739,6 +739,36 @@ def part_registry(bench):
     if (folder / "failed").exists() or fault_of_registry(folder / "shared.sqlite"):
         losses.append(f"turned away, or registry broken: {errors}")
     bench.row("two writers of one registry", 2 * n, losses)
+
+
+def part_many(bench):
+    """A site of many fences and objects: everything that make computes, and each of them in the results."""
+    n_fences, n_objects = bench.times(30, 1000), bench.times(150, 5000)
+    folder = bench.fresh(bench.work / "many_lines")
+    designed = Path(bench.args.source) / "sample_sites/designed"
+    shutil.copy(designed / "contours.gpkg", folder)
+    (folder / "Makefile").write_text(f"include {bench.args.source}/pipelines/site.mk\n")
+    text = (designed / "site.toml").read_text().split("[fence.")[0]
+    with open(folder / "site.toml", "w") as site:
+        site.write(text.replace("duration_s = 20", f"duration_s = {SIMULATED_S}"))
+        for i in range(n_fences):
+            x, y = 500005 + 214 * (i % 40) / 40, 5200010 + 220 * (i // 40) / max(1, n_fences // 40)
+            site.write(f"\n[fence.f{i}]\nline = [[{x:.2f}, {y:.2f}], [{x + 4:.2f}, {y:.2f}]]\n"
+                       "height_m = 4\ncapacity_kj = 3000\n")
+        for i in range(n_objects):
+            x, y = 500005 + 210 * (i % 100) / 100, 5200010 + 280 * (i // 100) / max(1, n_objects // 100)
+            site.write(f"\n[object.o{i}]\npolygon = [[{x:.2f}, {y:.2f}], [{x + 1.5:.2f}, {y:.2f}], "
+                       f"[{x + 1.5:.2f}, {y + 3:.2f}]]\n")
+    tools = Path(shutil.which("talus-dda", path=bench.environment["PATH"])).parent
+    code, _, err = bench.run(["make", "-s", f"BIN={tools}/", "RUNS=2", "all"], folder)
+    losses = [f"make ends with {code}: {err[-800:]}"] if code not in (0, 3) else []
+    for file, key, n in (("fence.json", "fences", n_fences), ("trace.json", "objects", n_objects)):
+        path = folder / "out" / file
+        found = len(json.loads(path.read_text())[key]) if path.exists() else 0
+        if found != n:
+            losses.append(f"{file} has {found} of {n} {key}")
+    bench.row("many fences and objects, all that make computes", 1, losses[:1],
+              f"{n_fences} and {n_objects}; {'; '.join(losses[1:])}".rstrip("; "))
 
 
 def part_same(bench):

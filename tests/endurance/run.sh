@@ -1,11 +1,12 @@
 #!/bin/sh
 # All faults against all tools.
 #   sh tests/endurance/run.sh          the short form, as among the tests
-#   sh tests/endurance/run.sh long     hundreds of kills, 10,000 registered runs, the release tools
-#                                      against those of preset dev and of a build in another folder;
-#                                      leaves build/endurance.rows (tests/studies/faults.py)
+#   sh tests/endurance/run.sh long     hundreds of kills, a registry of 100,000 runs, 1,000 fences and
+#                                      5,000 objects, the release tools against those of preset dev
+#                                      and of a build in another folder; leaves build/endurance.rows
+#                                      (tests/studies/faults.py)
 #   sh tests/endurance/run.sh long PART,...
-#                                      of kill,signal,limit,memory,write,disk,names,sources,registry,same
+#                                      of kill,signal,limit,memory,write,disk,names,sources,registry,many,same
 set -eu
 cd "$(dirname "$0")/../.."
 build() {
