@@ -2,6 +2,7 @@
 #include "tools/fence/inputs.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "post/reduce.hpp"
 #include "setup/site_dams_gdal.hpp"
@@ -10,14 +11,13 @@
 namespace talus {
 namespace {
 
-// Throws InputError unless a fence of a run is built as it is now.
-void check_built_alike(const RunFile& run, const FenceSettings& expected, const std::string& file,
+// Throws InputError unless a fence is built as it is now in the site that a run was computed with.
+void check_built_alike(const Site& of_run, const FenceSettings& expected, const std::string& file,
                        const std::string& site_file) {
-  const Site site = parse_site(run.info.config, file);
   const auto stood =
-      std::find_if(site.fences.begin(), site.fences.end(),
+      std::find_if(of_run.fences.begin(), of_run.fences.end(),
                    [&](const FenceSettings& fence) { return fence.name == expected.name; });
-  if (stood == site.fences.end()) return;  // the run does not say how it was built
+  if (stood == of_run.fences.end()) return;  // the run does not say how it was built
   check_same_fence(*stood, expected, file, site_file);
 }
 
@@ -34,10 +34,12 @@ void check_frames(const RunFile& run, int line, const std::string& file) {
 std::vector<int> lines_of(const RunFile& run, const std::vector<FenceCase>& fences,
                           const std::string& file, const std::string& site_file) {
   std::vector<int> lines;
+  std::optional<Site> of_run;  // read once, where a fence stood
   for (const FenceCase& fence : fences) {
     lines.push_back(find_line(run, fence, file, site_file));
     if (!run.lines[lines.back()].standing) continue;
-    check_built_alike(run, fence.settings, file, site_file);
+    if (!of_run) of_run = parse_site(run.info.config, file);
+    check_built_alike(*of_run, fence.settings, file, site_file);
     check_frames(run, lines.back(), file);
   }
   return lines;
