@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <optional>
 
 #include "base/file_paths.hpp"
 #include "base/grouped_text.hpp"
@@ -156,10 +158,12 @@ Traced trace(Tool& tool, const Site& site, RunInputs& runs, const Options& o,
 struct Compared {
   TraceSums sums;
   RunPairs pairs;
+  std::optional<HazardRuns> kind;  // the one class, where its rates can be compared
 };
 
 // The runs of --compare, which are of the same seeds.
-Compared compared_with(RunInputs& runs, const TraceSums& sums, const Options& o) {
+Compared compared_with(RunInputs& runs, const Traced& traced, const Options& o) {
+  const TraceSums& sums = traced.sums;
   Compared out;
   out.sums.objects = sums.objects;
   out.sums.sources = sums.sources;
@@ -169,10 +173,16 @@ Compared compared_with(RunInputs& runs, const TraceSums& sums, const Options& o)
   const auto n = static_cast<int>(variant.size());
   static_cast<void>(
       add_set(runs, set, "runs_compared", RunSettings::on_another_ground, n, o, out.sums));
+  finish(out.sums);
   out.pairs = pairs_of(std::span(runs.members).subspan(variant.size()), variant);
   if (out.pairs.n_runs == 0)
     throw InputError({o.compared[0]}, "has no run of the same seed as " + where_of(variant[0]),
                      "compute both with the same RUNS and SEED");
+  if (traced.classes.size() != 1 || !adds_up(traced.classes[0])) return out;
+  HazardRuns kind = hazard_runs(traced.classes[0].kind, runs.members, n, runs.last_failed_share());
+  kind.first = 0;  // as out.sums counts its runs
+  if (adds_up(kind) && kind.n == out.pairs.n_runs && traced.classes[0].n == out.pairs.n_runs)
+    out.kind = std::move(kind);
   return out;
 }
 
@@ -183,38 +193,57 @@ Json json_of(const PairedDifference& d) {
           {"interval", {number_or_null(d.interval.low), number_or_null(d.interval.high)}}};
 }
 
-Json compared_json(const Compared& compared, const TraceSums& sums, int object) {
+// Hits of an object as events, with the intensity that the recipe's breaks divide.
+std::vector<EventRow> event_rows_at(const TraceSums& sums, const Recipe& recipe, int object) {
+  std::vector<EventRow> rows;
+  for (const TraceHit& hit : hits_of(sums, object)) {
+    const auto energy = static_cast<float>(hit.energy / 1e3);
+    const bool by_volume = recipe.by == IntensityBy::block_volume;
+    rows.push_back({0, hit.run, hit.block, energy,
+                    by_volume ? static_cast<float>(hit.volume) : energy, hit.weight});
+  }
+  sort_events(rows);
+  return rows;
+}
+
+Json compared_json(const Compared& compared, const Traced& traced, const Site& site,
+                   const Recipe& recipe, int object) {
   const auto amounts = [object](const TraceSums& of, bool energy) {
     std::vector<BlockWeight> out;
-    for (const TraceHit& hit : of.hits)
-      if (hit.object == object) out.push_back({hit.run, hit.block, energy ? hit.energy / 1e3 : 1});
+    for (const TraceHit& hit : hits_of(of, object))
+      out.push_back({hit.run, hit.block, energy ? hit.energy / 1e3 : 1});
     return out;
   };
   const auto difference = [&](bool energy) {
-    return json_of(
-        paired_difference(compared.pairs, amounts(compared.sums, energy), amounts(sums, energy)));
+    return json_of(paired_difference(compared.pairs, amounts(compared.sums, energy),
+                                     amounts(traced.sums, energy)));
   };
-  return {{"n_runs", compared.pairs.n_runs},
-          {"n_pairs", compared.pairs.n_pairs},
-          {"hits_a_run", difference(false)},
-          {"energy_a_run_kj", difference(true)}};
+  Json out = {{"n_runs", compared.pairs.n_runs},
+              {"n_pairs", compared.pairs.n_pairs},
+              {"hits_a_run", difference(false)},
+              {"energy_a_run_kj", difference(true)}};
+  if (!compared.kind) return out;
+  const auto rates = [&](const std::function<double(float)>& value) {
+    return json_of(paired_difference(
+        compared.pairs,
+        rate_amounts(*compared.kind, event_rows_at(compared.sums, recipe, object), value),
+        rate_amounts(traced.classes[0], event_rows_at(traced.sums, recipe, object), value)));
+  };
+  out["frequency_per_a"] = rates([](float) { return 1.0; });
+  if (is_of_risk(recipe))
+    out["risk_per_a"] = rates([&](float intensity) {
+      return death_by(recipe, site.objects[static_cast<std::size_t>(object)], intensity);
+    });
+  return out;
 }
 
 // Events a year at an object, as talus-hazard counts them; by a recipe of risk the risk for
 // those who are there, by the intensity at the first touch.
 void put_rate(const Traced& traced, const Site& site, const Recipe& recipe, int object,
               TracedObject& to) {
-  std::vector<EventRow> rows;
-  for (const TraceHit& hit : traced.sums.hits)
-    if (hit.object == object) {
-      const auto energy = static_cast<float>(hit.energy / 1e3);
-      const bool by_volume = recipe.by == IntensityBy::block_volume;
-      rows.push_back({0, hit.run, hit.block, energy,
-                      by_volume ? static_cast<float>(hit.volume) : energy, hit.weight});
-    }
-  sort_events(rows);
   HazardRates at(traced.classes);
-  const std::vector<Rate> rates = at.above(rows, recipe.breaks);
+  const std::vector<Rate> rates =
+      at.above(event_rows_at(traced.sums, recipe, object), recipe.breaks);
   to.rate = rates[0].value;
   to.rate_low = rates[0].low;
   to.rate_high = rates[0].high;
@@ -391,9 +420,10 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   }
   const RunFaults faults = faults_of(runs.members, runs.left_out);
   if (!o.compared.empty()) {
-    const Compared compared = compared_with(runs, sums, o);
+    const Compared compared = compared_with(runs, traced, o);
     for (int i = 0; i < static_cast<int>(list.size()); ++i)
-      list[static_cast<std::size_t>(i)]["compared"] = compared_json(compared, sums, i);
+      list[static_cast<std::size_t>(i)]["compared"] =
+          compared_json(compared, traced, site, recipe, i);
   }
   Json result = {{"run_id", tool.run_id()},
                  {"tags", Json::object()},

@@ -114,6 +114,26 @@ Rate rate_of(const HazardRuns& runs, std::span<const BlockWeight> hit) {
   return rate_of_share(runs.kind, share_of(runs, hit));
 }
 
+bool adds_up(const HazardRuns& runs) {
+  return runs.kind.kind != FrequencyKind::of_failure && (runs.kind.of_rocks || counts_runs(runs));
+}
+
+std::vector<BlockWeight> rate_amounts(const HazardRuns& runs, std::span<const EventRow> rows,
+                                      const std::function<double(float)>& value) {
+  const double rate = runs.kind.frequency.value;
+  std::vector<BlockWeight> amounts;
+  for (const EventRow& row : rows) {  // of one run one behind the other
+    const double amount = rate * value(row.intensity);
+    if (runs.kind.of_rocks)
+      amounts.push_back({row.run, row.block, amount * row.weight * runs.n / runs.basis.over.whole});
+    else if (amounts.empty() || amounts.back().run != row.run)
+      amounts.push_back({row.run, row.block, amount});
+    else
+      amounts.back().weight = std::max(amounts.back().weight, amount);
+  }
+  return amounts;
+}
+
 double largest_rate_elsewhere(std::span<const HazardRuns> classes) {
   double sum = 0;
   for (const HazardRuns& runs : classes)

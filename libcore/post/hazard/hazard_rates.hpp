@@ -11,6 +11,7 @@
 // Intervals are made over clusters (ensemble/clusters.hpp).
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,17 @@ struct HazardRuns {
 /// by all that hit and their weights.
 [[nodiscard]] Rate rate_of(const HazardRuns& runs, std::span<const BlockWeight> hit);
 [[nodiscard]] Rate share_of(const HazardRuns& runs, std::span<const BlockWeight> hit);
+
+/// What each event among these rows adds to the rate of its class, times the runs of the class, so
+/// that post/paired.hpp compares rates [1/a]: `value` of its intensity, as a factor, 1 for the rate
+/// itself. It must not fall with the intensity. `rows` of one place, sorted; `kind` and `basis`
+/// must be of equally weighted runs or of rocks, and not of a mass that fails once: see
+/// adds_up().
+[[nodiscard]] std::vector<BlockWeight> rate_amounts(
+    const HazardRuns& runs, std::span<const EventRow> rows,
+    const std::function<double(float intensity)>& value);
+/// Whether the rate of a class is a sum over its events.
+[[nodiscard]] bool adds_up(const HazardRuns& runs);
 
 /// Upper bound of the rate at places that none of the runs reached [1/a].
 [[nodiscard]] double largest_rate_elsewhere(std::span<const HazardRuns> classes);

@@ -108,4 +108,10 @@ ObjectRisk risk_of(const Recipe& recipe, const ObjectSettings& object,
   return out;
 }
 
+double death_by(const Recipe& recipe, const ObjectSettings& object, float intensity) {
+  std::size_t i = 0;
+  while (i < recipe.breaks.size() && intensity > recipe.breaks[i]) ++i;
+  return object.presence * object.vulnerability[i];
+}
+
 }  // namespace talus

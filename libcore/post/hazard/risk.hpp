@@ -36,4 +36,7 @@ struct ObjectRisk {
 [[nodiscard]] ObjectRisk risk_of(const Recipe& recipe, const ObjectSettings& object,
                                  std::span<const Rate> rates);
 
+/// Probability that an event of an intensity kills the one most at risk [-].
+[[nodiscard]] double death_by(const Recipe& recipe, const ObjectSettings& object, float intensity);
+
 }  // namespace talus

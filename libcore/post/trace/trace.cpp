@@ -218,6 +218,10 @@ void finish(TraceSums& sums) {
   for (auto& [cell, source] : sums.source) source.n_none = source.n - n_any[cell];
 }
 
+std::span<const TraceHit> hits_of(const TraceSums& sums, int object) {
+  return std::ranges::equal_range(sums.hits, object, {}, &TraceHit::object);
+}
+
 namespace {
 
 // Of the hits of one object.
@@ -268,8 +272,7 @@ int n_behind(const std::vector<double>& descending, double share) {
 ObjectTrace object_trace(const TraceSums& sums, int object, const ShareBasis& basis,
                          const std::vector<SourceLink>& links) {
   ObjectTrace out;
-  const auto of_object = std::ranges::equal_range(sums.hits, object, {}, &TraceHit::object);
-  const std::vector<TraceHit> hits(of_object.begin(), of_object.end());
+  const std::span<const TraceHit> hits = hits_of(sums, object);
   std::vector<BlockWeight> blocks;
   std::vector<WeightedValue> heights;
   double weight = 0, volume = 0;
@@ -290,7 +293,7 @@ ObjectTrace object_trace(const TraceSums& sums, int object, const ShareBasis& ba
   out.weight_share = std::min(1.0, weight / basis.over.whole);
   out.weight_share_interval = share_interval(basis, blocks, out.weight_share);
   out.volume_share = volume / sums.volume_released;
-  out.energy = percentiles_of(hits, basis);
+  out.energy = percentiles_of({hits.begin(), hits.end()}, basis);
   out.top_height_p95 = heights.empty() ? no_value : p95_or_largest(heights);
   const auto o = static_cast<std::size_t>(object);
   out.deposited_a_run = sums.deposited[o] / n;

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,6 +80,9 @@ void add_hits(TraceSums& sums, const RunFile& run, int run_index, const CellHits
 /// Puts hits in their order and counts the blocks of each source that hit nothing; once, at the
 /// end.
 void finish(TraceSums& sums);
+
+/// Hits of one object, after finish().
+[[nodiscard]] std::span<const TraceHit> hits_of(const TraceSums& sums, int object);
 
 /// A percentile of a quantity with its upper bound; NaN: too few.
 struct TracePercentiles {

@@ -32,6 +32,24 @@ import json
 a, b = (json.load(open(name))['objects'] for name in ('trace.json', 'part.json'))
 assert a == b
 PY
+# with a frequency and people there: differences of rates and of risks are those of the two sites
+exposed='presence = 0.5\nvulnerability = [0.6]\npersons_per_day = 3\n'
+sed "s/^\(kind\|radius_m\) .*/&\n$exposed/; s/^polygon = .*250062.*/&\n$exposed/" site/site.toml >people.toml
+printf '[hazard]\nrecipe = "new_zealand_christchurch"\n[hazard.class.V1]\nfrequency_per_a = 0.02\n' >>people.toml
+expect 0 talus-trace people.toml variant/run_*.h5 --compare site/run_*.h5 --trn site/slope.tif -o people.gpkg --json people.json
+expect 0 talus-trace people.toml site/run_*.h5 --trn site/slope.tif -o site_people.gpkg --json site_people.json
+python3 - <<'PY' || fail 'differences of rates or risks are not those of the two sites'
+import json, math
+variant, site = (json.load(open(name + '.json'))['objects'] for name in ('people', 'site_people'))
+for v, s in zip(variant, site):
+    rate, risk = v['compared']['frequency_per_a'], v['compared']['risk_per_a']
+    deaths = lambda o: -math.log1p(-o['risk']['individual_per_a'][0])
+    for d, of in (rate, lambda o: o['frequency_per_a'][0]), (risk, deaths):
+        assert abs(d['site'] - of(s)) < 1e-12 and abs(d['variant'] - of(v)) < 1e-12, (d, of(s), of(v))
+    assert abs(risk['difference'] - 0.5 * 0.6 * rate['difference']) < 1e-12, (risk, rate)
+assert variant[0]['compared']['risk_per_a']['interval'][1] < 0
+PY
+
 mkdir other
 run-probe other 3 blocks=3 objects=watched seed=2 seeds=100
 expect 1 talus-trace site/site.toml variant/run_*.h5 --compare other/run_*.h5 --trn site/slope.tif -o x.gpkg
