@@ -36,7 +36,7 @@ const Table<Passage>& table_of() {
            [](Passage& p) -> Slot { return &p.largest.speed; }},
           {"translational_energy_j", "J", "largest kinetic energy of translation",
            [](Passage& p) -> Slot { return &p.largest.translational_energy; }},
-          {"total_energy_j", "J", "largest kinetic energy of translation and rotation together",
+          {"total_energy_j", "J", "largest kinetic energy with spin",
            [](Passage& p) -> Slot { return &p.largest.total_energy; }},
           {"centroid_height_m", "m",
            "largest height of the centroid above the ground below it, vertical; NaN: no known "
@@ -118,8 +118,7 @@ const Table<ObjectHit>& table_of() {
           {"speed_m_s", "m/s", "speed of the centroid at the first touch", of<&ObjectHit::speed>},
           {"translational_energy_j", "J", "kinetic energy of translation at the first touch",
            of<&ObjectHit::translational_energy>},
-          {"total_energy_j", "J",
-           "kinetic energy of translation and rotation together at the first touch",
+          {"total_energy_j", "J", "kinetic energy with spin at the first touch",
            of<&ObjectHit::total_energy>},
           {"top_height_m", "m",
            "highest vertex above the ground below the centroid, at the first touch",
@@ -132,8 +131,7 @@ const Table<ObjectHit>& table_of() {
           {"largest_translational_energy_j", "J",
            "largest kinetic energy of translation while over the object",
            of<&ObjectHit::largest_translational_energy>},
-          {"largest_total_energy_j", "J",
-           "largest kinetic energy of translation and rotation together while over the object",
+          {"largest_total_energy_j", "J", "largest kinetic energy with spin while over the object",
            of<&ObjectHit::largest_total_energy>},
           {"largest_top_height_m", "m",
            "largest height of the highest vertex while over the object",
@@ -311,34 +309,33 @@ const Table<HealthRow>& table_of() {
           {"water_work_j", "J", "put in by the pressure of water in joints since the start",
            of<&HealthRow::water>, Kept::where_any},
           {"cut_yielding_touched", "1",
-           "substeps of islands made again in the interval because a fence or stem is first "
+           "substeps made again because a fence or stem is first "
            "touched within it",
            cut<SubstepCut::yielding_touched>},
-          {"cut_unconverged", "1",
-           "substeps of islands made again in the interval because its forces did not converge",
+          {"cut_unconverged", "1", "substeps made again because its forces did not converge",
            cut<SubstepCut::unconverged>},
           {"cut_deep", "1",
-           "substeps of islands made again in the interval because a block would end deep in "
+           "substeps made again because a block would end deep in "
            "something",
            cut<SubstepCut::deep>},
           {"cut_hit", "1",
-           "substeps of islands made again in the interval because a contact of a small island "
+           "substeps made again because a contact of a small island "
            "closes within it",
            cut<SubstepCut::hit>},
           {"cut_bond_broken", "1",
-           "substeps of islands made again in the interval because a bond carries more than it "
+           "substeps made again because a bond carries more than it "
            "holds",
            cut<SubstepCut::bond_broken>},
           {"cut_woken", "1",
-           "substeps of islands made again in the interval because a block asleep carries what it "
+           "substeps made again because a block asleep carries what it "
            "did not fall asleep under",
            cut<SubstepCut::woken>},
           {"cut_yielding_used_up", "1",
-           "substeps of islands made again in the interval because a fence or stem has taken all "
+           "substeps made again because a fence or stem has taken all "
            "that it can",
            cut<SubstepCut::yielding_used_up>},
           {"cut_inaccurate", "1",
-           "substeps of islands made again in the interval because its estimated error is above "
+           "substeps made again because its estimated error is above "
            "[solver] accuracy",
            cut<SubstepCut::inaccurate>},
           {"largest_error", "1",
