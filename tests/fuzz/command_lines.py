@@ -244,8 +244,8 @@ class Bench:
         for line in (Path(self.args.source) / "docs/reference/site-file.md").read_text().splitlines():
             if head := re.match(r"### \[(.*)\]", line):
                 section = head[1].replace("NAME", self.random.choice(["a", "J1", "rock"]))
-            elif row := re.match(r"\| `(\w+)` \|", line):
-                keys.append(f"{section}.{row[1]}")
+            elif line.startswith("| `"):
+                keys += [f"{section}.{key}" for key in re.findall(r"`(\w+)`", line.split(" | ")[0])]
         self.keys = keys + ["", "a", ".", "a.", "a.b.c", "solver." * 100]
         tools = {}
         for name in self.args.tool.split(",") if self.args.tool else TOOLS:

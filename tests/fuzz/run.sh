@@ -19,7 +19,9 @@ cmake --preset fuzz >/dev/null
 # shellcheck disable=SC2046,SC2086
 cmake --build --preset fuzz --target $(printf 'fuzz_%s ' $parsers)
 # words of the site file, which chance would not find
-sed -n -e 's/^| `\([a-z_0-9]*\)`.*/"\1 = "/p' -e 's/^### \(\[[a-z_]*\).*/"\1"/p' docs/reference/site-file.md >build/fuzz/site.dict
+page=docs/reference/site-file.md
+{ sed -n 's/^### \(\[[a-z_]*\).*/"\1"/p' $page
+  sed -n 's/^| \(`[^|]*`\) |.*/\1/p' $page | tr -d '`,' | xargs -n 1 printf '"%s = "\n'; } >build/fuzz/site.dict
 failed=0
 for parser in $parsers; do
   mkdir -p "build/fuzz/corpus/$parser"

@@ -5,7 +5,7 @@
 reference=$source_dir/docs/reference/site-file.md stages=$source_dir/libcore/site/stages.cpp
 for section in $(sed -n 's/^### \[\([a-z_]*\).*/\1/p' "$reference" | sort -u); do
   if grep -q "[{ ]\"$section\"" "$stages" || [ "$section" = site ]; then continue; fi
-  for key in $(sed -n "/^### \[$section\]/,/^### /s/^| \`\([a-z_0-9]*\)\`.*/\1/p" "$reference"); do
+  for key in $(sed -n "/^### \[$section\]/,/^### /s/^| \(\`[^|]*\`\) |.*/\1/p" "$reference" | tr -d '`,'); do
     grep -q "\"$section.$key\"" "$stages" || fail "no stage of talus-site reads $section.$key"
   done
 done

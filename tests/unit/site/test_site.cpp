@@ -5,8 +5,12 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <set>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/random.hpp"
 #include "site/site.hpp"
@@ -228,20 +232,81 @@ TEST(Site, AKeyThatIsGoneSaysWhatToWriteInstead) {
   EXPECT_EQ(refusal("[fence.a]\nbreaklines_layer = 'a'\n").find("gone"), std::string::npos);
 }
 
+// --- the page of keys ----------------------------------------------------------------------------
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+// "0.3 (0..1)", "fill (keep)": the default, and what is allowed in brackets.
+std::string default_and_allowed(const talus::KeyDescription& row) {
+  static const std::map<std::string, std::string> types = {{"whole number", "integer"},
+                                                           {"list of numbers", "numbers"},
+                                                           {"list of points", "points"},
+                                                           {"list of texts", "texts"}};
+  std::string given = row.default_value, allowed;
+  if (row.type == "text") {
+    if (!given.empty()) given = given.substr(1, given.size() - 2);  // without quotes
+    std::istringstream choices(row.range);
+    for (std::string choice; std::getline(choices, choice, '|');)
+      if (choice != given) allowed += (allowed.empty() ? "" : ", ") + choice;
+  } else {
+    allowed = row.range;
+    replace_all(allowed, " to below ", "..<");
+    replace_all(allowed, " to ", "..");
+    replace_all(allowed, "above ", ">");
+    replace_all(allowed, "at least ", ">=");
+    if (types.contains(row.type))
+      allowed = types.at(row.type) + (allowed.empty() ? "" : " ") + allowed;
+    else if (row.type == "number" && given.empty() && allowed.empty())
+      allowed = row.type;
+  }
+  const char* between = given.empty() || allowed.empty() ? "" : " ";
+  return given + between + (allowed.empty() ? "" : "(" + allowed + ")");
+}
+
+using KeyLine = std::pair<std::string, std::string>;  // key in quotes, the rest of its line
+
+std::string lines_of(const std::vector<KeyLine>& keys) {
+  std::string out;
+  for (size_t i = 0; i < keys.size(); ++i) {
+    const bool goes_on = i > 0 && keys[i].second == keys[i - 1].second;
+    out += (goes_on ? ", " : "| ") + keys[i].first;
+    if (i + 1 == keys.size() || keys[i + 1].second != keys[i].second) out += keys[i].second;
+  }
+  return out;
+}
+
+// A section; keys that another one has, too, are named on one line.
+std::string table_of(const std::string& section, const std::vector<KeyLine>& keys,
+                     std::map<KeyLine, std::string>& first) {
+  std::map<std::string, std::vector<KeyLine>> shared;  // by the section that has them
+  for (const KeyLine& key : keys)
+    if (first.contains(key))
+      shared[first.at(key)].emplace_back(key.first, " |  | as in [" + first.at(key) + "] |\n");
+  std::string out = "\n### [" + section + "]\n| Key | Value | Meaning |\n|---|---|---|\n";
+  for (const auto& [other, lines] : shared)
+    if (lines.size() > 1) out += lines_of(lines);
+  std::vector<KeyLine> own;
+  for (const KeyLine& key : keys)
+    if (!first.contains(key) || shared.at(first.at(key)).size() == 1) own.push_back(key);
+  for (const KeyLine& key : keys) first.emplace(key, section);
+  return out + lines_of(own);
+}
+
 // docs/reference/site-file.md holds the table of keys; TALUS_PRINT_KEYS=1 prints its text.
 TEST(Site, ThePageOfKeysIsTheTable) {
-  std::string rows, section;
-  for (const auto& row : talus::site_keys()) {
-    if (row.section != section)
-      rows += "\n### [" + row.section +
-              "]\n| Key | Holds | Default | Allowed | Meaning |\n|---|---|---|---|---|\n";
-    section = row.section;
-    std::string allowed = row.range;
-    for (size_t at = 0; (at = allowed.find('|', at)) != std::string::npos; at += 2)
-      allowed.replace(at, 1, ", ");
-    rows += "| `" + row.key + "` | " + row.type + " | " + row.default_value + " | " + allowed +
-            " | " + row.help + " |\n";
+  std::vector<std::pair<std::string, std::vector<KeyLine>>> sections;
+  for (const talus::KeyDescription& row : talus::site_keys()) {
+    if (sections.empty() || sections.back().first != row.section)
+      sections.emplace_back(row.section, std::vector<KeyLine>());
+    sections.back().second.emplace_back(
+        "`" + row.key + "`", " | " + default_and_allowed(row) + " | " + row.help + " |\n");
   }
+  std::string rows;
+  std::map<KeyLine, std::string> first;
+  for (const auto& [section, keys] : sections) rows += table_of(section, keys, first);
   if (std::getenv("TALUS_PRINT_KEYS")) std::cout << rows;
   std::ifstream file(std::string(TALUS_SOURCE_DIR) + "/docs/reference/site-file.md");
   std::ostringstream page;
