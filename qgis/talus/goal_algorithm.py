@@ -2,7 +2,7 @@
 import os
 import shlex
 
-from qgis.core import (QgsProcessingAlgorithm, QgsProcessingOutputFile, QgsProcessingOutputNumber,
+from qgis.core import (QgsProcessingAlgorithm, QgsProcessingOutputHtml, QgsProcessingOutputNumber,
                        QgsProcessingException, QgsProcessingParameterFile, QgsProcessingParameterNumber,
                        QgsProcessingParameterString)
 
@@ -47,7 +47,7 @@ class GoalAlgorithm(QgsProcessingAlgorithm):
         self.addParameter(QgsProcessingParameterString("VARIABLES", "Variables of make, NAME=VALUE, a line each",
                                                        multiLine=True, optional=True))
         self.addOutput(QgsProcessingOutputNumber("EXIT_CODE", "Exit code of make"))
-        self.addOutput(QgsProcessingOutputFile("REPORT", "Report"))
+        self.addOutput(QgsProcessingOutputHtml("REPORT", "Report"))
 
     def variables(self, parameters, context):
         try:

@@ -1,4 +1,4 @@
-"""The provider: an algorithm a tool, an algorithm a goal of make, and one for a new site."""
+"""The provider: an algorithm a tool, an algorithm a goal of make, one for a new site, one for a measure."""
 import os
 import shlex
 
@@ -7,6 +7,7 @@ from qgis.PyQt.QtGui import QIcon
 
 from . import tools
 from .goal_algorithm import GoalAlgorithm
+from .measure_algorithm import MeasureAlgorithm
 from .new_site_algorithm import NewSiteAlgorithm
 from .tool_algorithm import ToolAlgorithm
 
@@ -77,6 +78,9 @@ class TalusProvider(QgsProcessingProvider):
         for tool in tools.descriptions(folder, cache):
             for command in tool.get("commands", [None]):
                 self.addAlgorithm(ToolAlgorithm(tool, command))
-        for goal in tools.goals(folder):
+        goals = tools.goals(folder)
+        for goal in goals:
             self.addAlgorithm(GoalAlgorithm(goal))
+        if goals:
+            self.addAlgorithm(MeasureAlgorithm())
         self.addAlgorithm(NewSiteAlgorithm())

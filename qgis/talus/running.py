@@ -12,12 +12,18 @@ class Course:
 
     def __init__(self, feedback):
         self.feedback, self.lines, self.faults, self.hints = feedback, [], [], []
+        self.is_fault = False
 
     def take(self, line):
         self.lines.append(line)
         found = tools.said(line)
         if found is None:
             return
+        if self.is_fault and line.startswith("  "):  # the message goes on, or its hint
+            self.faults[-1] += "\n" + found.text
+            self.feedback.reportError(found.text)
+            return
+        self.is_fault = found.kind == "error"
         if found.kind == "progress":
             self.feedback.setProgress(found.text)
         elif found.kind == "warning":
@@ -67,7 +73,7 @@ def refusal(name, code, course):
 def sources_in(path):
     """A source and a name for each layer of a file; tables without geometry are left out."""
     if path.lower().endswith(".tif"):
-        return [(path, os.path.splitext(os.path.basename(path))[0])]
+        return [(path, tools.layer_name(path))]
     found = []
     for layer in QgsProviderRegistry.instance().querySublayers(path):
         if layer.wkbType() != 100 and layer.name() != "layer_styles":  # 100: no geometry

@@ -216,6 +216,11 @@ def is_given(option, value):
     return str(value) != default
 
 
+def number_word(number):
+    """8.0 as 8: else it would be another setting, and another run id."""
+    return repr(number).removesuffix(".0")
+
+
 def words_of(option, value):
     """Words of the command line for one option."""
     if option["role"] == "flag":
@@ -223,8 +228,7 @@ def words_of(option, value):
     if not is_given(option, value):
         return []
     values = value if isinstance(value, (list, tuple)) else [value]
-    # QGIS makes 8 to 8.0, which would be another setting, and another run id
-    words = [repr(v).removesuffix(".0") if isinstance(v, float) else str(v) for v in values]
+    words = [number_word(v) if isinstance(v, float) else str(v) for v in values]
     if option["positional"]:
         return words
     # One word, so that a value may begin with a dash; each further value names the option again.
@@ -328,12 +332,37 @@ SHOWN_OF_GOAL = {
     "stability": ["stability/blocks.gpkg"],
     "profile": ["profile/profile.gpkg"],
     "fence-search": ["fence_search.gpkg"],
-    "all": ["trn.tif", "maps/*.tif", "blocks.gpkg", "runout.gpkg", "fence.gpkg"],
+    "variants": ["variant/*/maps/compare.tif"],
+    "report": ["variant/*/maps/compare.tif"],
+    "all": ["trn.tif", "variant/*/maps/compare.tif", "maps/*.tif", "blocks.gpkg", "runout.gpkg", "fence.gpkg"],
 }
+
+
+def measures_of(results):
+    """Measures of the site when make last read it; others have left results, too."""
+    try:
+        with open(os.path.join(results, "stages", "site.mk"), encoding="utf-8") as file:
+            found = re.search(r"^SITE_MEASURES :=(.*)$", file.read(), re.MULTILINE)
+    except (OSError, ValueError):
+        return []
+    return found[1].split() if found else []
+
+
+def measure_of(path):
+    """Name of the measure whose map a file is; "" where it is another file."""
+    found = re.search(r"[/\\]variant[/\\]([^/\\]+)[/\\]maps[/\\]compare\.tif$", path)
+    return found[1] if found else ""
 
 
 def files_to_show(results, goal):
     """Files of a folder of results that a goal made."""
     import glob
+    measures = ["", *measures_of(results)]
     return [file for pattern in SHOWN_OF_GOAL.get(goal, [])
-            for file in sorted(glob.glob(os.path.join(glob.escape(results), pattern)))]
+            for file in sorted(glob.glob(os.path.join(glob.escape(results), pattern))) if measure_of(file) in measures]
+
+
+def layer_name(raster):
+    """Name of its layer; maps of measures all have one name, in folders of their own."""
+    measure = measure_of(raster)
+    return "site minus " + measure if measure else os.path.splitext(os.path.basename(raster))[0]

@@ -40,6 +40,15 @@ expect 0 "$qgis" run talus:make_all -- SITE="$PWD/by qgis" JOBS=2
 grep -q 'REPORT:.*report.html' out || fail "the report is not named"
 same "by make" "by qgis"
 
+# a measure: written where make check accepts it, else the site file is as before
+cp "by qgis/site.toml" before.toml
+expect 1 "$qgis" run talus:measure -- SITE="$PWD/by qgis" NAME=low OTHER="fence.vally.height_m = 3"
+cat out err | grep -q 'did you mean valley?' || fail "the words of the refusal are lost"
+cmp before.toml "by qgis/site.toml" || fail "a measure that was refused is in the site file"
+expect 0 "$qgis" run talus:measure -- SITE="$PWD/by qgis" NAME=low FENCE=valley FENCE_HEIGHT_M=3
+printf '\n[variant.low]\nfence.valley.height_m = 3\n' >>before.toml
+cmp before.toml "by qgis/site.toml" || fail "another section than that of the measure"
+
 # one tool: its own words, and the same bytes as on a command line
 expect 0 talus-trn "by make/out/tin.ply" -o here.tif --cell-size-m 8 --no-db
 expect 0 "$qgis" run talus:trn -- SOURCE="$PWD/by make/out/tin.ply" CELL_SIZE_M=8 OUT="$PWD/there.tif"

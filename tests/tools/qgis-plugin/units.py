@@ -5,6 +5,8 @@ usage: units.py PLUGIN_FOLDER (the folder `talus`); the tools are on the search 
 import importlib
 import os
 import re
+import shutil
+import subprocess
 import sys
 import tempfile
 import types
@@ -18,7 +20,7 @@ sys.dont_write_bytecode = True
 class Stub:
     """Replaces any class of QGIS: takes everything, keeps its arguments."""
 
-    TypeFile, Double, Integer, Folder, FlagAdvanced, FlagCanCancel = range(6)
+    TypeFile, TypeVectorLine, Double, Integer, Folder, FlagAdvanced, FlagCanCancel = range(7)
 
     def __init__(self, *args, **kwargs):
         self.args, self.kwargs = args, kwargs
@@ -42,6 +44,7 @@ class StubModule(types.ModuleType):
 
 
 tools = importlib.import_module("talus.tools")
+site_file = importlib.import_module("talus.site_file")
 
 
 def with_stubs(test):
@@ -51,8 +54,11 @@ def with_stubs(test):
         try:
             test(self)
         finally:
-            for name in names + [n for n in sys.modules if n.startswith("talus.") and n != "talus.tools"]:
+            own = [n for n in sys.modules if n.startswith("talus.") and n not in ("talus.tools", "talus.site_file")]
+            for name in names + own:
                 del sys.modules[name]
+            for name in own:
+                delattr(sys.modules["talus"], name.removeprefix("talus."))
     return run
 
 
@@ -245,6 +251,181 @@ class Messages(unittest.TestCase):
     def test_failed_runs_are_told_from_other_errors(self):
         self.assertTrue(tools.has_failed_runs(["a", "talus-batch: 2 of 12 runs failed:"]))
         self.assertFalse(tools.has_failed_runs(["make: *** [x] Error 1"]))
+
+
+class SiteFile(unittest.TestCase):
+    site = """# the slope
+[site]
+name = "a [b] # c"
+[fence.net]
+line = [[1, 2],  # left
+  [3, 4]]
+[variant.'net 6'.fence.net]  # of May
+height_m = 5
+# it is wide
+capacity_kj = 500 # kJ
+
+# the cut
+[variant.cut]
+without = ["forest.wood"]
+[ variant . "net 6" ]
+cost = 1
+"""
+
+    def test_a_text_is_its_statements(self):
+        parts = site_file.statements(self.site)
+        self.assertEqual("".join(parts), self.site)
+        self.assertIn("line = [[1, 2],  # left\n  [3, 4]]\n", parts)
+        self.assertEqual([h for h in map(site_file.heading_of, parts) if h is not None],
+                         [["site"], ["fence", "net"], ["variant", "net 6", "fence", "net"], ["variant", "cut"],
+                          ["variant", "net 6"]])
+        for text in ("", "a = 1", 'a = """\n[b]\n"""\n[c]\n', "a = \'\'\'\n[b]\n\'\'\'\n[c]\n", "a = '['\n[c]",
+                     "# don't [\n[c]"):
+            self.assertEqual("".join(site_file.statements(text)), text)
+            headings = [h for h in map(site_file.heading_of, site_file.statements(text)) if h is not None]
+            self.assertEqual(headings, [["c"]] if "[c]" in text else [], text)
+
+    def test_only_the_lines_of_the_measure_change(self):
+        section = ["[variant.'net 6']", "cost = 2"]
+        before = self.site.split("[variant.'net 6'")[0]
+        after = "\n# the cut\n[variant.cut]\nwithout = [\"forest.wood\"]\n"
+        changed = site_file.with_measure(self.site, "net 6", section)
+        self.assertEqual(changed, before + "[variant.'net 6']\n# it is wide\ncost = 2\n" + after)
+        self.assertEqual(site_file.with_measure(changed, "net 6", section), changed)
+        self.assertEqual(site_file.with_measure(self.site, "new", section),
+                         self.site + "\n" + "\n".join(section) + "\n")
+        self.assertEqual(site_file.with_measure("a = 1", "new", ["b"]), "a = 1\n\nb\n")
+        self.assertEqual(site_file.with_measure("a = 1\r\n", "new", ["b"]), "a = 1\r\n\r\nb\r\n")
+
+    def test_a_section_is_toml(self):
+        values = [(["cost"], 90000.0), (["without"], ['forest."wood"', "rockfall.a"]),
+                  (["fence", "a b", "file"], "é\\\n"),
+                  (["fence", "net", "height_m"], 4.5), (["dam", "net", "height_m"], None)]
+        self.assertEqual(site_file.measure_section("net", values, ["x.y = [", "[1, 2]]"]),
+                         ["[variant.net]", "cost = 90000", 'without = ["forest.\\"wood\\"", "rockfall.a"]',
+                          'fence."a b".file = "é\\\\\\n"', "fence.net.height_m = 4.5", "x.y = [", "[1, 2]]"])
+        with self.assertRaisesRegex(ValueError, "begins another section"):
+            site_file.measure_section("net", [], ["a = 1", "[solver]"])
+
+    def test_files_are_named_from_the_folder_of_the_site(self):
+        for file, words in (("/s/a b.gpkg|layername=x", "a b.gpkg|layername=x"), ("/s/d/a.shp", "d/a.shp"),
+                            ("/s2/a.shp", "/s2/a.shp")):
+            self.assertEqual(site_file.file_words("/s", file), words)
+
+    def test_maps_of_the_measures_of_now_are_shown(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("new", "earlier"):
+                os.makedirs(os.path.join(folder, "variant", name, "maps"))
+                open(os.path.join(folder, "variant", name, "maps", "compare.tif"), "w").close()
+            self.assertEqual(tools.files_to_show(folder, "report"), [])
+            os.makedirs(os.path.join(folder, "stages"))
+            with open(os.path.join(folder, "stages", "site.mk"), "w") as file:
+                file.write("SITE_OBJECTS := yes\nSITE_MEASURES := new other\n")
+            shown = [os.path.join(folder, "variant", "new", "maps", "compare.tif")]
+            for goal, files in (("report", shown), ("variants", shown), ("maps", [])):
+                self.assertEqual(tools.files_to_show(folder, goal), files)
+            self.assertEqual(tools.layer_name(shown[0]), "site minus new")
+            self.assertEqual(tools.layer_name("/out/maps/compare.tif"), "compare")
+
+
+class Process:
+    """QgsBlockingProcess without QGIS."""
+
+    def __init__(self, program, arguments):
+        self.words = [program] + arguments
+
+    def setStdOutHandler(self, take):
+        self.take_out = take
+
+    def setStdErrHandler(self, take):
+        self.take_err = take
+
+    def run(self, feedback):
+        done = subprocess.run(self.words, capture_output=True, check=False)
+        self.take_out(done.stdout)
+        self.take_err(done.stderr)
+        return done.returncode
+
+    def processError(self):
+        return 5
+
+
+class Measures(unittest.TestCase):
+    """Measures of a sample site, by the tools themselves."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.site, source = folder.name, os.path.dirname(os.path.dirname(plugin_folder))
+        shutil.copy(os.path.join(source, "sample_sites", "designed", "contours.gpkg"), self.site)
+        with open(os.path.join(source, "sample_sites", "designed", "site.toml")) as file:
+            self.text = re.sub("(?m)^duration_s = .*", "duration_s = 0.5", file.read())
+        self.write("site.toml", self.text)
+        self.write("Makefile", "include %s/pipelines/site.mk\n" % source)
+        self.write("line.geojson", '{"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": '
+                   '"EPSG:32633"}}, "features": [{"type": "Feature", "properties": {}, "geometry": {"type": '
+                   '"LineString", "coordinates": [[500060, 5200190], [500164, 5200190]]}}]}')
+
+    def path(self, name):
+        return os.path.join(self.site, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+
+    def text_now(self):
+        with open(self.path("site.toml")) as file:
+            return file.read()
+
+    def run_algorithm(self, algorithm, is_canceled=False, temporary="/no/such/folder", **values):
+        """Results, as QGIS would have them."""
+        running = importlib.import_module("talus.running")
+        running.QgsBlockingProcess = Process
+        self.refusal, self.shown = running.QgsProcessingException, []
+        running.show = lambda file, context: self.shown.append(os.path.relpath(file, self.site))
+        feedback = Stub()
+        feedback.isCanceled = lambda: is_canceled
+        algorithm.parameterAsString = algorithm.parameterAsFile = lambda of, name, context: of.get(name) or ""
+        algorithm.parameterAsDouble = lambda of, name, context: float(of[name])
+        algorithm.parameterAsInt = lambda of, name, context: int(of[name])
+        sys.modules["talus.measure_algorithm"].QgsProcessingUtils.tempFolder = lambda: temporary
+        return algorithm.processAlgorithm({"SITE": self.site, **values}, Stub(), feedback)
+
+    @with_stubs
+    def test_what_passes_is_written_and_what_does_not_leaves_no_trace(self):
+        algorithm = importlib.import_module("talus.measure_algorithm").MeasureAlgorithm()
+        algorithm.initAlgorithm()
+        with self.assertRaises(Exception) as refused:
+            self.run_algorithm(algorithm, NAME="low", OTHER="fence.vally.height_m = 3")
+        self.assertIn("did you mean valley?", str(refused.exception))
+        with self.assertRaises(Exception) as refused:
+            self.run_algorithm(algorithm, NAME="low",
+                               OTHER="fence.valley.line = [[500060, 5200150], [500964, 5200150]]")
+        self.assertIn("leaves the known terrain", str(refused.exception))
+        self.assertIsInstance(refused.exception, self.refusal)
+        with self.assertRaisesRegex(Exception, "make it permanent"):
+            self.run_algorithm(algorithm, temporary=self.site, NAME="low", FENCE_LINE=self.path("line.geojson"))
+        self.assertEqual(self.run_algorithm(algorithm, is_canceled=True, NAME="low", COST=1), {})
+        self.assertEqual(self.text_now(), self.text)
+
+        line = self.path("line.geojson")
+        found = self.run_algorithm(algorithm, NAME="low", COST=90000, FENCE_LINE=line, FENCE_HEIGHT_M=3,
+                                   FENCE_CAPACITY_KJ=500, WITHOUT="fence.valley\n", DAM_LINE=line)
+        section = ('\n[variant.low]\ncost = 90000\nwithout = ["fence.valley"]\nfence.low.file = "line.geojson"\n'
+                   'fence.low.height_m = 3\nfence.low.capacity_kj = 500\ndam.low.file = "line.geojson"\n')
+        self.assertEqual(self.text_now(), self.text + section)
+        with open(found["CHECK"]) as file:
+            self.assertIn("fence low", file.read())
+        self.assertFalse([name for name in os.listdir(self.site) if name.startswith("site.toml.")])
+
+        self.run_algorithm(algorithm, NAME="low", FENCE="valley", FENCE_HEIGHT_M=3.5)
+        self.assertEqual(self.text_now(), self.text + "\n[variant.low]\nfence.valley.height_m = 3.5\n")
+
+        report = importlib.import_module("talus.goal_algorithm").GoalAlgorithm(tools.Goal("report", "all of it"))
+        found = self.run_algorithm(report, JOBS=1, VARIABLES="RUNS=1")
+        self.assertEqual(self.shown, [os.path.join("out", "variant", "low", "maps", "compare.tif")])
+        with open(found["REPORT"]) as file:
+            self.assertIn("variant/low/report.html", file.read())
 
 
 class Loading(unittest.TestCase):
