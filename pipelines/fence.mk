@@ -4,12 +4,12 @@
 #     .png, .pdf; nothing for a site without fences; of variants with a weight also fences/NAME/*
 $(eval $(call remember,fence,$(FENCE_FLAGS)))
 ifneq ($(SITE_FENCES),)
-without := $(filter without,$(kinds))
 fence_files := $(addprefix $(OUT)/,$(fence_products) $(if $(without),$(change_products)))
 $(eval $(call together,$(fence_files)))
-fence_tool = $(BIN)talus-fence $(site) $(OUT)/runs$1 $(if $(without),--without $(OUT)/without$1) \
+fence_tool = $(BIN)talus-fence $(site) $(OUT)/runs$1 $(if $(without),--without $(without)$1) \
   --trn $(ground_of_runs) $(inputs_given) $(FENCE_FLAGS) --overwrite $(DB)
-$(OUT)/fence.gpkg: $(ensembles) $(STAGES)/fence.txt $(STAGES)/fence.flags $(STAGES)/fence.files
+$(OUT)/fence.gpkg: $(ensembles) $(without:%=%/ensemble.json) $(STAGES)/fence.txt \
+  $(STAGES)/fence.flags $(STAGES)/fence.files
 	$(call say,fence: runs -> fences)
 	$(Q)$(fence_tool) $(if $(without),--change $(OUT)/change.tif) -o $@ \
 	  --json $(OUT)/fence.json --csv $(OUT)/fence.csv

@@ -113,6 +113,16 @@ $(error site.toml or a file that it names cannot be used, see above)
 endif
 include $(stages_now)/site.mk
 $(stages_now)/site.mk: ;
+# Of a measure whose fences differ in height and strength alone, runs without fences are BASE's.
+# A make by hand takes only those that are there.
+strength := height_m|capacity_kj|max_deflection_m|cor|friction_deg|active
+but_strength = "$$(sed -E '/^fence\..*\.($(strength)) = /d' $(foreach stage,import tin trn blocks \
+  rock run,$1/$(stage).txt) 2>/dev/null)"
+shared_without := $(if $(BASE),$(shell [ $(call but_strength,$(stages_now)) = $(call \
+  but_strength,$(BASE)/stages) ] && if grep -qx 'SITE_FENCES_STAND := yes' $(BASE)/stages/site.mk; \
+  then echo $(BASE)/without; else echo $(BASE)/runs; fi))
+shared_without := $(if $(filter-out 0,$(MAKELEVEL))$(wildcard \
+  $(shared_without)/ensemble.json),$(shared_without))
 $(STAGES)/%.txt $(STAGES)/%.files: ;
 ifneq ($(is_dry_run),)
 .PHONY: $(shell for file in $(stages_now)/*.txt $(stages_now)/*.files; do \

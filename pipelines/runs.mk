@@ -3,13 +3,14 @@
 # in: site.toml, DDA_FLAGS
 #   RUNS, SEED  how many seeds, from which one ([solver] n_runs and seed); RUNS=auto, RUNS_MOST
 #   WITHOUT     yes: also the runs without fences; when not given: where the site has an active
-#        fence
+#        fence. A measure may share those of the site (inputs.mk)
 #   SHARD, SHARDS  which of the runs, of several makes that share them (slurm.mk)
 # out: $(OUT)/runs/run_SEED.h5, of variants with a weight runs/NAME/run_SEED.h5, runs/ensemble.json;
 #     without/ alike
 # ensemble.json changes when a run does. Results depend on it, not on the times of runs.
 WITHOUT ?= $(SITE_FENCES_STAND)
-kinds := runs $(if $(filter yes,$(WITHOUT)),without)
+without := $(if $(filter yes,$(WITHOUT)),$(or $(shared_without),$(OUT)/without))
+kinds := runs $(if $(filter $(OUT)/without,$(without)),without)
 ensembles := $(kinds:%=$(OUT)/%/ensemble.json)
 
 option_of = $(if $($1),$2 $(call quoted,$($1)))

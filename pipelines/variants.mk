@@ -2,8 +2,9 @@
 # in: [variant.NAME] without a weight
 #     VARIANT, BASE  given to the make of a measure: its name, and the results of the site as it is
 # out: $(OUT)/variant/NAME/*: files as OUT has of the site; maps/compare.tif and differences at
-# objects Each is a make of its own, one after the other: it takes over the parts that it shares
-# with the site. All are checked before the first run.
+#     objects
+# Each is a make of its own, one after the other: it takes over the parts that it shares with the
+# site. All are checked before the first run.
 measures := $(if $(VARIANT)$(SHARD),,$(SITE_MEASURES))
 measure_reports := $(measures:%=$(OUT)/variant/%/report.html)
 checked := $(if $(filter all report variants,$(wanted)),$(measures:%=checked-%))

@@ -15,6 +15,9 @@ cost = 123456
 fence.valley.line = [[500060, 5200240], [500164, 5200240]]
 [variant.seldom]
 hazard.class.all.frequency_per_a = 0.001
+[variant.strong]
+fence.valley.height_m = 9
+fence.valley.capacity_kj = 5000
 [variant.bare]
 without = ["fence.valley"]
 terrain.flat = "keep"
@@ -61,6 +64,15 @@ page = open('slope/out/report.html').read()
 for words in 'Measures compared', '123,000', 'variant/near/report.html', 'the site as it is':
     assert words in page, words
 PY
+# runs without fences: those of the site where fences differ in height and strength alone
+[ -e slope/out/variant/near/without/run_2.h5 ] || fail "no runs without a fence that stands elsewhere"
+[ ! -e slope/out/variant/strong/without ] || fail "the runs without fences were made again for a stronger one"
+made slope -j2 RUNS=2 VARIANT=strong OUT=own fence
+[ -e slope/own/without/run_2.h5 ] || fail "no runs without fences of a measure by itself"
+grep -v -i "run_id\|run_set" slope/own/fence.json >own.json
+grep -v -i "run_id\|run_set" slope/out/variant/strong/fence.json >shared.json
+cmp own.json shared.json || fail "the runs of the site without fences give other results"
+rm -r slope/own
 gdalinfo slope/out/variant/near/maps/compare.tif | grep -q reach_probability_difference || fail "no map of differences"
 
 # again: nothing; another key of one measure: that one alone
