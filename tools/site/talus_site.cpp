@@ -151,7 +151,8 @@ const std::string& plain_name(const std::string& name, const Where& where) {
 // # a remark of the shell.
 std::string make_word(const std::string& path, const Site& site) {
   std::string out = !path.empty() && (path[0] == '-' || path[0] == '#') ? "./" : "";
-  for (const char c : plain_name(path, {site.file}))
+  const std::string name = plain_name(path, {site.file});
+  for (const char c : name)
     out += c == ' ' || c == '#' || c == ':' ? std::string("\\") + c : std::string(1, c);
   return out;
 }
