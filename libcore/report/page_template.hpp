@@ -1,7 +1,7 @@
 // libcore/report/page_template.hpp: public
 // A page from a template with holes: HTML is in the template, words in texts, values in data.
 // in:    a template, a part a section of the page; data as JSON; texts
-// out:   HTML. The marks: docs/tools/talus-report.md#the-page
+// out:   HTML. The marks:
 //
 //   {{path}} {{path|format}}   a value: escaped text, a number with three digits, a dash for none
 //   {{=key name=path|format}}  a text of the page with values; the rest is taken from the data
