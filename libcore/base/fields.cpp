@@ -1,4 +1,4 @@
-// Lists of the fields of a result, from which layers, tables and titles are made.
+// Text of result fields: titles with their units, and rows of CSV tables.
 #include "base/fields.hpp"
 
 #include <cmath>

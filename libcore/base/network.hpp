@@ -1,11 +1,11 @@
 // libcore/base/network.hpp: public
-// Whether this process may contact other machines, and read files that inputs do not name openly.
-// It may not, unless the user allows it (--allow-network).
+// Switch of this process for access to other machines, and to files that an input names within
+// itself, such as the sources of a VRT. Off unless the user allows it (--allow-network).
 #pragma once
 
 namespace talus {
 
-/// Once, before any file is read.
+/// Call it before any file is read.
 void allow_network();
 [[nodiscard]] bool network_is_allowed();
 

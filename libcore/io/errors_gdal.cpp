@@ -1,4 +1,5 @@
-// Collects GDAL's messages instead of printing them.
+// Starts GDAL with fixed settings, collects its messages instead of printing them, and turns failed
+// writes into InputError.
 #include "io/errors_gdal.hpp"
 
 #include <cpl_conv.h>

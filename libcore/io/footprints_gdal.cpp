@@ -1,4 +1,4 @@
-// Writes plan views of blocks as layers of a GeoPackage.
+// Makes the layers of block footprints: convex outlines in plan, with volumes and dimensions.
 #include "io/footprints_gdal.hpp"
 
 #include <algorithm>

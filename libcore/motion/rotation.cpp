@@ -82,9 +82,9 @@ struct SpinSeries {
   }
 };
 
-Vec3 euler_factors(const Vec3& inertia, const Vec3& per_inertia) {
+Vec3 euler_factors(const Vec3& inertia, const Vec3& inverse_inertia) {
   return Vec3(inertia.y() - inertia.z(), inertia.z() - inertia.x(), inertia.x() - inertia.y())
-      .cwiseProduct(per_inertia);
+      .cwiseProduct(inverse_inertia);
 }
 
 bool is_axis_of_symmetry(const Vec3& inertia, int k) {
@@ -121,10 +121,11 @@ Quat symmetric_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia
 }
 
 Quat series_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, double h) {
-  const Vec3 per_inertia = inertia.cwiseInverse(), kappa = euler_factors(inertia, per_inertia);
+  const Vec3 inverse_inertia = inertia.cwiseInverse(),
+             kappa = euler_factors(inertia, inverse_inertia);
   Quat q = attitude;
   for (double left = h; left > 0;) {
-    const Vec3 spin = (q.conjugate() * L).cwiseProduct(per_inertia);  // L is kept exactly
+    const Vec3 spin = (q.conjugate() * L).cwiseProduct(inverse_inertia);  // L is kept exactly
     const double n = std::ceil(spin.norm() * left / largest_turn);
     const double part = n > 1 ? left / n : left;
     const SpinSeries series(q, spin, kappa, part);

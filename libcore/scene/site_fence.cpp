@@ -9,7 +9,7 @@
 #include "base/units.hpp"
 #include "geometry/plan2d.hpp"
 #include "geometry/segment_meetings.hpp"
-#include "terrain/trn_edges_met.hpp"
+#include "terrain/trn_edge_crossings.hpp"
 
 namespace talus {
 namespace {
@@ -30,7 +30,7 @@ struct Dip {
 
 Dip dip_between(const Trn& trn, const Vec3& a, const Vec3& b) {
   Dip dip;
-  for_each_edge_met(trn, a.head<2>(), b.head<2>(), [&](double share) {
+  for_each_edge_crossing(trn, a.head<2>(), b.head<2>(), [&](double share) {
     const Vec3 at = a + share * (b - a);
     const double depth = at.z() - elevation_at(trn, at.x(), at.y());
     if (depth > dip.depth) dip = {depth, at.head<2>()};

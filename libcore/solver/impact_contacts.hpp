@@ -13,11 +13,11 @@ namespace talus {
 
 /// A body at the time of the impact; local axes.
 struct ImpactBody {
-  double per_mass = 0;                  ///< [1/kg]
-  Mat3 inertia = Mat3::Identity();      ///< [kg m2]
-  Mat3 per_inertia = Mat3::Identity();  ///< its inverse [1/(kg m2)]
-  Vec3 position = Vec3::Zero();         ///< of the centroid [m]
-  Vec6 velocity = Vec6::Zero();         ///< of the centroid, and spin; in: before, out: after
+  double inverse_mass = 0;                  ///< [1/kg]
+  Mat3 inertia = Mat3::Identity();          ///< [kg m2]
+  Mat3 inverse_inertia = Mat3::Identity();  ///< its inverse [1/(kg m2)]
+  Vec3 position = Vec3::Zero();             ///< of the centroid [m]
+  Vec6 velocity = Vec6::Zero();             ///< of the centroid, and spin; in: before, out: after
 };
 
 /// A contact of two of the bodies, or of one with the ground. One point, common to both bodies.
@@ -67,8 +67,8 @@ struct ImpactContact {
 
 /// Velocity at an arm of a body per impulse at another arm of it.
 [[nodiscard]] inline Mat3 response(const ImpactBody& body, const Vec3& at, const Vec3& from) {
-  return body.per_mass * Mat3::Identity() -
-         cross_matrix(at) * body.per_inertia * cross_matrix(from);
+  return body.inverse_mass * Mat3::Identity() -
+         cross_matrix(at) * body.inverse_inertia * cross_matrix(from);
 }
 
 }  // namespace talus

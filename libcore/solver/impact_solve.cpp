@@ -46,9 +46,9 @@ struct Solver {
     double along = 0, all = 0;
     const auto add = [&](const ImpactBody& body, const Vec3& arm) {
       const Vec3 turn = arm.cross(c.normal);
-      along += body.per_mass + turn.dot(body.per_inertia * turn);
-      all += 3 * body.per_mass + body.per_inertia.trace() * arm.squaredNorm() -
-             arm.dot(body.per_inertia * arm);
+      along += body.inverse_mass + turn.dot(body.inverse_inertia * turn);
+      all += 3 * body.inverse_mass + body.inverse_inertia.trace() * arm.squaredNorm() -
+             arm.dot(body.inverse_inertia * arm);
     };
     add(bodies[c.a], c.arm_a);
     if (c.b >= 0) add(bodies[c.b], c.arm_b);
@@ -93,7 +93,7 @@ struct Solver {
         at = static_cast<int>(w.turns.size());
         w.turns.push_back({});
         w.turns.back().body = c.a;
-        w.turns.back().damping = 1 / bodies[static_cast<size_t>(c.a)].per_inertia.trace();
+        w.turns.back().damping = 1 / bodies[static_cast<size_t>(c.a)].inverse_inertia.trace();
       }
       ImpactWork::Turn& turn = w.turns[static_cast<size_t>(at)];
       turn.lever = std::max(turn.lever, c.arm_a.norm());
@@ -199,7 +199,7 @@ struct Solver {
     for (size_t k = 0; k < bodies.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(6 * k);
       const Vec6 dv = v.segment<6>(at) - w.before.segment<6>(at);
-      w.residual.segment<3>(at) = dv.head<3>() / bodies[k].per_mass;
+      w.residual.segment<3>(at) = dv.head<3>() / bodies[k].inverse_mass;
       w.residual.segment<3>(at + 3) = bodies[k].inertia * dv.tail<3>();
     }
     in_chunks(w.workers, contacts.size(), [&](size_t begin, size_t end) {
@@ -218,8 +218,9 @@ struct Solver {
     for (size_t k = 0; k < bodies.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(6 * k);
       const Vec3 r = w.residual.segment<3>(at), m = w.residual.segment<3>(at + 3);
-      worst = std::max(worst, std::sqrt(bodies[k].per_mass * (bodies[k].per_mass * r.squaredNorm() +
-                                                              m.dot(bodies[k].per_inertia * m))));
+      worst = std::max(
+          worst, std::sqrt(bodies[k].inverse_mass * (bodies[k].inverse_mass * r.squaredNorm() +
+                                                     m.dot(bodies[k].inverse_inertia * m))));
     }
     return worst;
   }
@@ -246,7 +247,7 @@ struct Solver {
     clear_matrix(w.matrix);
     for (size_t k = 0; k < bodies.size(); ++k) {
       Mat6& M = w.matrix.diagonal[w.matrix.pattern.place[k]];
-      M.topLeftCorner<3, 3>().diagonal().setConstant(1 / bodies[k].per_mass);
+      M.topLeftCorner<3, 3>().diagonal().setConstant(1 / bodies[k].inverse_mass);
       M.bottomRightCorner<3, 3>() = bodies[k].inertia;
     }
     for (const ImpactContact& c : contacts) {
@@ -336,8 +337,8 @@ struct Solver {
       if (!is_convex) continue;
       const double missing = std::abs(turn.bounds.rolling - turn.held.rolling) +
                              std::abs(turn.bounds.spinning - turn.held.spinning);
-      gives = std::max(
-          gives, turn.lever * missing * bodies[static_cast<size_t>(turn.body)].per_inertia.trace());
+      gives = std::max(gives, turn.lever * missing *
+                                  bodies[static_cast<size_t>(turn.body)].inverse_inertia.trace());
       turn.held = turn.bounds;
     }
     return gives;
@@ -435,7 +436,7 @@ struct Solver {
     double sum = 0;
     for (size_t k = 0; k < bodies.size(); ++k) {
       const Vec6 u = of(v, static_cast<int>(k));
-      sum += u.head<3>().squaredNorm() / bodies[k].per_mass +
+      sum += u.head<3>().squaredNorm() / bodies[k].inverse_mass +
              u.tail<3>().dot(bodies[k].inertia * u.tail<3>());
     }
     return sum / 2;
@@ -445,7 +446,7 @@ struct Solver {
     double sum = 0;
     for (size_t k = 0; k < bodies.size(); ++k) {
       const Vec6 a = of(v, static_cast<int>(k)), b = of(u, static_cast<int>(k));
-      sum += a.head<3>().dot(b.head<3>()) / bodies[k].per_mass +
+      sum += a.head<3>().dot(b.head<3>()) / bodies[k].inverse_mass +
              a.tail<3>().dot(bodies[k].inertia * b.tail<3>());
     }
     return sum;
@@ -457,8 +458,8 @@ struct Solver {
     w.velocity = w.before;
     const auto add = [&](int k, const Vec3& arm, const Vec3& p) {
       const ImpactBody& body = bodies[k];
-      w.velocity.segment<3>(6 * k) += body.per_mass * p;
-      w.velocity.segment<3>(6 * k + 3) += body.per_inertia * arm.cross(p);
+      w.velocity.segment<3>(6 * k) += body.inverse_mass * p;
+      w.velocity.segment<3>(6 * k + 3) += body.inverse_inertia * arm.cross(p);
     };
     for (const ImpactContact& c : contacts) {
       add(c.a, c.arm_a, c.impulse);
@@ -466,7 +467,7 @@ struct Solver {
     }
     for (const ImpactWork::Turn& turn : w.turns)
       w.velocity.segment<3>(6 * turn.body + 3) +=
-          bodies[static_cast<size_t>(turn.body)].per_inertia * turn.couple;
+          bodies[static_cast<size_t>(turn.body)].inverse_inertia * turn.couple;
   }
 
   // The largest share of the restitution that gains no energy.

@@ -211,9 +211,9 @@ template <class V>
     V along_a, along_b, all_a, all_b, p_n;
     a.mobility(arm_a, normal, along_a, all_a);
     b.mobility(arm_b, normal, along_b, all_b);
-    const V per_mass = a.inertia[6] + b.inertia[6];
-    const V W_n = per_mass + along_a + along_b;
-    const V W_t = per_mass + (all_a + all_b - along_a - along_b) * mass::turning_share;
+    const V inverse_mass = a.inertia[6] + b.inertia[6];
+    const V W_n = inverse_mass + along_a + along_b;
+    const V W_t = inverse_mass + (all_a + all_b - along_a - along_b) * mass::turning_share;
     const V normal_give = W_n * sweeps.compliance, shear_give = W_n * sweeps.shear_compliance;
     const V tiny = V{} + 1e-30F;
     const V normal_size = W_n + normal_give, shear_size = W_t + shear_give;

@@ -15,8 +15,8 @@ struct alignas(32) MassBody {
 /// How hard a body is to move: inverse of the inertia, local axes [1/(kg m2)], and of the mass.
 struct alignas(32) MassInertia {
   float xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
-  float per_mass = 0;  ///< [1/kg]
-  float radius = 0;    ///< of the ball around the body [m]
+  float inverse_mass = 0;  ///< [1/kg]
+  float radius = 0;        ///< of the ball around the body [m]
 };
 
 /// A contact. Vectors are local; velocities are those of A's point relative to B's. The solver

@@ -144,14 +144,14 @@ void sweep_turns(MassSystem& s) {
 double change_since_before(const MassSystem& s) {
   double sum = 0, sum_of_mass = 0, mass = 0, n = 0;
   for (size_t k = 0; k < s.inertia.size(); ++k) {
-    if (s.inertia[k].per_mass == 0) continue;
+    if (s.inertia[k].inverse_mass == 0) continue;
     double squared = 0;
     for (int i = 0; i < 3; ++i) {
       const double step = static_cast<double>(s.change[k].velocity[i]) -
                           static_cast<double>(s.before[k].velocity[i]);
       squared += step * step;
     }
-    const double m = 1 / static_cast<double>(s.inertia[k].per_mass);
+    const double m = 1 / static_cast<double>(s.inertia[k].inverse_mass);
     sum += squared;
     sum_of_mass += m * squared;
     mass += m;

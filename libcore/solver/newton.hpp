@@ -68,11 +68,11 @@ template <int Dof>
 struct Mobility {
   double normal, tangent;  ///< [1/kg]
 };
-[[nodiscard]] inline Mobility mobility(double per_mass, const Vec3& per_inertia, const Vec3& X,
-                                       const Vec3& n) {
+[[nodiscard]] inline Mobility mobility(double inverse_mass, const Vec3& inverse_inertia,
+                                       const Vec3& X, const Vec3& n) {
   const Vec3 sq = X.cwiseAbs2(), turn = X.cross(n);
-  const double normal = per_mass + turn.cwiseAbs2().dot(per_inertia);
-  const double all = 3 * per_mass + per_inertia.dot(Vec3::Constant(sq.sum()) - sq);
+  const double normal = inverse_mass + turn.cwiseAbs2().dot(inverse_inertia);
+  const double all = 3 * inverse_mass + inverse_inertia.dot(Vec3::Constant(sq.sum()) - sq);
   return {normal, std::max(normal, all - normal)};
 }
 

@@ -18,9 +18,9 @@ using std::size_t;
 ImpactBody body_of(const Scene& scene, size_t i, const Motion& motion, const Mat3& R) {
   const Vec3& inertia = scene.blocks.inertia[i];
   ImpactBody body;
-  body.per_mass = 1 / scene.blocks.mass[i];
+  body.inverse_mass = 1 / scene.blocks.mass[i];
   body.inertia = inertia.asDiagonal();
-  body.per_inertia = inertia.cwiseInverse().asDiagonal();
+  body.inverse_inertia = inertia.cwiseInverse().asDiagonal();
   body.velocity << R.transpose() * motion.velocity,
       (R.transpose() * motion.angular_momentum).cwiseQuotient(inertia);
   return body;
@@ -78,7 +78,7 @@ void reserve_impacts(size_t n_contacts, ImpactScratch& scratch) {
   scratch.hit.reserve(n_contacts);
   w.full.setZero(6);
   ImpactBody body;  // an impact makes the rest
-  body.per_mass = 1;
+  body.inverse_mass = 1;
   body.velocity[2] = -1;
   std::array<ImpactContact, FewContacts::most + 1> contacts;  // fewer need less
   for (ImpactContact& contact : contacts) contact.normal = Vec3::UnitZ();

@@ -216,8 +216,8 @@ Substep predict(const Scene& scene, int b, const BlockNumbers& c, const Motion& 
   }
   s.R = s.free.pose.attitude.toRotationMatrix();
   s.R_start = start.pose.attitude.toRotationMatrix();
-  s.spin_start = (s.R_start.transpose() * start.angular_momentum).cwiseProduct(c.per_inertia);
-  s.spin_free = (s.R.transpose() * s.free.angular_momentum).cwiseProduct(c.per_inertia);
+  s.spin_start = (s.R_start.transpose() * start.angular_momentum).cwiseProduct(c.inverse_inertia);
+  s.spin_free = (s.R.transpose() * s.free.angular_momentum).cwiseProduct(c.inverse_inertia);
   return s;
 }
 
@@ -310,12 +310,12 @@ void take_on_load(std::span<const ContactMemory> memory, int body_b, ContactRow&
 void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility& W,
              double approach, ContactRow& row) {
   const double asked = scene.settings.normal_stiffness;
-  const double per_mass = c.stiffness * c.per_mass;
-  const double stiffest = std::min(asked > 0 ? asked : c.stiffness, per_mass / W.normal);
+  const double inverse_mass = c.stiffness * c.inverse_mass;
+  const double stiffest = std::min(asked > 0 ? asked : c.stiffness, inverse_mass / W.normal);
   double k_n = stiffest;
   const bool was_hit = row.memory >= 0 && row.last_stiffness == 0;  // its load is unknown
   if (c.sag > 0 && row.bond_area == 0 && !was_hit) {
-    const double per_mobility = c.per_mass / W.normal;
+    const double per_mobility = c.inverse_mass / W.normal;
     const double at_once = scene.gravity.norm() * scene.settings.dt * scene.settings.dt;
     const double soft_sag = std::max(law::soft_sag * at_once, c.sag);
     const double soft =
@@ -324,7 +324,7 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
     if (asked > 0) k_n = std::min(k_n, asked);
   }
   const double k_s =
-      std::min(scene.settings.shear_ratio * k_n, k_n / stiffest * per_mass / W.tangent);
+      std::min(scene.settings.shear_ratio * k_n, k_n / stiffest * inverse_mass / W.tangent);
   if (const double last = row.last_stiffness;
       last > 0 && (k_n > same_law * last || last > same_law * k_n))
     keep_force(k_n, row);
@@ -370,8 +370,8 @@ double time_to_touch(double gap, double speed, double gap_end, double touch, dou
 }
 
 void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row) {
-  set_law(scene, c, s.h, mobility(c.per_mass, c.per_inertia, row.arm, row.normal), approach(row, s),
-          row);
+  set_law(scene, c, s.h, mobility(c.inverse_mass, c.inverse_inertia, row.arm, row.normal),
+          approach(row, s), row);
 }
 
 namespace {
@@ -552,7 +552,7 @@ void set_rates(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
   state.acceleration[i] =
       (1 - share) * state.acceleration[i] + per_h * (end.velocity - s.start.velocity);
   const Vec3 spin_end =
-      (end.pose.attitude.conjugate() * end.angular_momentum).cwiseProduct(c.per_inertia);
+      (end.pose.attitude.conjugate() * end.angular_momentum).cwiseProduct(c.inverse_inertia);
   state.spin_rate[i] = (1 - share) * state.spin_rate[i] + per_h * (spin_end - s.spin_start);
 }
 

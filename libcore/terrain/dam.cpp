@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "geometry/plan2d.hpp"
-#include "terrain/trn_edges_met.hpp"
+#include "terrain/trn_edge_crossings.hpp"
 #include "terrain/trn_walk.hpp"
 
 namespace talus {
@@ -129,7 +129,7 @@ void measure_heights(const Trn& ground, Dam& dam) {
   dam.least_height = dam.most_height = dam.shape.height;
   for (std::size_t i = 0; i + 1 < dam.crest.size(); ++i) {
     const Vec3 &a = dam.crest[i], &b = dam.crest[i + 1];
-    for_each_edge_met(ground, a.head<2>(), b.head<2>(), [&](double share) {
+    for_each_edge_crossing(ground, a.head<2>(), b.head<2>(), [&](double share) {
       const Vec3 at = a + share * (b - a);
       const double height = at.z() - elevation_at(ground, at.x(), at.y());
       dam.least_height = std::min(dam.least_height, height);
@@ -364,7 +364,7 @@ DamBurn burn_dam(const Dam& dam, Trn& trn) {
     };
     look(0);
     look(1);
-    for_each_edge_met(trn, a.head<2>(), b.head<2>(), look);
+    for_each_edge_crossing(trn, a.head<2>(), b.head<2>(), look);
   }
   const double cells = static_cast<double>(reach.n_rows) * reach.n_cols;
   const double wanted = fine_per_crest * trn.cell_size / dam.shape.crest_width;

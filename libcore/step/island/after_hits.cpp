@@ -96,10 +96,10 @@ void take_member(const ImpactSearch& looks, size_t k, FreeMotions& free, IslandS
       turned.angle() * turned.axis();
   s.free = end;
   s.R = end.pose.attitude.toRotationMatrix();
-  s.spin_free = (s.R.transpose() * end.angular_momentum).cwiseProduct(c.per_inertia);
+  s.spin_free = (s.R.transpose() * end.angular_momentum).cwiseProduct(c.inverse_inertia);
   turn.by = s.R * s.R_start.transpose();
   turn.spin_end = s.R * s.spin_free;
-  turn.per_inertia = s.R * c.per_inertia.asDiagonal() * s.R.transpose();
+  turn.inverse_inertia = s.R * c.inverse_inertia.asDiagonal() * s.R.transpose();
   Island& island = system.island;
   island.mass[k].bottomRightCorner<3, 3>() = s.R * c.inertia.asDiagonal() * s.R.transpose();
   island.free_velocity[k] << end.velocity, turn.spin_end;

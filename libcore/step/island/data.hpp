@@ -131,7 +131,7 @@ struct PairPress {
 struct FreeTurn {
   Mat3 by;                    ///< from start to end, local axes
   Vec3 spin_start, spin_end;  ///< local axes [rad/s]
-  Mat3 per_inertia;           ///< inverse of the inertia at the end, local axes [1/(kg m2)]
+  Mat3 inverse_inertia;       ///< inverse of the inertia at the end, local axes [1/(kg m2)]
 };
 
 /// 4 predict.
@@ -365,11 +365,11 @@ template <class Of>
 /// Mobility of a contact's point relative to the other side's, as mobility() with local axes.
 [[nodiscard]] inline Mobility mobility_at(const IslandMembers& members, const FreeMotions& free,
                                           std::size_t k, const Vec3& arm, const Vec3& normal) {
-  const Mat3& per_inertia = free.turns[k].per_inertia;
+  const Mat3& inverse_inertia = free.turns[k].inverse_inertia;
   const Vec3 turn = arm.cross(normal);
-  const double along = 1 / members.numbers[k].mass + turn.dot(per_inertia * turn);
-  const double all = 3 / members.numbers[k].mass + per_inertia.trace() * arm.squaredNorm() -
-                     arm.dot(per_inertia * arm);
+  const double along = 1 / members.numbers[k].mass + turn.dot(inverse_inertia * turn);
+  const double all = 3 / members.numbers[k].mass + inverse_inertia.trace() * arm.squaredNorm() -
+                     arm.dot(inverse_inertia * arm);
   return {along, std::max(along, all - along)};
 }
 

@@ -126,16 +126,17 @@ struct HitPhase {
     const BlockNumbers& c = members.numbers[k];
     const Mat3 R = m.pose.attitude.toRotationMatrix();
     ImpactBody body;
-    body.per_mass = 1 / c.mass;
+    body.inverse_mass = 1 / c.mass;
     body.inertia = R * c.inertia.asDiagonal() * R.transpose();
-    body.per_inertia = R * c.per_inertia.asDiagonal() * R.transpose();
+    body.inverse_inertia = R * c.inverse_inertia.asDiagonal() * R.transpose();
     if (c.stands) {
-      body.per_mass *= share_of_standing_mass;
+      body.inverse_mass *= share_of_standing_mass;
       body.inertia /= share_of_standing_mass;
-      body.per_inertia = R * (share_of_standing_mass * c.per_inertia).asDiagonal() * R.transpose();
+      body.inverse_inertia =
+          R * (share_of_standing_mass * c.inverse_inertia).asDiagonal() * R.transpose();
     }
     body.position = m.pose.position;
-    body.velocity << m.velocity, body.per_inertia * m.angular_momentum;
+    body.velocity << m.velocity, body.inverse_inertia * m.angular_momentum;
     return body;
   }
 
@@ -157,8 +158,8 @@ struct HitPhase {
     flying.motion.pose = before.pose;
     flying.motion.velocity = after.velocity.head<3>();
     flying.motion.angular_momentum =
-        before.angular_momentum +
-        after.inertia * (after.velocity.tail<3>() - after.per_inertia * before.angular_momentum);
+        before.angular_momentum + after.inertia * (after.velocity.tail<3>() -
+                                                   after.inverse_inertia * before.angular_momentum);
     flying.clock = time;
     flying.was_hit = true;
     ++flying.version;

@@ -128,7 +128,7 @@ PlacedMotion ImpactSearch::place(size_t k, const Motion& motion) const {
   const Mat3 R = motion.pose.attitude.toRotationMatrix();
   const Vec3 in_body = R.transpose() * motion.angular_momentum;
   return {motion.pose.position, R * free.substeps[k].R_start.transpose(), motion.velocity,
-          R * in_body.cwiseProduct(members.numbers[k].per_inertia)};
+          R * in_body.cwiseProduct(members.numbers[k].inverse_inertia)};
 }
 
 const MemberMotion& ImpactSearch::member_at(size_t k, double time) const {

@@ -108,9 +108,9 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
     c.slow = slow * g * dt;
     c.rests = members.is_small || !moves(members.blocks[k]);
     const bool is_stiff = members.is_small || (c.rests && state.time > 0 && !is_soft);
-    const double per_mass = (is_stiff ? stiffest_at_rest : 1) / (dt * dt);
-    c.stiffness = per_mass * members.bearing[k];
-    c.least_stiffness = is_first ? no_normal_limit : law::stiffens * per_mass * c.mass;
+    const double inverse_mass = (is_stiff ? stiffest_at_rest : 1) / (dt * dt);
+    c.stiffness = inverse_mass * members.bearing[k];
+    c.least_stiffness = is_first ? no_normal_limit : law::stiffens * inverse_mass * c.mass;
     c.most_stiffness = is_soft ? 0 : stiffest / (dt * dt) * c.mass;
     c.sag = (c.rests ? most_sag : law::most_sag_in_motion) * c.thickness;
   }
@@ -125,7 +125,7 @@ void locate_hits(const Scene& scene, const State& state, const SubstepRetries& t
     if (!members.locates_hits) continue;
     const Motion& m = state.motion[members.block(k)];
     const Vec3 body = m.pose.attitude.conjugate() * m.angular_momentum;
-    const double spin = body.cwiseProduct(c.per_inertia).norm();
+    const double spin = body.cwiseProduct(c.inverse_inertia).norm();
     c.located_speed = located_speed(scene, c, m.velocity.norm() + spin * c.radius);
   }
 }

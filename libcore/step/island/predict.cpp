@@ -61,7 +61,7 @@ void predict_free(const Scene& scene, const State& state, const IslandMembers& m
                    : predict(scene, members.blocks[k], c,
                              begin_drag(scene, state, members.block(k), h), t, h, state.pressure);
       free.turns[k] = {s.R * s.R_start.transpose(), s.R_start * s.spin_start, s.R * s.spin_free,
-                       s.R * c.per_inertia.asDiagonal() * s.R.transpose()};
+                       s.R * c.inverse_inertia.asDiagonal() * s.R.transpose()};
     }
   });
 }

@@ -55,7 +55,7 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
     v << v_free, s.spin_free, state.strain_rate[i];
     // the angular momentum is that of the turning and of the straining together
     v.segment<3>(3) -=
-        c.per_inertia.cwiseProduct(system.mass.template block<3, 6>(3, 6) * v.tail<6>());
+        c.inverse_inertia.cwiseProduct(system.mass.template block<3, 6>(3, 6) * v.tail<6>());
     momentum = system.mass * v;
     momentum.template tail<6>() -= s.h * volume * stress;
     momentum.template tail<6>() +=
@@ -93,8 +93,9 @@ inline Vec3 turn_by_change(const BlockNumbers& c, const Vec3& body_spin, const V
                            double half) {
   const Vec3 change = c.inertia.cwiseProduct(spin),
              momentum = c.inertia.cwiseProduct(body_spin) + change;
-  const Vec3 again = c.per_inertia.cwiseProduct(body_spin.cross(change) + momentum.cross(spin)) -
-                     body_spin.cross(spin);
+  const Vec3 again =
+      c.inverse_inertia.cwiseProduct(body_spin.cross(change) + momentum.cross(spin)) -
+      body_spin.cross(spin);
   return half * (spin + half / 2 * again);
 }
 
@@ -105,8 +106,8 @@ Solved<Dof> solved_motion(const BlockNumbers& c, const Substep& s, const BlockSy
   if constexpr (Dof == 12) {  // where straining stops, its angular momentum stays
     const Vec6 strain_rate = system.velocity.template tail<6>();
     out.change.template tail<3>() +=
-        c.per_inertia.cwiseProduct(system.mass.template block<3, 6>(3, 6) *
-                                   (strain_rate - system.free_velocity.template tail<6>()));
+        c.inverse_inertia.cwiseProduct(system.mass.template block<3, 6>(3, 6) *
+                                       (strain_rate - system.free_velocity.template tail<6>()));
     out.strained = s.straining + strain_tensor(strain_rate);
   }
   const Vec3 dv = s.R * out.change.template head<3>();
@@ -127,7 +128,8 @@ Solved<Dof> solved_motion(const BlockNumbers& c, const Substep& s, const BlockSy
 inline double follow_turn(const BlockNumbers& c, const Substep& s, const Solved<6>& solved,
                           std::span<const Contact> contacts, std::span<ContactRow> rows) {
   const Vec3 change = solved.change.tail<3>(), spin = s.spin_free + change;
-  const Vec3 by_axes = c.per_inertia.cwiseProduct(solved.turn.cross(c.inertia.cwiseProduct(spin)));
+  const Vec3 by_axes =
+      c.inverse_inertia.cwiseProduct(solved.turn.cross(c.inertia.cwiseProduct(spin)));
   // A needle's spin about its axis is all but free: a small turn would seem to set it spinning.
   constexpr double most_followed = 0.5;
   if (by_axes.norm() > most_followed * spin.norm())

@@ -242,7 +242,7 @@ struct Advance {
     const Vec3& before = state.acceleration[i()];
     if (state.local_time[i()] == 0 || before == scene.gravity || !state.strain.empty()) return 0;
     const Vec3 spin_end =
-        (end.pose.attitude.conjugate() * end.angular_momentum).cwiseProduct(c.per_inertia);
+        (end.pose.attitude.conjugate() * end.angular_momentum).cwiseProduct(c.inverse_inertia);
     const Vec3 mean = (end.velocity - s.start.velocity) / s.h;
     return share_of(error_of_displacement(c, mean - before,
                                           (spin_end - s.spin_start) / s.h - state.spin_rate[i()],
@@ -389,7 +389,7 @@ struct Advance {
 
   double spin_speed() {
     const Vec3 body = motion().pose.attitude.conjugate() * motion().angular_momentum;
-    return body.cwiseProduct(c.per_inertia).norm();
+    return body.cwiseProduct(c.inverse_inertia).norm();
   }
 
   // No point of the block is faster [m/s].

@@ -140,8 +140,8 @@ void sum_impulses(const MassEnd& end, std::vector<MassChange>& changes) {
     changes[w.system.pairs[turn.pair].a].couple += turn.couple;
   for (const int b : end.members.moving) {
     const size_t k = end.members.at(b);
-    changes[k].velocity = end.members.numbers[k].per_mass * changes[k].impulse;
-    changes[k].spin = w.members[k].per_inertia * changes[k].couple;
+    changes[k].velocity = end.members.numbers[k].inverse_mass * changes[k].impulse;
+    changes[k].spin = w.members[k].inverse_inertia * changes[k].couple;
   }
 }
 

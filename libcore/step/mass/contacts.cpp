@@ -66,7 +66,7 @@ struct MassMaker {
   }
 
   [[nodiscard]] double per_mass_of(size_t k) const {
-    return members.numbers[k].stands ? 0 : members.numbers[k].per_mass;
+    return members.numbers[k].stands ? 0 : members.numbers[k].inverse_mass;
   }
 
   void set_member(size_t k) {
@@ -82,7 +82,7 @@ struct MassMaker {
     m.spin_start = turn.spin_start;
     m.spin_end = turn.spin_end;
     set_middle(members.numbers[k], members.block(k), s, m);
-    const Mat3& P = m.per_inertia;
+    const Mat3& P = m.inverse_inertia;
     const auto single = [](double x) { return static_cast<float>(x); };
     w.system.inertia[k] = {single(P(0, 0)),        single(P(1, 1)),
                            single(P(2, 2)),        single(P(0, 1)),
@@ -98,9 +98,9 @@ struct MassMaker {
           free.h / 2 * load_torque(scene, static_cast<int>(b), start.attitude, state.pressure);
     m.attitude = free_rotation(start.attitude, m.momentum, c.inertia, free.h / 2);
     const Mat3 R = m.attitude.toRotationMatrix();
-    m.per_inertia = R * c.per_inertia.asDiagonal() * R.transpose();
-    if (c.stands) m.per_inertia.setZero();
-    m.spin = m.per_inertia * m.momentum;
+    m.inverse_inertia = R * c.inverse_inertia.asDiagonal() * R.transpose();
+    if (c.stands) m.inverse_inertia.setZero();
+    m.spin = m.inverse_inertia * m.momentum;
   }
 
   void open_pair(int a, int b) {
@@ -122,7 +122,7 @@ struct MassMaker {
     const auto mobility = [&](int b, const Vec3& arm) {
       const size_t k = members.at(b);
       const Vec3 turn = arm.cross(n);
-      return per_mass_of(k) + turn.dot(w.members[k].per_inertia * turn);
+      return per_mass_of(k) + turn.dot(w.members[k].inverse_inertia * turn);
     };
     double W = mobility(contact.a, motion.arm_a);
     if (contact.b >= 0) W += mobility(contact.b, motion.arm_b);

@@ -24,7 +24,7 @@ struct MassMember {
   Quat attitude = Quat::Identity();  ///< at mid-step
   Vec3 momentum;                     ///< ... angular, without contact [kg m2/s]
   Vec3 spin;                         ///< ... local axes [rad/s]
-  Mat3 per_inertia;                  ///< ... inverse of the inertia, local axes [1/(kg m2)]
+  Mat3 inverse_inertia;              ///< ... inverse of the inertia, local axes [1/(kg m2)]
 };
 
 /// A contact of the mass, beside its row in the solver.

@@ -26,10 +26,10 @@ struct Landing {
   Landing(Random& random, int n_contacts, bool grounded) {
     for (int k = 0; k < (grounded ? 1 : 2); ++k) {
       ImpactBody body;
-      body.per_mass = random.uniform(0.2, 2);
+      body.inverse_mass = random.uniform(0.2, 2);
       const Vec3 moments = Vec3::Constant(random.uniform(0.1, 1)) + random_vector(random, 0.05);
       body.inertia = moments.asDiagonal();
-      body.per_inertia = moments.cwiseInverse().asDiagonal();
+      body.inverse_inertia = moments.cwiseInverse().asDiagonal();
       body.position = Vec3(0, 0, k == 0 ? 0.5 : -0.5);
       body.velocity << Vec3(0, 0, k == 0 ? -2 : 1) + random_vector(random, 1),
           random_vector(random, 1);
@@ -59,8 +59,8 @@ struct Landing {
       Vec3 v = body.velocity.head<3>(), spin = body.velocity.tail<3>();
       for (std::size_t j = 0; j < contacts.size(); ++j) {
         const Vec3 p = sign * contacts[j].impulse;
-        v += body.per_mass * p;
-        spin += body.per_inertia * (contacts[j].point - body.position).cross(p);
+        v += body.inverse_mass * p;
+        spin += body.inverse_inertia * (contacts[j].point - body.position).cross(p);
       }
       return v + spin.cross(contacts[i].point - body.position);
     };
@@ -128,7 +128,7 @@ TEST(SolveFew, CornersOfAFlatFaceShareTheLoad) {
   int passes = 0;
   ASSERT_TRUE(solve_few(landing.bodies, landing.contacts, landing.before, 2, few, passes));
   for (const ImpactContact& c : landing.contacts)
-    EXPECT_NEAR(c.impulse.z(), 3 / landing.bodies[0].per_mass / 4, 1e-6);
+    EXPECT_NEAR(c.impulse.z(), 3 / landing.bodies[0].inverse_mass / 4, 1e-6);
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ ImpactBody box_body(const Vec3& size, const Vec3& position, const Vec3& velocity
   const double mass = size.prod();
   const Vec3 sq = size.cwiseAbs2();
   const Vec3 moments = mass / 12 * Vec3(sq.y() + sq.z(), sq.x() + sq.z(), sq.x() + sq.y());
-  body.per_mass = 1 / mass;
+  body.inverse_mass = 1 / mass;
   body.inertia = moments.asDiagonal();
-  body.per_inertia = moments.cwiseInverse().asDiagonal();
+  body.inverse_inertia = moments.cwiseInverse().asDiagonal();
   body.position = position;
   body.velocity << velocity, spin;
   return body;
@@ -43,21 +43,22 @@ double energy(const std::vector<ImpactBody>& bodies) {
   double sum = 0;
   for (const ImpactBody& b : bodies) {
     const Vec3 v = b.velocity.head<3>(), w = b.velocity.tail<3>();
-    sum += v.squaredNorm() / b.per_mass / 2 + w.dot(b.inertia * w) / 2;
+    sum += v.squaredNorm() / b.inverse_mass / 2 + w.dot(b.inertia * w) / 2;
   }
   return sum;
 }
 
 Vec3 momentum(const std::vector<ImpactBody>& bodies) {
   Vec3 sum = Vec3::Zero();
-  for (const ImpactBody& b : bodies) sum += b.velocity.head<3>() / b.per_mass;
+  for (const ImpactBody& b : bodies) sum += b.velocity.head<3>() / b.inverse_mass;
   return sum;
 }
 
 Vec3 angular_momentum(const std::vector<ImpactBody>& bodies) {
   Vec3 sum = Vec3::Zero();
   for (const ImpactBody& b : bodies)
-    sum += b.position.cross(b.velocity.head<3>()) / b.per_mass + b.inertia * b.velocity.tail<3>();
+    sum +=
+        b.position.cross(b.velocity.head<3>()) / b.inverse_mass + b.inertia * b.velocity.tail<3>();
   return sum;
 }
 
@@ -165,9 +166,9 @@ struct RollingBall {
 
   void hit(double approach) {
     std::vector<ImpactBody> bodies(1);
-    bodies[0].per_mass = 1 / m;
+    bodies[0].inverse_mass = 1 / m;
     bodies[0].inertia = 0.4 * m * radius * radius * Mat3::Identity();
-    bodies[0].per_inertia = bodies[0].inertia.inverse();
+    bodies[0].inverse_inertia = bodies[0].inertia.inverse();
     bodies[0].velocity << speed, 0, -approach, 0, speed / radius, 0;
     std::vector<ImpactContact> contacts = {
         contact(0, -1, Vec3::UnitZ(), Vec3(0, 0, -radius), e, 0.8)};

@@ -31,7 +31,7 @@ void set(const Vec3& from, float (&to)[3]) {
 
 void add_body(double mass, MassSystem& system) {
   talus::MassInertia inertia;
-  inertia.per_mass = static_cast<float>(1 / mass);
+  inertia.inverse_mass = static_cast<float>(1 / mass);
   inertia.xx = inertia.yy = inertia.zz = static_cast<float>(6 / mass);  // of a cube of 1 m
   system.inertia.push_back(inertia);
 }
@@ -79,7 +79,7 @@ MassSystem random_mass(int n, int most_rows, double decades) {
 std::vector<Vec3> changes(const MassSystem& system) {
   std::vector<Vec3> velocity(system.inertia.size(), Vec3::Zero()), spin = velocity, out;
   const auto push = [&](int k, const Vec3& arm, const Vec3& impulse) {
-    velocity[k] += static_cast<double>(system.inertia[k].per_mass) * impulse;
+    velocity[k] += static_cast<double>(system.inertia[k].inverse_mass) * impulse;
     spin[k] += static_cast<double>(system.inertia[k].xx) * arm.cross(impulse);
   };
   for (const MassPair& pair : system.pairs)

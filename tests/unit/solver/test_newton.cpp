@@ -76,10 +76,10 @@ TEST(SolveContacts, ImpulsesBalanceTheMomentum) {
 
 // One contact: the mobility along its normal is the velocity that its impulse gives its point.
 TEST(Mobility, IsTheVelocityOfThePointPerImpulse) {
-  const Vec3 per_inertia(1, 2, 3), arm(0.4, -0.7, 0.2), normal = Vec3(1, 2, 2) / 3;
-  const Vec3 spin = per_inertia.cwiseProduct(arm.cross(normal));
+  const Vec3 inverse_inertia(1, 2, 3), arm(0.4, -0.7, 0.2), normal = Vec3(1, 2, 2) / 3;
+  const Vec3 spin = inverse_inertia.cwiseProduct(arm.cross(normal));
   const double along = normal.dot(0.5 * normal + spin.cross(arm));
-  EXPECT_NEAR(mobility(0.5, per_inertia, arm, normal).normal, along, 1e-15);
+  EXPECT_NEAR(mobility(0.5, inverse_inertia, arm, normal).normal, along, 1e-15);
 }
 
 }  // namespace

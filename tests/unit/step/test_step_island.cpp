@@ -229,7 +229,7 @@ TEST(StepIsland, ContactThatBecomesStifferKeepsItsForces) {
       row.gap_start = -pressed_in;
       inherit(memory, 0, false, Mat3::Identity(), c, row);
       c.stiffness = stiffness;
-      set_law(scene, c, h, {c.per_mass, c.per_mass}, 0, row);
+      set_law(scene, c, h, {c.inverse_mass, c.inverse_mass}, 0, row);
       const double kept = ratio < 1.5 ? stiffness : soft;  // less: its block's turning
       EXPECT_NEAR(-row.bias * row.normal_damping / h, kept * pressed_in, 1e-9 * soft);
       EXPECT_NEAR(row.shear_velocity.x() * row.shear_damping / h,
@@ -264,7 +264,7 @@ TEST(StepIsland, ContactThatBecomesSofterBearsNoMore) {
   row.normal = Vec3::UnitZ();
   row.gap_start = -deep;
   inherit(memory, 0, false, Mat3::Identity(), c, row);
-  set_law(scene, c, h, {c.per_mass, c.per_mass}, 0, row);
+  set_law(scene, c, h, {c.inverse_mass, c.inverse_mass}, 0, row);
   EXPECT_NEAR(-row.bias * row.normal_damping / h, memory.normal_force, 1e-9 * soft);
 }
 
@@ -330,7 +330,7 @@ TEST(StepIsland, NewContactTakesOnTheForceOfItsPair) {
     row.gap_start = -deep;
     take_on_load(memory, 7, row);
     EXPECT_DOUBLE_EQ(row.offset, deep - pressed_in);
-    set_law(scene, c, h, {c.per_mass, c.per_mass}, 0, row);
+    set_law(scene, c, h, {c.inverse_mass, c.inverse_mass}, 0, row);
     EXPECT_NEAR(-row.bias * row.normal_damping / h, soft * pressed_in, 1e-9 * soft);
   }
   ContactRow alone;  // presses nothing where the pair carries nothing
@@ -597,7 +597,7 @@ TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
     row.last_force = force;
     row.last_stiffness = last;
     row.bond_area = bond_area;
-    set_law(scene, c, scene.settings.dt, {c.per_mass, c.per_mass}, 0, row);
+    set_law(scene, c, scene.settings.dt, {c.inverse_mass, c.inverse_mass}, 0, row);
     return row.normal_damping / (scene.settings.dt * c.recovery_time);
   };
   const double k = c.stiffness / 10, force = k * c.sag / 2;
@@ -627,7 +627,7 @@ TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
   ContactRow hit;  // remembered from a hit: its load is unknown
   forget_last_step(hit);
   hit.memory = 0;
-  set_law(scene, c, scene.settings.dt, {c.per_mass, c.per_mass}, 0, hit);
+  set_law(scene, c, scene.settings.dt, {c.inverse_mass, c.inverse_mass}, 0, hit);
   EXPECT_DOUBLE_EQ(hit.normal_damping / (scene.settings.dt * c.recovery_time), c.stiffness);
   c.sag = 0;
   EXPECT_DOUBLE_EQ(stiffness(force, k), c.stiffness);
