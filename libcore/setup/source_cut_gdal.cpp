@@ -322,6 +322,11 @@ void plan_sets(InputLog& log, BlocksWork& work) {
     log.info(path + ": " + counted(static_cast<std::int64_t>(list.poles.size()), "orientation") +
              " from " + list.taken_from +
              (list.is_computed ? "; computed from points, so no compass turns them" : ""));
+    if (may_be_radians(list))
+      log.doubts({doubt_on({path},
+                           "all dips are below 1.58 and all directions below 6.29: are the angles "
+                           "in radians? Expected degrees",
+                           "57.3 times the radians are degrees")});
   }
   say_turn(log, work.site.joint_north);
   work.sets = plan_joint_sets(work.site, lists);

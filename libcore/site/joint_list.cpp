@@ -42,12 +42,15 @@ double around(double azimuth_deg) {
   return rest < 0 ? rest + 360 : rest;
 }
 
+constexpr double degrees_of_gon = 0.9;  // a full circle has 400 gon
+
 void check_angle(const char* name, double angle, double highest, const Where& where) {
   if (angle >= 0 && angle <= highest) return;
   throw InputError(where,
                    std::string(name) + " is " + text(angle) + ", expected 0 to " + text(highest),
-                   angle > highest && angle <= highest / 0.9
-                       ? "in gon? Then name the columns Dip direction [gon] and Dip [gon]"
+                   angle > highest && angle <= highest / degrees_of_gon
+                       ? "if all are in gon: in a list name its columns Dip direction [gon] and "
+                         "Dip [gon], in the site file write degrees (0.9 times the gon)"
                        : names_hint);
 }
 
@@ -103,17 +106,22 @@ const std::vector<std::string> right_names = {"strike",    "strikeright",    "st
 const std::vector<std::string> left_names = {"strikeleft", "strikel", "strikelhr",
                                              "strikelefthandrule"};
 
-// A full circle has 400 gon. The unit is that in the brackets of a name: "Dip [gon]".
-double degrees_in_unit_of(const std::string& name) {
+// The unit is that in the brackets of a name: "Dip [gon]". Grad is a degree in German, and a gon in
+// English.
+double degrees_in_unit_of(const std::string& name, const ColumnText& list) {
   const std::size_t open = name.find_first_of("[("), close = name.find_first_of("])");
   if (open == std::string::npos || close == std::string::npos || close < open) return 1;
   const std::string unit = lower(name.substr(open + 1, close - open - 1));
-  return unit == "gon" || unit == "grad" || unit == "gradians" || unit == "neugrad" ? 0.9 : 1;
+  if (unit == "grad")
+    throw InputError({list.file},
+                     "column " + name + " has a unit of two meanings, 360 or 400 to the circle",
+                     "write [deg] or [gon] in its name");
+  return unit == "gon" || unit == "gradians" || unit == "neugrad" ? degrees_of_gon : 1;
 }
 
 // The word of a column in degrees.
 std::string in_degrees(const ColumnText& list, const std::string& word, int column) {
-  const double factor = degrees_in_unit_of(list.names[column]);
+  const double factor = degrees_in_unit_of(list.names[column], list);
   double value = 0;
   return factor != 1 && parse_number(list, word, value) ? text(factor * value) : word;
 }
@@ -267,6 +275,18 @@ OrientationList read_pairs(const ColumnText& list) {
 }
 
 }  // namespace
+
+bool may_be_radians(const OrientationList& list) {
+  double steepest = 0, farthest = 0;
+  for (const Vec3& axis : list.poles) {
+    const Attitude plane = attitude(axis);
+    steepest = std::max(steepest, plane.dip / degree);
+    farthest = std::max(farthest, plane.dip_direction / degree);
+  }
+  constexpr double quarter = 90 * degree, circle = 360 * degree, level = 0.05, none = 1e-6;
+  return !list.is_computed && list.poles.size() >= 3 && steepest > level &&
+         steepest <= quarter + none && farthest <= circle + none;
+}
 
 Vec3 checked_pole(double direction_deg, double dip_deg, const Where& where) {
   check_angle("dip", dip_deg, 90, where);

@@ -98,6 +98,23 @@ TEST(ReadOrientations, GonIsReadWhereTheNamesSayIt) {
   expect_planes("Streichen;Fallen\n110;41\n", {{200, 41}});
 }
 
+TEST(ReadOrientations, GradIsAskedFor) {  // a degree in German, a gon in English
+  EXPECT_EQ(
+      refused("Fallrichtung [Grad];Fallwinkel\n200;50\n"),
+      "f.txt: column Fallrichtung [Grad] has a unit of two meanings, 360 or 400 to the circle");
+}
+
+TEST(ReadOrientations, AnglesThatAreAllSmallMayBeRadians) {
+  const auto may_be = [](const std::string& text) {
+    return may_be_radians(read_orientations("Dip direction,Dip\n" + text, "f"));
+  };
+  EXPECT_TRUE(may_be("3.5,0.7\n6.2831,1.57\n0.2,0.1\n"));
+  EXPECT_FALSE(may_be("3.5,0.7\n6.3,1.57\n0.2,0.1\n"));
+  EXPECT_FALSE(may_be("3.5,0.7\n6.1,1.58\n0.2,0.1\n"));
+  EXPECT_FALSE(may_be("0,0\n0,0\n0,0\n"));  // level beds
+  EXPECT_FALSE(may_be("3.5,0.7\n"));
+}
+
 TEST(ReadOrientations, LettersOfACompassAreRefused) {
   expect_planes("No.\tStrike\tDip\n1\t045\t60\n", {{135, 60}});
   EXPECT_EQ(refused("Strike,Dip\nN45E,60\n"), "f.txt:2: \"N45E\" is not a number");
