@@ -70,8 +70,9 @@ const char* find_no_settings(PJ_CONTEXT* /*context*/, const char* name, void* /*
 }
 
 // GDAL takes no setting from the environment once a file of settings says so, and looks for no
-// other such file where one is named.
+// other such file where one is named. GDAL 3.6 then calls itself without end for CPL_DEBUG.
 void forget_gdal_settings() {
+  unsetenv("CPL_DEBUG");
   static char only[] = "[directives]\nignore-env-vars=yes\n";
   constexpr const char* file = "/vsimem/talus_settings/gdalrc";
   VSIFCloseL(VSIFileFromMemBuffer(file, reinterpret_cast<GByte*>(only), sizeof only - 1, FALSE));
