@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <set>
 #include <span>
 
 #include "base/error.hpp"
@@ -65,15 +67,17 @@ bool find_pair(std::span<const NamePair> pairs, PointTable& table) {
 
 // Why the first of at least four columns without names may number the points, as lists of surveys
 // do (number, northing, easting, height, code): it counts 1, 2, 3, is whole where those behind it
-// are not, or the fifth holds words. Empty: it may not.
+// are not, holds each whole number once, or the fifth holds words. Empty: it may not.
 std::string why_numbered(const ColumnText& columns) {
   bool counts_up = true, is_whole = true, has_code = false;
   std::array<bool, 2> has_decimals = {};  // columns 2 and 3
+  std::set<double> whole;
   double last = 0, value = 0;
   for (const std::vector<std::string>& words : columns.rows) {
     if (words.size() < 4 || !parse_number(columns, words[0], value)) return "";
     counts_up = counts_up && (&words == &columns.rows.front() || value == last + 1);
     is_whole = is_whole && words[0].find_first_not_of("0123456789") == std::string::npos;
+    if (value == std::floor(value)) whole.insert(value);
     for (std::size_t c = 0; c < 2; ++c)
       has_decimals[c] = has_decimals[c] || words[c + 1].find_first_of(".,") != std::string::npos;
     has_code = has_code ||
@@ -83,6 +87,8 @@ std::string why_numbered(const ColumnText& columns) {
   if (counts_up && is_whole && (columns.rows.size() > 1 || last == 1)) return "counts the rows";
   if (is_whole && has_decimals[0] && has_decimals[1])
     return "holds whole numbers alone, as a point number does";
+  if (columns.rows.size() > 2 && whole.size() == columns.rows.size())
+    return "holds whole numbers, each of them once, as a point number does";
   return has_code ? "may number the points: the fifth holds words" : "";
 }
 

@@ -69,6 +69,10 @@ TEST(PointTable, ColumnsThatCannotBeToldAreRefused) {
   expect_found(refusal("a,b,c\n1,2,3\n"), "expected columns named x and y");
   expect_found(refusal("x,y,easting,northing\n1,2,3,4\n"), "x and y, and easting and northing");
   expect_found(refusal("1 500000 5200000 1000\n2 500001 5200000 1001\n"), "counts the rows");
+  expect_found(refusal("412 520 1010 115\n207 522 1033 116\n655 541 1008 126\n"), "point number");
+  expect_found(
+      refusal("412.0 520.5 1010.5 115.2\n207.0 522.5 1033.5 116.2\n655.0 541.5 1008.5 9\n"),
+      "point number");
   expect_found(refusal("7012,500.1,700.2,99.5\n7098,510.2,710.4,98\n"), "whole numbers alone");
   expect_found(refusal("5.1,500.1,700.2,99.5,FENCE\n9,5.2,7.4,98,TREE\n"), "holds words");
   for (const char* empty : {"# nothing\n", "", "x,y\n"})
