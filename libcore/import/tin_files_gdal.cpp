@@ -21,6 +21,7 @@
 #include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "base/words.hpp"
+#include "geometry/rounding.hpp"
 #include "import/crs_place_gdal.hpp"
 #include "import/drawing_unit_gdal.hpp"
 #include "import/raw_inputs_gdal.hpp"
@@ -388,9 +389,34 @@ TinFile read_any(const LayerRef& choice) {
 
 }  // namespace
 
+namespace {
+
+// Points whose rounding moves them by a part of their distance.
+void doubt_rounding(const Tin& tin, const std::string& path, std::vector<Doubt>& doubts) {
+  constexpr double least_share = 0.01;
+  constexpr std::size_t most_looks = 10000;
+  RoundingFinder rounding;
+  const std::size_t stride = 1 + tin.points.size() / most_looks;
+  for (std::size_t i = 0; i < tin.points.size(); i += stride)
+    rounding.add(tin.points[i] + tin.origin);
+  const MapWindow data = extent(tin);
+  const double spacing = std::sqrt((data.x_max - data.x_min) * (data.y_max - data.y_min) /
+                                   static_cast<double>(tin.points.size()));
+  if (!(rounding.step() > least_share * spacing)) return;
+  doubts.push_back(doubt_on({path},
+                            "its coordinates have " + rounding.words() + ", in steps of " +
+                                text(rounding.step(), 2) + " m at points " + text(spacing, 2) +
+                                " m apart",
+                            "write them with more digits, or in double precision"));
+}
+
+}  // namespace
+
 TinFile read_tin_file(const LayerRef& choice) {
   TinFile file = read_any(choice);
-  check_elevations(file.tin.points, file.tin.origin, {file_of(choice.path)}, "");
+  const std::string path = file_of(choice.path);
+  check_elevations(file.tin.points, file.tin.origin, {path}, "");
+  if (!(choice.unit_m > 0)) doubt_rounding(file.tin, path, file.doubts);
   return file;
 }
 

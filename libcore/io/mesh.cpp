@@ -12,6 +12,7 @@
 #include "base/file_paths.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
+#include "geometry/rounding.hpp"
 
 namespace talus {
 
@@ -162,37 +163,30 @@ std::string object_of_part(const std::string& name) {
 
 namespace {
 
-// Vertices that all are numbers of single precision, whose steps there matter for the body: map
-// coordinates that a program has rounded.
+// Vertices whose rounding matters for the body: map coordinates of a program with few digits.
 std::string doubt_on_precision(const std::vector<MeshBody>& bodies) {
   constexpr double least_share = 1e-3;  // of the smallest extent of the body
   int n_rounded = 0;
   double worst = 0;
+  std::string words;
   for (const MeshBody& body : bodies) {
-    Vec3 low = Vec3::Constant(HUGE_VAL), high = -low, step = Vec3::Zero();
-    bool is_single = true, is_round = true;  // round: whole centimetres that are not rounded
+    Vec3 low = Vec3::Constant(HUGE_VAL), high = -low;
+    RoundingFinder rounding;
     const auto look = [&](const Polyhedron& surface) {
       for (const Vec3& v : surface.vertices) {
         low = low.cwiseMin(v), high = high.cwiseMax(v);
-        for (int k = 0; k < 3; ++k) {
-          const auto single = static_cast<float>(v[k]);
-          is_single = is_single && single == v[k];
-          is_round = is_round && std::abs(std::remainder(v[k], 0.01)) < 1e-6;
-          step[k] = std::max<double>(
-              step[k], std::nextafterf(std::abs(single), HUGE_VALF) - std::abs(single));
-        }
+        rounding.add(v);
       }
     };
     look(body.surface);
     for (const Polyhedron& part : body.parts) look(part);
-    if (!is_single || is_round || !(step.maxCoeff() > least_share * (high - low).minCoeff()))
-      continue;
+    if (!(rounding.step() > least_share * (high - low).minCoeff())) continue;
     ++n_rounded;
-    worst = std::max(worst, step.maxCoeff());
+    if (rounding.step() > worst) worst = rounding.step(), words = rounding.words();
   }
   if (n_rounded == 0) return {};
   return std::to_string(n_rounded) + (n_rounded == 1 ? " body" : " bodies") +
-         " with coordinates of single precision, in steps of " + text(worst, 2) +
+         " with coordinates of " + words + ", in steps of " + text(worst, 2) +
          " m: shapes and volumes are rounded; shift them to the origin before they "
          "are written, and give position_m";
 }
