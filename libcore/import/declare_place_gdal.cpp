@@ -3,6 +3,7 @@
 #include <ogrsf_frmts.h>
 
 #include "base/source_path.hpp"
+#include "base/text.hpp"
 #include "import/crs_place_gdal.hpp"
 #include "import/raw_inputs_gdal.hpp"
 #include "import/systems_gdal.hpp"
@@ -14,19 +15,43 @@ namespace {
 constexpr const char* no_degrees =
     " (a GeoJSON without crs says so), but the coordinates are not degrees";
 
+// Coordinates that the user scaled are local metres, whatever unit the file says.
+bool make_local_metres(RawLayer& layer) {
+  const bool is_scaled = layer.source.ref.unit_m > 0 && is_local(layer.own_crs);
+  if (is_scaled) layer.own_crs.clear();
+  return is_scaled;
+}
+
+void check_local_unit(const RawLayer& layer) {
+  const double unit_m = is_local(layer.own_crs) ? length_unit_m(layer.own_crs) : 1;
+  if (unit_m == 1) return;
+  throw InputError({layer.path()},
+                   "the CRS is " + crs_name(layer.own_crs) + ", in units of " + text(unit_m, 10) +
+                       " m, expected metres",
+                   layer.is_of_site()
+                       ? "bring its coordinates to metres"
+                       : option_words(layer.source.role, "--unit-m") + text(unit_m, 10) +
+                             " scales plan and heights to local metres");
+}
+
 // The system of the ground, which the frame follows.
 void place_ground(RawLayer& ground, RawInputs& raw) {
   const InputsRequest& request = raw.request;
   const std::vector<Vec3>& points = ground.lines.points;
+  const bool is_local_metres = make_local_metres(ground);
+  check_local_unit(ground);
   const bool is_beyond = is_beyond_degrees(ground.own_crs, points);
   if (is_beyond && !request.crs_given)
     throw InputError({ground.path()}, "the CRS is " + crs_name(ground.own_crs) + no_degrees,
                      way_to_name_crs);
-  ground.crs =
-      crs_said({ground.path(), is_beyond ? std::string() : ground.own_crs, window_of(points)},
-               request, raw.reading.notes);
+  if (!is_local_metres || request.crs_given)
+    ground.crs =
+        crs_said({ground.path(), is_beyond ? std::string() : ground.own_crs, window_of(points)},
+                 request, raw.reading.notes);
   ground.decide("system", crs_name(ground.crs),
-                ground.crs == ground.own_crs ? "the file says it" : "--crs");
+                is_local_metres                ? "--unit-m"
+                : ground.crs == ground.own_crs ? "the file says it"
+                                               : "--crs");
   if (ground.crs.empty() && !request.t_srs.empty())
     throw InputError({ground.path()}, "local metres cannot be reprojected", "leave --t-srs away");
   ground.is_in_frame = request.t_srs.empty() || same_crs(ground.crs, request.t_srs);
@@ -38,6 +63,8 @@ void place_ground(RawLayer& ground, RawInputs& raw) {
 // A layer without a system is in the frame; so is one whose system cannot be that of its
 // coordinates, but for those of a site, which no option names.
 void place_beside(RawLayer& layer, RawInputs& raw) {
+  make_local_metres(layer);
+  if (raw.frame.empty()) check_local_unit(layer);
   const bool is_beyond =
       layer.written == nullptr && is_beyond_degrees(layer.own_crs, layer.lines.points);
   layer.is_in_frame = layer.own_crs.empty() || raw.frame.empty() ||
@@ -59,12 +86,26 @@ void place_beside(RawLayer& layer, RawInputs& raw) {
                                 (is_beyond ? ": its coordinates are not degrees" : ""));
 }
 
+// Surveyors of some countries write y to the east and x to the north. A map with a place on the
+// Earth shows it, local metres do not: the ground would be its own mirror image.
+void doubt_local_axes(RawInputs& raw) {
+  if (!raw.frame.empty()) return;
+  for (const RawLayer& layer : raw.layers)
+    if (layer.source.is_y_first)
+      raw.reading.doubts.push_back(
+          doubt_on({layer.path()},
+                   "the column y stands before x, as where y is the easting, and local metres have "
+                   "no place that shows it; expected x to the east",
+                   "if y is the easting, exchange the names of the two columns"));
+}
+
 }  // namespace
 
 void declare_place(RawInputs& raw) {
   if (RawLayer* const ground = raw.ground()) place_ground(*ground, raw);
   for (RawLayer& layer : raw.layers)
     if (&layer != raw.ground() && !layer.lines.points.empty()) place_beside(layer, raw);
+  doubt_local_axes(raw);
 }
 
 void check_places(RawInputs& raw) {

@@ -212,6 +212,7 @@ OpenLayer open_layer(const LayerRef& ref, const LayerRole& role) {
   VectorDataset opened = open_vectors(path);
   source.dataset = opened.dataset;
   source.remarks = std::move(opened.remarks);
+  source.is_y_first = opened.is_y_first;
   source.filter = path.subset;
   find_drawing_field(source);
   if (!path.layer.empty())

@@ -48,6 +48,7 @@ struct OpenLayer {
   std::string name;    ///< of the layers, for messages: "index, intermediate"
   std::string filter;  ///< in effect; empty: none
   bool is_drawing = false;
+  bool is_y_first = false;  ///< a table whose columns are called y and x, in this order
   /// DXF, DGN: the one OGR layer holds all of the drawing's layers, whose names are in a field.
   std::string drawing_field;
   std::vector<std::string> wanted;  ///< of those; empty: the only one that holds the shape

@@ -70,6 +70,7 @@ VectorDataset table_as_dataset(const PointTable& table, const std::string& name)
     if (layer->CreateFeature(&feature) != OGRERR_NONE)
       throw InputError({columns.file, columns.line[row]}, "cannot be kept as a point");
   }
+  made.is_y_first = table.y < table.x && plain_name(columns.names[table.y]) == "y";
   made.remarks.push_back("x from " + columns.names[table.x] + ", y from " + columns.names[table.y] +
                          (table.is_degrees ? ", taken to be in EPSG:4326 (WGS 84)" : ""));
   return made;
@@ -187,7 +188,11 @@ VectorDataset open_vectors(const SourcePath& path) {
     throw InputError(
         {path.file},
         "cannot be opened as vectors" + (errors.failed() ? ": " + errors.failure() : std::string()),
-        way_to_open(source, "ogrinfo " + command_words(source) + " shows what GDAL makes of it"));
+        errors.failure().find("SHAPE_RESTORE_SHX") != std::string::npos
+            ? "make the index (.shx) anew: ogr2ogr --config SHAPE_RESTORE_SHX YES restored.gpkg " +
+                  command_words(source)
+            : way_to_open(source,
+                          "ogrinfo " + command_words(source) + " shows what GDAL makes of it"));
   check_tables(*opened.dataset, path.file);
   check_rows(*opened.dataset);
   return opened;

@@ -16,6 +16,7 @@ namespace talus {
 struct VectorDataset {
   std::shared_ptr<GDALDataset> dataset;
   std::vector<std::string> remarks;  ///< sentences: the member of an archive, columns of a table
+  bool is_y_first = false;           ///< a table whose columns are called y and x, in this order
 };
 
 /// Throws InputError when the source cannot be opened, is an archive with several, or has a table

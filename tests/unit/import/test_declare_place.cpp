@@ -37,6 +37,41 @@ TEST_F(DeclarePlace, ALayerWithoutASystemIsInTheFrame) {
   EXPECT_TRUE(same_crs(raw.layers[2].crs, degrees));
 }
 
+// y to the east and x to the north, as surveyors of some countries write them.
+TEST_F(DeclarePlace, LocalMetresWithYBeforeXAreDoubted) {
+  request.crs_given = true;
+  const auto n_doubts = [&](const char* names) {
+    const std::string path = (folder / "list.csv").string();
+    std::ofstream(path) << names << "\n1;2;5\n3;4;6\n4;1;6\n";
+    request.layers.clear();
+    ask(InputRole::points, path);
+    return declared().reading.doubts.size();
+  };
+  EXPECT_EQ(n_doubts("Y;X;H"), 1u);
+  EXPECT_EQ(n_doubts("X;Y;H"), 0u);
+  EXPECT_EQ(n_doubts("Hochwert;Rechtswert;H"), 0u);
+}
+
+TEST_F(DeclarePlace, ALocalSystemInFeetIsOfLocalMetresOnceItIsScaled) {
+  const char* const feet = R"(LOCAL_CS["site",UNIT["foot",0.3048]])";
+  const std::string path = (folder / "list.csv").string();
+  std::ofstream(path) << "X;Y;H\n1000;2000;500\n3000;4000;600\n4000;1000;600\n";
+  ask(InputRole::points, path);
+  request.crs_given = true;
+  request.crs = crs_from_user(feet, "a test");
+  EXPECT_NE(error_of([&] { (void)declared(); }).find("in foot of 0.3048 m"), std::string::npos);
+  request.layers[0].ref.unit_m = 0.3048;
+  RawInputs raw = open_all(request);
+  raw.layers[0].own_crs = request.crs;  // of the file
+  request.crs_given = false;
+  request.crs.clear();
+  declare_heights(raw);
+  declare_plan_units(raw);
+  declare_place(raw);
+  EXPECT_EQ(raw.frame, "");
+  EXPECT_NEAR(raw.layers[0].lines.points[0].x(), 304.8, 1e-9);
+}
+
 TEST_F(DeclarePlace, TheGroundItselfMustSayItsSystem) {
   ask(InputRole::contours, contours(0));
   EXPECT_NE(error_of([&] { (void)declared(); }).find("the coordinates are not degrees"),
