@@ -55,10 +55,12 @@ void check_elevations(const std::vector<Vec3>& points, const Vec3& origin, const
                               " m, expected at most " + text(highest_elevation) + " m either way";
   Doubt doubt = doubt_on(where, finding);
   if (!option.empty()) {
+    const MapWindow w = window_of(points);
     doubt = choice_of(where, finding,
-                      {{"as feet", in_metres(z, foot_m), option + text(foot_m)},
-                       {"as decimetres", in_metres(z, 0.1), option + "0.1"}});
-    doubt.hint += "; choose another field where this one holds no elevations";
+                      smaller_units(z.low, z.high, std::max(w.x_max - w.x_min, w.y_max - w.y_min),
+                                    [&](double unit_m) { return option + text(unit_m); }));
+    doubt.hint += std::string(doubt.hint.empty() ? "" : "; ") +
+                  "choose another field where this one holds no elevations";
   }
   doubt.at = {place};
   throw InputError(std::move(doubt));

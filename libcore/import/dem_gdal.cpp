@@ -100,6 +100,9 @@ void check_band(GDALDataset& dataset, const std::string& path, bool has_heights)
     readings.insert(readings.begin(),
                     {"as \"" + unit + "\"", rise_words(z.low * metres, z.high * metres, 0),
                      metres_command(metres, wkt_of(dataset.GetSpatialRef()), path)});
+  else
+    readings.push_back({"as feet", rise_words(z.low * foot_m, z.high * foot_m, 0),
+                        metres_command(foot_m, "", path)});
   throw InputError(
       choice_of({path}, "the elevations are in \"" + unit + "\", expected metres", readings));
 }
@@ -328,35 +331,28 @@ Where DemFile::where(std::size_t index, int row, int col, int n_cols) const {
               text(frame_.x(c), 10) + ", " + text(frame_.y(r), 10) + ")"};
 }
 
-// Most cells of a strip above every summit: whole numbers of a smaller unit.
+// Cells of a strip above every summit, most of them or of many values: numbers of a smaller unit.
 void DemFile::check_most_values(const double* raw, std::size_t n) const {
+  constexpr std::size_t few = 16;  // values that stand for nodata
   std::size_t n_known = 0, n_beyond = 0;
+  std::set<double> beyond;
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (std::size_t i = 0; i < n; ++i) {
     const double z = raw[i] * scale_ + offset_;
     if (std::isnan(z) || raw[i] == nodata_ || is_usual_nodata(raw[i])) continue;
     ++n_known;
-    if (std::abs(z) > highest_elevation) ++n_beyond;
+    if (std::abs(z) > highest_elevation) {
+      ++n_beyond;
+      if (beyond.size() <= few) beyond.insert(z);
+    }
     low = std::min(low, z), high = std::max(high, z);
   }
-  if (2 * n_beyond <= n_known || low == high) return;
-  struct Unit {
-    const char* name;
-    double metres;
-  };
-  std::vector<Reading> readings;
-  for (const Unit& unit : {Unit{"as feet", foot_m}, Unit{"as decimetres", 0.1},
-                           Unit{"as centimetres", 0.01}, Unit{"as millimetres", 0.001}}) {
-    if (high * unit.metres > highest_elevation) continue;
-    readings.push_back({unit.name,
-                        "they would be " + text(low * unit.metres, 8) + " to " +
-                            text(high * unit.metres, 8) + " m",
-                        metres_command(unit.metres, crs_, path_)});
-    if (unit.metres < 0.3) break;
-  }
+  if ((2 * n_beyond <= n_known && beyond.size() <= few) || low == high) return;
+  const double width = frame_.cell_size * (std::max(frame_.n_rows, frame_.n_cols) - 1);
   throw InputError(choice_of(
       {path_}, "the elevations are " + text(low, 8) + " to " + text(high, 8) + ", expected metres",
-      readings));
+      smaller_units(low, high, width,
+                    [&](double unit_m) { return metres_command(unit_m, crs_, path_); })));
 }
 
 void DemFile::check_value(double raw, const Where& place) const {

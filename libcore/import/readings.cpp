@@ -1,9 +1,12 @@
 // Refusals that list each possible reading of an input, and how to choose it.
 #include "import/readings.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "base/length_units.hpp"
 #include "base/text.hpp"
+#include "terrain/elevation.hpp"
 
 namespace talus {
 
@@ -28,6 +31,21 @@ Doubt choice_of_height_unit(const Where& where, double plan_unit_m, double low, 
           " m, and nothing says what unit the heights are in",
       {{"in that unit", rise_words(low * plan_unit_m, high * plan_unit_m, width), way_to_plan},
        {"in metres", rise_words(low, high, width), way_to_metres}});
+}
+
+std::vector<Reading> smaller_units(double low, double high, double width,
+                                   const std::function<std::string(double)>& way) {
+  struct Unit {
+    const char* name;
+    double metres;
+  };
+  std::vector<Reading> readings;
+  for (const Unit& unit : {Unit{"as feet", foot_m}, Unit{"as decimetres", 0.1},
+                           Unit{"as centimetres", 0.01}, Unit{"as millimetres", 0.001}})
+    if (std::max(std::abs(low), std::abs(high)) * unit.metres <= highest_elevation)
+      readings.push_back(
+          {unit.name, rise_words(low * unit.metres, high * unit.metres, width), way(unit.metres)});
+  return readings;
 }
 
 std::string length_words(double metres) {

@@ -3,6 +3,7 @@
 // reading on this very input, and with the key, option or command that decides.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,11 @@ struct Reading {
 [[nodiscard]] Doubt choice_of_height_unit(const Where& where, double plan_unit_m, double low,
                                           double high, double width, const std::string& way_to_plan,
                                           const std::string& way_to_metres);
+
+/// Units in which heights that are too large for metres are those of ground: feet, decimetres,
+/// centimetres, millimetres; `way` chooses a unit of so many metres.
+[[nodiscard]] std::vector<Reading> smaller_units(double low, double high, double width,
+                                                 const std::function<std::string(double)>& way);
 
 /// "3.2 km", "12 m", "0.8 mm"
 [[nodiscard]] std::string length_words(double metres);

@@ -17,6 +17,20 @@ TEST(Readings, EachSaysWhatItMakesOfTheInputAndTheOptionThatDecides) {
   EXPECT_EQ(doubt.hint, "in that unit: --elevation-unit-m 0.3048; in metres: --elevation-unit-m 1");
 }
 
+TEST(Readings, OfHeightsAreAllUnitsThatMakeGroundOfThem) {
+  const auto way = [](double unit_m) { return std::to_string(unit_m); };
+  const auto names = [&](double low, double high) {
+    std::string all;
+    for (const Reading& reading : smaller_units(low, high, 200, way)) all += reading.name + " ";
+    return all;
+  };
+  EXPECT_EQ(names(10000, 20000), "as feet as decimetres as centimetres as millimetres ");
+  EXPECT_EQ(names(100000, 110000), "as centimetres as millimetres ");
+  EXPECT_EQ(names(-100000, 5), "as centimetres as millimetres ");
+  EXPECT_EQ(smaller_units(10125, 20125, 200, way)[2].magnitude,
+            "the heights go from 101.25 to 201.25 m, 100 m over 200 m");
+}
+
 TEST(Readings, LengthsHaveTheUnitThatFits) {
   EXPECT_EQ(length_words(3204.5), "3.204 km");
   EXPECT_EQ(length_words(12), "12 m");
