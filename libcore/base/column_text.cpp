@@ -94,15 +94,6 @@ bool holds_value(std::string_view line) {
   return std::any_of(words.begin(), words.end(), has_digit_first);
 }
 
-void check_encoding(const std::string& text, const std::string& file) {
-  const std::string command = "iconv -f UTF-16 -t UTF-8 " + command_words(file) + " > columns.csv";
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    throw InputError({file}, "is written in UTF-16, expected UTF-8", command);
-  if (text.find('\0') != std::string::npos)
-    throw InputError({file}, "is not plain text (UTF-16, or binary), expected columns of numbers",
-                     "save it as CSV in UTF-8; of UTF-16: " + command);
-}
-
 std::string_view without_mark(const std::string& text) {
   std::string_view rest(text);
   if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);
@@ -164,6 +155,15 @@ std::string_view before_remark(std::string_view line) {
 }
 
 }  // namespace
+
+void check_encoding(const std::string& text, const std::string& file) {
+  const std::string command = "iconv -f UTF-16 -t UTF-8 " + command_words(file) + " > columns.csv";
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw InputError({file}, "is written in UTF-16, expected UTF-8", command);
+  if (text.find('\0') != std::string::npos)
+    throw InputError({file}, "is no plain text (UTF-16, or binary), expected columns of numbers",
+                     "save it as CSV in UTF-8; of UTF-16: " + command);
+}
 
 ColumnText parse_columns(const std::string& text, const std::string& file) {
   check_encoding(text, file);

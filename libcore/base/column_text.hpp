@@ -19,6 +19,9 @@ struct ColumnText {
   std::vector<int> line;                       ///< of each row, from 1
 };
 
+/// Throws InputError, with the command that corrects it, for text that is UTF-16 or none.
+void check_encoding(const std::string& text, const std::string& file);
+
 /// The delimiter is the first semicolon, tab, bar or comma in the first line with a number; without
 /// one, columns are separated by blanks (also in 180,7 21,6). Names are the last line without a
 /// number before that line: as many words as there are columns, or a remark of as many words. A

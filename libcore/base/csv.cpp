@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/column_text.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/printable.hpp"
@@ -64,6 +65,7 @@ double CsvTable::number(std::size_t row, const std::string& name) const {
 }
 
 CsvTable parse_csv(const std::string& content, const std::string& file, bool fill_short_rows) {
+  check_encoding(content, file);
   CsvTable table;
   table.file = file;
   constexpr std::string_view mark = "\xEF\xBB\xBF";  // that spreadsheet programs begin UTF-8 with

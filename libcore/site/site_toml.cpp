@@ -606,7 +606,7 @@ std::string way_to_toml(const std::string& finding, const std::string& text,
            " > utf8.toml";
   }
   if (says("redefine")) return "a section or key is in the file twice: put its keys in one place";
-  if (says("escape"))
+  if (says("escape") || says("unicode scalar"))
     return "a backslash begins a special sign: write / in paths, or put the text in single quotes";
   return "the file must be TOML: key = value, text in quotes, decimals with a point";
 }

@@ -168,9 +168,9 @@ struct Tool::Impl {
       throw InputError(
           {file}, "there is no such file",
           "check the path given for " + role +
-              (file.find_first_of("\n\t\b\r\f") != std::string::npos
-                   ? "; \\n and \\t in double quotes are a line break and a tab: write "
-                     "/, or put it in single quotes"
+              (file.find_first_of("\\\n\t\b\r\f") != std::string::npos
+                   ? "; write / between folders: a backslash begins a special sign in double "
+                     "quotes, and is part of a name elsewhere"
                    : ""));
     record.inputs.push_back(artifact_of(role, file));
     for (const std::string& member : sidecars_of(file))
