@@ -183,7 +183,7 @@ const std::vector<double>& HeightField::heights(const OpenLayer& source) const {
                      "make a field of numbers of it (field calculator of QGIS: "
                      "to_real(replace(\"" +
                          name_ + "\", '.', '')) for thousands, to_real(\"" + name_ +
-                         "\") for metres) and name it with " + option);
+                         "\") for metres) and name it with " + option + "FIELD");
   }
   for (const auto& [name, rival] : rivals_) {
     if (by_user_ || rival.contradiction.empty() || rival.low == rival.high) continue;

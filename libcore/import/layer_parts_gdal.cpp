@@ -3,6 +3,7 @@
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "base/source_path.hpp"
 #include "base/text.hpp"
@@ -99,7 +100,10 @@ class PartReader {
     const auto is_a = [&classes](const char* name) {
       return classes.find(name) != std::string::npos;
     };
-    is_label_ = is_a("AcDbText") || is_a("AcDbMText");
+    // drawings of AutoCAD R12, and DGN, name no classes
+    const char* const style = feature.GetStyleString();
+    is_label_ = is_a("AcDbText") || is_a("AcDbMText") ||
+                (style != nullptr && std::string_view(style).starts_with("LABEL("));
     is_spline_ = is_a("AcDbSpline");
     is_curve_ = is_curve_ || is_spline_ || is_a("AcDbCircle") || is_a("AcDbEllipse");
   }

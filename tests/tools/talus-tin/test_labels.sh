@@ -18,6 +18,10 @@ says "elevation from labels of layer CONTOURS"
 prints "12 contours, 24 points, every 10 m from 800 to 850 m"
 expect 0 talus-trn map.ply -o map.tif --cell-size-m 5
 prints "slope 26.6 degrees on average, up to 26.6"
+# a drawing of AutoCAD R12 names no classes of its entities
+awk '$0 == "100" { getline; next } 1' map.dxf >r12.dxf
+expect 0 talus-tin 'r12.dxf|layername=CONTOURS' --labels 'r12.dxf|layername=LABELS' --crs EPSG:32632 -o r12.ply
+cmp map.ply r12.ply || fail "the classes of entities make another TIN"
 drawing 5 >five.dxf
 expect 1 talus-tin 'five.dxf|layername=CONTOURS' --labels 'five.dxf|layername=LABELS' --crs EPSG:32632 -o bad.ply
 says "2 of 12 contours have no label, the first feature"
