@@ -133,17 +133,21 @@ GridFrame frame_like(const Options& o, const std::string& crs_wkt) {
   return talus::part_covering(lattice.frame(), o.window);
 }
 
+void check_order_of_window(const MapWindow& data, const Options& o) {
+  const auto other = talus::other_order_within(o.window, data);
+  if (!other) return;
+  const std::string words = text(other->x_min, 12) + "," + text(other->y_min, 12) + "," +
+                            text(other->x_max, 12) + "," + text(other->y_max, 12);
+  throw InputError({o.source},
+                   "--window " + o.window_text + " reaches beyond the data, " +
+                       window_as_text(data) +
+                       ", as XMIN,YMIN,XMAX,YMAX; in another order of "
+                       "its numbers it lies in them",
+                   "--window " + words + " (QGIS writes extents as xmin,xmax,ymin,ymax)");
+}
+
 void check_frame(const GridFrame& frame, const MapWindow& data, const Options& o) {
-  if (const auto other = talus::other_order_within(o.window, data)) {
-    const std::string words = text(other->x_min, 12) + "," + text(other->y_min, 12) + "," +
-                              text(other->x_max, 12) + "," + text(other->y_max, 12);
-    throw InputError({o.source},
-                     "--window " + o.window_text + " reaches beyond the data, " +
-                         window_as_text(data) +
-                         ", as XMIN,YMIN,XMAX,YMAX; in another order of "
-                         "its numbers it lies in them",
-                     "--window " + words + " (QGIS writes extents as xmin,xmax,ymin,ymax)");
-  }
+  check_order_of_window(data, o);
   const MapWindow common =
       talus::intersection(frame.empty() ? o.window : talus::extent(frame), data);
   if (common.x_min > common.x_max || common.y_min > common.y_max)
@@ -227,6 +231,7 @@ Ground ground_of_tin(Tool& tool, const Options& o) {
   if (natural_size <= 0)
     throw InputError({o.source}, "no triangle has an area in plan, expected a surface");
   const double size = o.cell_size_m > 0 ? o.cell_size_m : natural_size;
+  check_order_of_window(data, o);  // before a grid of the wrong window is made
   const MapWindow common = talus::intersection(o.window, data);
   GridFrame frame;
   if (!o.like.empty())
