@@ -52,7 +52,8 @@ CREATE INDEX event_run ON event (run_id);
 CREATE INDEX check_run ON "check" (run_id);
 )sql";
 
-constexpr const char* way_out = "name another registry with --db, or run with --no-db";
+constexpr const char* way_out =
+    "move it away, name another registry with --db, or run with --no-db";
 
 [[noreturn]] void refuse(const std::string& db, const std::string& finding) {
   throw InputError({db}, finding, way_out);

@@ -33,7 +33,7 @@ printf 'not a database' >broken.sqlite
 expect 1 talus-runs list --db broken.sqlite
 says "broken.sqlite"
 expect 1 frame-probe out.txt -o three.txt --db broken.sqlite
-says "hint: name another registry with --db, or run with --no-db"
+says "hint: move it away, name another registry with --db, or run with --no-db"
 nothing_left three.txt broken.sqlite.late-*
 
 # The id depends on content and options, not on names or on how often it was run.
