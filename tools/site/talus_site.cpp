@@ -192,12 +192,16 @@ std::string make_variables(const Site& site) {
   const auto words_of = [&site](const std::string& group, const auto& sections) {
     std::string words;
     for (const auto& section : sections) {
-      const std::string key = group + "." + section.name;
-      if (section.name.find_first_of(" #%/=@:") != std::string::npos)
-        throw InputError(where_of(site, key),
-                         "the name " + section.name + " cannot stand in a makefile",
-                         "use letters, digits and _-+,.");
-      words += " " + plain_name(section.name, where_of(site, key));
+      const auto cannot_stand = [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte < 0x80 && std::isalnum(byte) == 0 && std::strchr("_-+,.", c) == nullptr;
+      };
+      if (std::any_of(section.name.begin(), section.name.end(), cannot_stand))
+        throw InputError(
+            {site.file, section.line},
+            "the name of [" + group + "." + section.name + "] cannot stand in a makefile",
+            "use letters, digits and _-+,.");
+      words += " " + section.name;
     }
     return words;
   };

@@ -16,6 +16,7 @@ refused terrain contours '"contours.gpkg|layername=a\nall: ; touch hurt"' "line 
 refused 'hazard.class."x;touch hurt"' frequency_per_a 0.01 "cannot stand in a makefile"
 refused 'hazard.class."$(shell touch hurt)"' frequency_per_a 0.01 "cannot stand in a makefile"
 refused 'variant."x;touch hurt"' cost 1 "cannot stand in a makefile"
+refused 'variant."x=y"' cost 1 "use letters, digits and _-+,."
 refused 'fence."x\u001b[2J"' line '[[0, 0], [1, 1]]' 'the name x\x1b[2J'
 
 # a key of parts without end overflows no stack, neither in the file nor on the command line
