@@ -161,7 +161,7 @@ void check_encoding(const std::string& text, const std::string& file) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     throw InputError({file}, "is written in UTF-16, expected UTF-8", command);
   if (text.find('\0') != std::string::npos)
-    throw InputError({file}, "is no plain text (UTF-16, or binary), expected columns of numbers",
+    throw InputError({file}, "is not plain text (UTF-16, or binary), expected columns of numbers",
                      "save it as CSV in UTF-8; of UTF-16: " + command);
 }
 
