@@ -1,4 +1,4 @@
-// The words that files write for units of length.
+// Spellings of length units that input files hold, in metres; 0 for an unknown one.
 #include "base/length_units.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // libcore/base/printable.hpp: public
-// Text of strangers as it may reach a terminal, a table, a page or JSON: one rule for all of them.
+// Makes untrusted text safe to show on a terminal, in a table, a page or JSON: one rule for all.
 #pragma once
 
 #include <string>

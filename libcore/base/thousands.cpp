@@ -1,4 +1,6 @@
-// Whether a point in numbers written as text parts thousands.
+// Doubts whether a point in numbers written as text separates thousands: "1.234" for 1234. Only one
+// digit before it is doubted, as of heights above 1000 m: coordinates such as 412.345 are rounded
+// to millimetres more often. Any other number with a sign in it tells that the point is decimal.
 #include "base/thousands.hpp"
 
 namespace talus {

@@ -1,4 +1,4 @@
-// Areas in plan: rings, points and cells inside them, checks.
+// Areas in plan, as of the source: polygons with holes; points inside, and refusal of bad outlines.
 #include "blocks/area.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// record/part_file.hpp as HDF5.
+// Writes and reads parts as HDF5: many runs reduced to their first and last frame, their tables,
+// and their passages sorted by cell. Blocks, lines and objects that runs share are stored once.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -210,7 +211,8 @@ void write_runs(H5Writer& file, const Part& part) {
   const RunInfo& first = part.runs.front().info;
   file.attribute("", "format", std::string(format_name));
   file.attribute("", "format_version", format_version);
-  file.attribute("", "description", std::string("Runs of talus-dda without their frames"));
+  file.attribute("", "description",
+                 std::string("Runs of talus-dda with their first and last frame"));
   file.attribute("", "version", first.version);
   file.attribute("", "site", first.site);
   file.attribute("", "crs", first.crs_wkt);
@@ -352,6 +354,7 @@ void read_sets(const H5Reader& file, const std::string& path, Part& part) {
   check_index(part.lines_of_run, part.lines.size(), {path, 0, "runs/lines"});
   if (!file.has("objects")) {
     part.objects.resize(1);
+    check_index(part.objects_of_run, part.objects.size(), {path, 0, "runs/objects"});
     return;
   }
   const std::vector<RecordObject> objects = read_objects(file, path);
@@ -363,7 +366,7 @@ void read_sets(const H5Reader& file, const std::string& path, Part& part) {
   check_index(part.objects_of_run, part.objects.size(), {path, 0, "runs/objects"});
 }
 
-// Poses at the start and the end, and how far each block came.
+// Poses, velocities and phases in the first and the last frame.
 void write_ends(H5Writer& file, const Part& part) {
   file.group("ends", "first and last frame of each run, all blocks of a frame together");
   const auto times = [](const RunFile& run) { return run.frames.time; };

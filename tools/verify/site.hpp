@@ -1,6 +1,6 @@
 // tools/verify/site.hpp
-// Which time step, stiffness and strain setting a user's own scene needs: the cheapest whose answer
-// stays within a tolerance of the refined one.
+// Finds the cheapest time step, stiffness and strain setting for a user's own site: the result
+// stays within a tolerance of a refined run.
 #pragma once
 
 #include <string>

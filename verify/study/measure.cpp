@@ -1,4 +1,4 @@
-// Error beside run time: rows of cases, Pareto fronts, comparison of laws.
+// Accuracy versus CPU time of the verification cases: rows, Pareto fronts, comparison of laws.
 #include "verify/study/measure.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // verify/study/page.hpp
-// The page of a study, docs/evidence/verification.md: claims, references, errors, CPU times, tests;
-// diagrams, stability chart, savings of the scene plan, and parts not verified.
-// in:    everything that was measured, and the page's text with marks (page.md.in)
-// out:   Markdown, each figure of it from the measurements
+// Makes docs/evidence/verification.md, the report of talus-verify, from what was measured: cases,
+// diagrams, extreme settings, and what a scene saves by parts that it leaves out.
+// in:    the measurements, and a template with placeholders (page.md.in)
+// out:   Markdown whose numbers are those of the measurements
 #pragma once
 
 #include <optional>
@@ -18,19 +18,19 @@ namespace talus {
 /// A study; parts that were not run are empty.
 struct Study {
   std::string commit, commit_date, machine;
-  std::string command;  ///< that makes it again
+  std::string command;  ///< line that reproduces the study
   bool full = false;
-  std::vector<MeasuredCase> cases;  ///< those of the slide too
+  std::vector<MeasuredCase> cases;  ///< with those of the slide
   std::optional<SlideStudy> slide;
   std::vector<StabilityRow> corners;
   std::vector<OmissionRow> omissions;
 };
 
-/// How many corners came out how: "89 corners: 85 right, ...".
+/// Summary of the extreme settings (corners of the range of inputs): "89 corners: 85 right, ...".
 [[nodiscard]] std::string corner_counts(const std::vector<StabilityRow>& corners);
 
-/// `page_template`: content of page.md.in. `pictures`: where the diagrams are, as seen from the
-/// page, with a slash at its end or empty.
+/// `page_template`: content of page.md.in. `pictures`: prefix of the diagrams' paths as
+/// seen from the page, empty or with a slash at its end.
 [[nodiscard]] std::string study_page(const std::string& page_template, const Study& study,
                                      const std::string& pictures);
 
