@@ -21,7 +21,7 @@ site slope
 sed -i 's/^duration_s = .*/duration_s = 0.1/' slope/site.toml
 
 # inputs of a shard are made before, by one make
-refused "a shard makes runs alone: make prepare" SHARD=1 SHARDS=2 runs-shard
+refused "shards only compute runs: make prepare" SHARD=1 SHARDS=2 runs-shard
 made slope $few prepare
 prints "runs: 5 to make"
 [ -s slope/out/blocks.h5 ] || fail "prepare made no blocks"
