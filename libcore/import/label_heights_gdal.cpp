@@ -2,9 +2,12 @@
 // them.
 #include <gdal_priv.h>
 
+#include <algorithm>
+
 #include "base/column_text.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "base/thousands.hpp"
 #include "import/drawing_unit_gdal.hpp"
 #include "import/raw_inputs_gdal.hpp"
 #include "io/crs_gdal.hpp"
@@ -13,18 +16,36 @@
 namespace talus {
 namespace {
 
-// "1050", "1050 m", "1050,5"; other text is not the label of a height.
-bool parse_label(std::string words, double& height) {
+// "1050" of "1050 m".
+std::string without_metres(std::string words) {
   while (!words.empty() && (words.back() == 'm' || words.back() == ' ')) words.pop_back();
-  return parse_decimal(words, height);
+  return words;
+}
+
+// 1.010 and 1,010 may be 1.01 or 1010.
+void check_thousands(const RawLayer& labels, const ThousandsDoubt& doubt) {
+  if (!doubt.is_doubtful()) return;
+  std::string whole = doubt.first();
+  whole.erase(1, 1);
+  throw InputError({labels.path()},
+                   "labels say \"" + doubt.first() + "\", which may be " + doubt.first() +
+                       " m or, with a sign between thousands, " + whole + " m",
+                   "write them without the sign (field calculator of QGIS: replace(\"Text\", '.', "
+                   "'')), or metres with two decimals, and name that layer with --labels");
 }
 
 std::vector<Vec3> labels_with_heights(const RawLayer& labels, std::vector<std::string>& notes) {
   std::vector<Vec3> found;
+  ThousandsDoubt thousands;
   for (std::size_t i = 0; i < labels.lines.points.size(); ++i) {
     Vec3 label = labels.lines.points[i];
-    if (parse_label(labels.attributes[i].front(), label.z())) found.push_back(label);
+    std::string words = without_metres(labels.attributes[i].front());
+    if (!parse_decimal(words, label.z())) continue;  // not the label of a height
+    found.push_back(label);
+    std::replace(words.begin(), words.end(), ',', '.');
+    thousands.add(words);
   }
+  check_thousands(labels, thousands);
   const std::size_t n_other = labels.lines.points.size() - found.size();
   notes.push_back(without_layer(labels.path()) + ": " +
                   counted(static_cast<std::int64_t>(found.size()), "label") + " of heights" +

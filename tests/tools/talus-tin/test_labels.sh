@@ -22,6 +22,11 @@ prints "slope 26.6 degrees on average, up to 26.6"
 awk '$0 == "100" { getline; next } 1' map.dxf >r12.dxf
 expect 0 talus-tin 'r12.dxf|layername=CONTOURS' --labels 'r12.dxf|layername=LABELS' --crs EPSG:32632 -o r12.ply
 cmp map.ply r12.ply || fail "the classes of entities make another TIN"
+# a point that may part thousands
+sed 's/^8\([0-5]0\)\( m\)*$/1.8\1\2/' map.dxf >thousands.dxf
+expect 1 talus-tin 'thousands.dxf|layername=CONTOURS' --labels 'thousands.dxf|layername=LABELS' --crs EPSG:32632 -o bad.ply
+says 'labels say "1.800", which may be 1.800 m or, with a sign between thousands, 1800 m'
+nothing_left bad.ply
 drawing 5 >five.dxf
 expect 1 talus-tin 'five.dxf|layername=CONTOURS' --labels 'five.dxf|layername=LABELS' --crs EPSG:32632 -o bad.ply
 says "2 of 12 contours have no label, the first feature"
