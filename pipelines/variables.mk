@@ -1,6 +1,7 @@
 # Variables that make is given are checked before anything runs; numbers of runs are talus-batch's
 # (runs.mk).
-# in: OUT (site.mk), WITHOUT (runs.mk), LINE (profile.mk), VARIANT, BASE (variants.mk)
+# in: OUT (site.mk), CONTOURS, DEM (inputs.mk), WITHOUT (runs.mk), LINE (profile.mk), VARIANT, BASE
+#   (variants.mk)
 # out: an error with the expected values
 # A word of a rule and of a recipe: it cannot hold characters that make or the shell would split at
 # or run.
@@ -12,6 +13,14 @@ $(call one_word,$(OUT),OUT,a folder)
 override OUT := $(strip $(OUT))
 ifeq ($(realpath $(OUT)),$(realpath .))
 $(error OUT is $(OUT), the site's own folder, whose files results would replace: name another one)
+endif
+# Files of the ground: site.toml takes names that make would take apart.
+ifeq ($(filter new-site,$(MAKECMDGOALS)),)
+$(foreach name,CONTOURS DEM,$(if $(filter command environment,$(firstword $(origin $(name)))),$(if \
+  $(findstring :,$(firstword $(subst |, ,$($(name)))))$(if \
+  $(filter DEM,$(name)),$(word 2,$($(name)))),\
+  $(error $(name) is '$($(name))', whose colon or blank make would take for its own: name it in \
+  [terrain] of site.toml))))
 endif
 ifneq ($(LINE),)
 line_file := $(firstword $(subst |, ,$(LINE)))

@@ -18,6 +18,9 @@ for goal in clean all; do
   refused "OUT is out;rm, expected the name of a folder without ;" OUT="out;rm" $goal
 done
 refused "WITHOUT is 'maybe', expected yes or no" WITHOUT=maybe
+refused "DEM is 'a:b.tif', whose colon or blank make would take for its own" DEM=a:b.tif
+refused "DEM is 'a b.tif', whose colon or blank" DEM="a b.tif"
+refused "CONTOURS is 'a:b.gpkg|layername=x y', whose colon" CONTOURS="a:b.gpkg|layername=x y"
 # variables for talus-batch
 wrong() {
   expect 2 make -C "a slope" BIN= "$@"
