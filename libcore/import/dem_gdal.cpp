@@ -333,7 +333,7 @@ Where DemFile::where(std::size_t index, int row, int col, int n_cols) const {
 
 // Cells of a strip above every summit, most of them or of many values: numbers of a smaller unit.
 void DemFile::check_most_values(const double* raw, std::size_t n) const {
-  constexpr std::size_t few = 16;  // values that stand for nodata
+  constexpr std::size_t few = 4;  // values that stand for nodata
   std::size_t n_known = 0, n_beyond = 0;
   std::set<double> beyond;
   double low = HUGE_VAL, high = -HUGE_VAL;
