@@ -66,7 +66,7 @@ PY
 reach 'n == 1 and 0.5 < s < 0.95 and 0.1 < h < 0.2'
 sed -i 's/^half_width = .*/half_width = 0.13/' wall/site.toml
 made wall -j2 WITHOUT=no RUNS=auto places
-says 'runs do, intervals over 23 release cells'
+says 'runs are enough, intervals over 23 release cells'
 reach '1 < n < 64 and h <= 0.13'
 sed -i 's/^half_width = .*/half_width = 0.02/' wall/site.toml
 made wall -j2 WITHOUT=no RUNS=auto places

@@ -98,7 +98,7 @@ fence = "valley"
 half_width = 0.2
 END
 made auto -j2 WITHOUT=no RUNS=auto RUNS_MOST=12 maps
-says "--runs auto: 12 runs do"
+says "--runs auto: 12 runs are enough"
 sed -i 's/^half_width = .*/half_width = 0.01/' auto/site.toml
 made auto -j2 WITHOUT=no RUNS=auto RUNS_MOST=12 places
 says "--runs auto: 12 runs are not enough"
