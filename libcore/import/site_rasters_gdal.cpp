@@ -60,7 +60,7 @@ struct PixelRows {
     if (status != CE_None || errors.failed())
       throw InputError({path},
                        "reading row " + std::to_string(wanted) + " failed: " + errors.failure(),
-                       "the file is damaged or cut short: fetch it again");
+                       way_to_read(path, "the file is damaged or cut short: fetch it again"));
     row = wanted;
   }
 

@@ -191,7 +191,7 @@ VectorDataset open_vectors(const SourcePath& path) {
         errors.failure().find("SHAPE_RESTORE_SHX") != std::string::npos
             ? "make the index (.shx) anew: ogr2ogr --config SHAPE_RESTORE_SHX YES restored.gpkg " +
                   command_words(source)
-            : way_to_open(source,
+            : way_to_open(source, false,
                           "ogrinfo " + command_words(source) + " shows what GDAL makes of it"));
   check_tables(*opened.dataset, path.file);
   check_rows(*opened.dataset);

@@ -281,7 +281,7 @@ void check_tables(GDALDataset& database, const std::string& path) {
                      copy_of_own(path, false));
 }
 
-std::string way_to_open(const std::string& path, const std::string& otherwise) {
+std::string way_to_open(const std::string& path, bool as_raster, const std::string& otherwise) {
   struct Ending {
     const char* end;
     const char* way;
@@ -303,6 +303,13 @@ std::string way_to_open(const std::string& path, const std::string& otherwise) {
       return "files of the format " + std::string(driver->GetDescription()) +
              " may name other files: " +
              copy_of_own(path, driver->GetMetadataItem(GDAL_DCAP_RASTER) != nullptr);
+  const unsigned other = as_raster ? GDAL_OF_VECTOR : GDAL_OF_RASTER;
+  if (GDALDataset* const dataset = GDALDataset::Open(path.c_str(), other); dataset != nullptr) {
+    GDALClose(dataset);
+    return as_raster ? "it holds vectors, expected a raster; a terrain of contours or points is "
+                       "made by talus-tin, then talus-trn"
+                     : "it is a raster, expected vectors; an elevation model is for talus-trn";
+  }
   return otherwise;
 }
 

@@ -21,8 +21,9 @@ void check_virtual(const std::string& path);
 /// Throws InputError where a data base (SQLite, GeoPackage) has virtual tables that read files.
 void check_tables(GDALDataset& database, const std::string& path);
 
-/// The remedy where no driver opens a file: for a format that forbid_network() takes out, else
-/// `otherwise`.
-[[nodiscard]] std::string way_to_open(const std::string& path, const std::string& otherwise);
+/// The remedy where no driver opens a file as raster, or as vectors: for a format that
+/// forbid_network() takes out, for a file of the other kind, else `otherwise`.
+[[nodiscard]] std::string way_to_open(const std::string& path, bool as_raster,
+                                      const std::string& otherwise);
 
 }  // namespace talus

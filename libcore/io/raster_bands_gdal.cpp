@@ -1,14 +1,17 @@
 // Opens a raster and checks its band, mask and place on the map.
 #include "io/raster_bands_gdal.hpp"
 
+#include <cpl_vsi.h>
 #include <gdal_priv.h>
 #include <gdal_utils.h>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 #include <vector>
 
 #include "base/error.hpp"
@@ -115,17 +118,44 @@ void refuse_what_is_not_a_raster(const std::string& path) {
                      ground_points_command(path) + "; then talus-tin ground.csv --points");
 }
 
+// The first word of letters in the rows of a grid of text, not in the lines of its header: "nan",
+// "NA". Empty: its first bytes hold none.
+std::string word_in_grid(const std::string& source) {
+  std::string head(1 << 16, '\0');
+  VSILFILE* const file = VSIFOpenL(source.c_str(), "rb");
+  if (file == nullptr) return {};
+  head.resize(VSIFReadL(head.data(), 1, head.size(), file));
+  VSIFCloseL(file);
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  std::istringstream lines(head);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::vector<std::string> of_line;
+    for (std::string word; words >> word;) of_line.push_back(word);
+    if (of_line.size() == 2 && is_letter(of_line[0].front())) continue;
+    for (const std::string& word : of_line)
+      if (std::all_of(word.begin(), word.end(), is_letter)) return word;
+  }
+  return {};
+}
+
 }  // namespace
 
 void CloseDataset::operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 
 std::string way_to_read(const std::string& path, const std::string& otherwise) {
-  const std::string extension = extension_of(path);
-  constexpr std::size_t enough = 1 << 16;
-  if (extension == ".asc" && lower(first_bytes(path, enough)).find("nan") != std::string::npos)
-    return "GDAL takes no row that begins with nan: sed 's/[nN][aA][nN]/-9999/g' " +
-           command_words(path) + " > known.asc";
-  return otherwise;
+  const bool is_packed = extension_of(path) == ".gz";
+  const std::string name = is_packed ? path.substr(0, path.size() - 3) : path;
+  if (extension_of(name) != ".asc") return otherwise;
+  const std::string word = word_in_grid(is_packed ? "/vsigzip/" + path : path);
+  if (word.empty()) return otherwise;
+  const bool is_nan = lower(word) == "nan";
+  const std::string sed =
+      "sed 's/" + (is_nan ? "[nN][aA][nN]" : "\\b" + word + "\\b") + "/-9999/g'";
+  return "GDAL takes no row that begins with " + (is_nan ? "nan" : word) + ": " +
+         (is_packed ? "gunzip -c " + shell_word(path) + " | " + sed
+                    : sed + " " + command_words(path)) +
+         " > known.asc";
 }
 
 Dataset open_raster(const std::string& path) {
@@ -138,8 +168,9 @@ Dataset open_raster(const std::string& path) {
   Dataset dataset(GDALDataset::Open(source.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
   if (!dataset)
     throw InputError({path}, "cannot be opened as a raster: " + errors.failure(),
-                     way_to_open(source, way_to_read(path, "gdalinfo " + command_words(path) +
-                                                               " shows what GDAL makes of it")));
+                     way_to_open(source, true,
+                                 way_to_read(path, "gdalinfo " + command_words(path) +
+                                                       " shows what GDAL makes of it")));
   check_tables(*dataset, path);
   refuse_several_rasters(*dataset, path);
   return dataset;

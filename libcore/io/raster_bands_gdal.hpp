@@ -25,8 +25,8 @@ using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 /// (subdatasets of a GeoPackage, netCDF or HDF5 file, pages of a TIFF), with GDAL's names for them.
 [[nodiscard]] Dataset open_raster(const std::string& path);
 
-/// The remedy for a grid of text that GDAL reads no further than a row that begins with nan; for
-/// other rasters `otherwise`.
+/// The remedy for a grid of text that GDAL reads no further than a row that begins with a word
+/// (nan, NA); for other rasters `otherwise`.
 [[nodiscard]] std::string way_to_read(const std::string& path, const std::string& otherwise);
 
 /// Throws InputError where the raster has no geotransform: with a remedy where it has ground

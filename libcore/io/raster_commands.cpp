@@ -2,6 +2,7 @@
 #include "io/raster_commands.hpp"
 
 #include <filesystem>
+#include <system_error>
 
 #include "base/source_path.hpp"
 #include "base/text.hpp"
@@ -13,9 +14,12 @@ std::string with_blank(const std::string& options) {
   return options.empty() ? std::string() : options + " ";
 }
 
-// A name other than that of the file that is read.
+// A name other than that of the file that is read, and of a file that is there: the result of
+// another such command.
 std::string other_name(const std::string& from, std::string to) {
-  while (std::filesystem::path(from).filename() == to) to = "again_" + to;
+  std::error_code error;
+  while (std::filesystem::path(from).filename() == to || std::filesystem::exists(to, error))
+    to = "again_" + to;
   return to;
 }
 

@@ -9,12 +9,12 @@ namespace talus {
 /// Kind of the cells of a raster: decides how it is resampled.
 enum class CellKind { heights, values, classes };
 
-/// gdalwarp of `from` to a file called `to`: cells beyond the edge of `from` are unknown.
-/// `options`: further words, "-t_srs EPSG:32632"; may be empty.
+/// gdalwarp of `from` to a file called `to`, or otherwise where there is one: cells beyond the edge
+/// of `from` are unknown. `options`: further words, "-t_srs EPSG:32632"; may be empty.
 [[nodiscard]] std::string warp_command(CellKind kind, const std::string& options,
                                        const std::string& from, const std::string& to);
 
-/// gdal_translate of `from` to a file called `to`, which is another name where `from` has it.
+/// gdal_translate of `from` to a file called `to`, or otherwise where there is one.
 [[nodiscard]] std::string translate_command(const std::string& options, const std::string& from,
                                             const std::string& to);
 

@@ -131,21 +131,21 @@ for name, metres in (('dm', .1), ('cm', .01), ('mm', .001), ('ft', FEET), ('US s
 in_unit('Meereshoehe', 1)
 
 
-@row(TRN, 'as centimetres they would be', 'gdal_translate')
+@row(TRN, 'as centimetres the heights go', 'gdal_translate')
 def whole_centimetres(plane):
     plane.z0 = max(plane.z0, 1000)  # low ground in centimetres may as well be in metres
     dem('dem.tif', plane, height_factor=100, kind=gdal.GDT_Int32)
     return 'dem.tif'
 
 
-@row(TRN, 'as decimetres they would be', 'gdal_translate#1', tolerance=.051)
+@row(TRN, 'as decimetres the heights go', 'gdal_translate#1', tolerance=.051)
 def whole_decimetres(plane):
     plane.z0 = max(plane.z0, 1000)
     dem('dem.tif', plane, height_factor=10, kind=gdal.GDT_Int32)
     return 'dem.tif'
 
 
-@row(TRN, 'as feet they would be', 'gdal_translate')
+@row(TRN, 'as feet the heights go', 'gdal_translate')
 def high_ground_in_feet(plane):
     plane.z0 = 3000
     dem('dem.tif', plane, height_factor=1 / FEET)
@@ -163,6 +163,14 @@ def grid_with_nan(plane, at):
 @row(TRN, 'that begins with nan', 'sed', options='--crs EPSG:25832', share=.8)
 def nan_first(plane):
     return grid_with_nan(plane, 0)
+
+
+@row(TRN, 'rows 0 to 39', 'sed', options='--crs EPSG:25832', share=.8)
+def na_first(plane):
+    rows = [' '.join(f'{z:.2f}' for z in row) for row in plane.cells()]
+    rows[:3] = [' '.join(['NA'] * 8 + row.split()[8:]) for row in rows[:3]]
+    write('dem.asc', f'ncols 40\nnrows 40\nxllcorner {X0}\nyllcorner {Y0}\ncellsize 5\nNODATA_value NA\n' + '\n'.join(rows))
+    return 'dem.asc'
 
 
 @row(TRN, '8 bits', 'gdal_translate', tolerance=.6)
@@ -183,6 +191,19 @@ def system_of_heights_in_feet(plane):
 def local_feet(plane):
     dem('dem.tif', plane, factor=1 / FEET, code='LOCAL_CS["site",UNIT["foot",0.3048]]', kind=gdal.GDT_Float64)
     return 'dem.tif'
+
+
+@row(TIN, 'SHAPE_RESTORE_SHX', 'ogr2ogr')
+def shapefile_without_index(plane):
+    contours('map.shp', plane, driver='ESRI Shapefile')
+    os.remove('map.shx')
+    return 'map.shp'
+
+
+@row(TIN, 'in units of 0.3048 m', '--unit-m 0.3048')
+def local_contours_in_feet(plane):
+    contours('map.gpkg', plane, factor=1 / FEET, z=True, code='LOCAL_CS["site",UNIT["foot",0.3048]]')
+    return 'map.gpkg'
 
 
 @row(TRN, 'there is no CRS', '--crs EPSG:code', '--crs none', fill={'EPSG:code': CODE})

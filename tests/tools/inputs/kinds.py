@@ -50,9 +50,16 @@ def zone_4_called_utm(plane):
     return 'dem.asc'
 
 
-@kind(TRN, 'as decimetres they would be 1001')
+@kind(TRN, 'as decimetres the heights go from 1001')
 def decimetres(plane):
     dem('dem.tif', plane, height_factor=10, kind=gdal.GDT_Int32)
+    return 'dem.tif'
+
+
+@kind(TRN, 'as centimetres the heights go from 11')
+def centimetres_of_low_ground(plane):  # most cells below 9,000
+    plane.z0 = 10
+    dem('dem.tif', plane, height_factor=100, kind=gdal.GDT_Int32)
     return 'dem.tif'
 
 
@@ -116,6 +123,18 @@ def tiles_in_tar_gz(plane):
         archive.add('dem.tif')
     os.remove('dem.tif')
     return 'dem.tar.gz'
+
+
+@kind(TIN, 'an elevation model is for talus-trn')
+def elevation_model_as_contours(plane):
+    dem('dem.tif', plane)
+    return 'dem.tif'
+
+
+@kind(TRN, 'made by talus-tin')
+def contours_as_elevation_model(plane):
+    contours('map.gpkg', plane)
+    return 'map.gpkg'
 
 
 @kind(TIN, 'save it as DXF')
@@ -200,6 +219,18 @@ def hochwert_first(plane):
     return table('list.csv', plane, lambda k, x, y, z: f'{y:.2f};{x:.2f};{z:.2f}', 'X;Y;H\n')
 
 
+@kind(TIN, 'point number', '--points --crs none')
+def pnez_of_whole_metres(plane):
+    plane.x0, plane.y0 = 1000, 500
+    return table('list.csv', plane, lambda k, x, y, z: f'{17 * k % 401 + 100},{y:.0f},{x:.0f},{z:.0f}')
+
+
+@kind(TIN, 'stands before x', '--points --crs none')
+def local_y_before_x(plane):
+    plane.x0, plane.y0 = 1000, 500
+    return table('list.csv', plane, lambda k, x, y, z: f'{x:.2f};{y:.2f};{z:.2f}', 'Y;X;H\n')
+
+
 def parted(sign, point):
     @kind(TIN, 'thousands|expected a number', '--points --crs EPSG:25832')
     def thousands(plane):
@@ -241,12 +272,6 @@ def spot_on_a_breakline(plane):
     return 'map.gpkg'
 
 
-@kind(TIN, 'in foot of|in units of', '')
-def local_contours_in_feet(plane):
-    contours('map.gpkg', plane, factor=1 / FEET, code='LOCAL_CS["site",UNIT["foot",0.3048]]')
-    return 'map.gpkg'
-
-
 @kind(TIN, '')
 def contours_far_west(plane):
     plane.x0, plane.y0, plane.code = -30000, 6735000, 'EPSG:25833'
@@ -280,6 +305,24 @@ def mesh_with_y_up(plane):
     write('ground.obj', ''.join(f'v {x} {z} {-y}\n' for x, y, z in vertices.tolist()) +
           ''.join('f ' + ' '.join(f'{i + 1}' for i in face) + '\n' for face in faces))
     return 'ground.obj'
+
+
+def obj(path, vertices, faces):
+    write(path, ''.join(f'v {x!r} {y!r} {z!r}\n' for x, y, z in vertices.tolist()) +
+          ''.join('f ' + ' '.join(f'{i + 1}' for i in face) + '\n' for face in faces))
+    return path
+
+
+@kind(TRN, '--window 650040,5200040,650160,5200160', '--crs EPSG:25832 --cell-size-m 5 --window 650040,650160,5200040,5200160')
+def extent_of_a_mesh(plane):
+    return obj('ground.obj', *mesh(plane))
+
+
+@kind(TRN, 'single precision', '--crs EPSG:25832 --cell-size-m 5', tolerance=.2)
+def mesh_in_single_precision(plane):
+    plane.x0, plane.y0 = X0 + .37, Y0 + .41
+    vertices, faces = mesh(plane)
+    return obj('ground.obj', vertices.astype(np.float32).astype(float), faces)
 
 
 # --- what lies on the ground ---------------------------------------------------------------------
@@ -330,6 +373,39 @@ def ply_of_single_precision(plane):
 
 
 @on_site
+def obj_of_seven_digits(plane):
+    x, y = 650100.37, 5200100.61
+    corners = [(x + a, y + b, plane.z(x, y) + 1 + c) for c in (0, 1.1) for b in (0, 1.3) for a in (0, 2)]
+    faces = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
+    write('rock.obj', ''.join('v %.7g %.7g %.7g\n' % c for c in corners) + ''.join('f %d %d %d %d\n' % f for f in faces))
+    run('[blocks.b]\nfile = "rock.obj"\nin_place = true\n[material.rock]\n', 'warning: .* 7 digits', tool='talus-blocks')
+
+
+@on_site
+def motion_in_utf16(_plane):
+    with open('q.csv', 'w', encoding='utf-16') as file:
+        file.write('time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0\n1,1,0,0\n')
+    run(BLOCK + END + '[base_motion]\nfile = "q.csv"\n', 'iconv -f UTF-16')
+
+
+@on_site
+def backslash_u_in_a_path(_plane):
+    run('[blocks.b]\nfile = "D:\\users\\rock.obj"\n' + END, 'write / in paths')
+
+
+@on_site
+def backslashes_in_single_quotes(_plane):
+    run("[blocks.b]\nfile = 'data\\rock.obj'\n" + END, 'write / between folders')
+
+
+@on_site
+def joints_in_german_degrees(_plane):
+    rows = ''.join(f'{200 + k % 7};{40 + k % 5}\n' for k in range(40))
+    write('j.csv', 'Fallrichtung [Grad];Fallwinkel [Grad]\n' + rows)
+    run(joints('[joints.a]\nmeasured_file = "j.csv"\nspacing_m = 8\n'), 'two meanings', tool='talus-blocks')
+
+
+@on_site
 def stems_in_inches(plane):
     places = [(f'POINT ({X0 + 5 + 10 * i} {Y0 + 5 + 10 * j})', {'dbh_cm': 3500.0}) for i in range(19) for j in range(19)]
     shapes('stems.gpkg', places, fields=[('dbh_cm', ogr.OFTReal)])
@@ -349,6 +425,14 @@ def classes_with_oblong_cells(plane):
     status, said = run('[terrain]\nground_raster = "classes.tif"\n[ground.smooth]\nfriction_deg = 5\nraster_values = [0]\n'
                        '[ground.elsewhere]\nfriction_deg = 50\n' + BLOCK + END, '')
     assert status == 0 or 'gdalwarp' in said and '-dstnodata' in said, said
+
+
+@on_site
+def classes_that_begin_with_nan(_plane):
+    write('classes.asc', f'ncols 40\nnrows 40\nxllcorner {X0}\nyllcorner {Y0}\ncellsize 5\nNODATA_value nan\n' +
+          ' '.join(['nan'] * 5 + ['0'] * 35) + '\n' + ('0 ' * 40 + '\n') * 39)
+    run('[terrain]\nground_raster = "classes.asc"\n[ground.smooth]\nfriction_deg = 5\nraster_values = [0]\n'
+        '[ground.elsewhere]\nfriction_deg = 50\n' + BLOCK + END, 'sed .* > known.asc')
 
 
 @on_site
