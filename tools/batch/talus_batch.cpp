@@ -448,7 +448,8 @@ void make_as_many_as_needed(Tool& tool, BatchPlan& plan, int n_jobs, int first, 
     const std::string words = "--runs auto: " + counted(n, "run") + " are",
                       over = ", intervals over " + lacking.over;
     if (lacking.n == 0 && lacking.help) return tool.info(words + " enough" + over);
-    if (lacking.n == 0) return tool.warn(words + " not enough" + over + ", and more runs do not help");
+    if (lacking.n == 0)
+      return tool.warn(words + " not enough" + over + ", and more runs do not help");
     if (n < most) continue;
     return tool.info(words + " not enough" + over + ", " + std::to_string(lacking.n) +
                      " more would be needed: --most " + std::to_string(n + lacking.n) +
