@@ -41,6 +41,7 @@ constexpr GoneKey gone_keys[] = {
     {"output", "strain", "strain = \"on\" in [solver], which records them, too"},
     {"blocks", "n_sides", "nothing: a prism has six sides; a file holds any other"},
     {"blocks", "y_up", "roll_deg = 90"},
+    {"blocks", "in_place", "nothing: a mesh without position_m has map coordinates"},
     {"fence", "line_file", R"(file = "FILE")"},
     {"fence", "line_layer", R"(file = "FILE|layername=LAYER")"},
     {"fence", "line_where", R"(file = "FILE|subset=FILTER")"},

@@ -257,7 +257,6 @@ struct BodySettings {
 
 /// [blocks.NAME]: bodies that rest on one another and move together.
 struct PlacedSettings : BodySettings {
-  bool in_place = false;  ///< the mesh has map coordinates
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
   bool random_orientation = false;
 };

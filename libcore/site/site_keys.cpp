@@ -276,7 +276,7 @@ std::vector<SiteKey<S>> body_keys(const char* shapes) {
       {"volume_m3", &S::volume_m3, "volume that the body is scaled to", positive},
       {"n_points", &S::n_points, "points of a rock", {4, 500}},
       {"material", &S::material, "material of the bodies"},
-      {"position_m", &S::position_m, "x, y or x, y, z of each body", any, "", "", 1},
+      {"position_m", &S::position_m, "x, y or x, y, z of each body; a mesh of [blocks.*] without it has map coordinates", any, "", "", 1},
       {"height_above_ground_m", &S::height_above_ground_m, "height of the lowest vertex above the ground", {0, 100000}},
       {"velocity_m_s", &S::velocity_m_s, "initial velocity x, y, z", any, "", "", 3, 3},
       {"spin_rad_s", &S::spin_rad_s, "initial spin x, y, z", any, "", "", 3, 3},
@@ -292,7 +292,6 @@ template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
   using S = PlacedSettings;
   static const std::vector<SiteKey<S>> table = with_body_keys<S>("box|prism|eota|eota111|eota211|eota221|rock", {
       {"scale", &S::scale, "factor on the mesh", positive},
-      {"in_place", &S::in_place, "the mesh has map coordinates and is not moved"},
       {"yaw_deg", &S::yaw_deg, "rotation about z, applied last", {-360, 360}},
       {"pitch_deg", &S::pitch_deg, "rotation about y", {-360, 360}},
       {"roll_deg", &S::roll_deg, "rotation about x, applied first", {-360, 360}},

@@ -46,7 +46,7 @@ class Columns:
         poured += f"position_m = {self.places(n, radius)}\n[fence.wall]\nline = {circle}\nheight_m = 40\npost_spacing_m = 2\n"
         self.tools.simulate(f"poured_{name}", poured, "floor").close()
         self.tools.run("talus-export", f"poured_{name}.h5", "-o", f"{name}.obj")
-        with self.tools.simulate(name, site + f'file = "{name}.obj"\nin_place = true\n', "floor") as run:
+        with self.tools.simulate(name, site + f'file = "{name}.obj"\n', "floor") as run:
             at = run["frames/position_m"][:] + run["frames"].attrs["origin_m"]
             mass = run["blocks/mass_kg"][:]
         height = 2 * np.average(at[0, :, 2], weights=mass)

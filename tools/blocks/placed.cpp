@@ -12,15 +12,14 @@
 namespace talus {
 namespace {
 
-// Bodies of a mesh as written in it, in map coordinates.
+// Bodies of a mesh without a place: as written in it, in map coordinates.
 std::vector<Body> bodies_in_place(const BodySection& section) {
-  if (section.body.file.empty()) throw InputError(section.where(), "in_place needs a mesh file");
   std::vector<Body> bodies = mesh_bodies(section, true);
   int n_below = 0;
   for (const Body& body : bodies) {
     if (std::isnan(clearance(body, section.ground)))
       throw InputError(section.where(), "the mesh does not lie over known ground",
-                       "in_place takes map coordinates; without it, give position_m");
+                       "give map coordinates in the mesh, or position_m");
     n_below += is_below(body, section.ground);
   }
   if (n_below > 0)
@@ -42,7 +41,7 @@ std::vector<Body> bodies_to_copy(const BodySection& section) {
 void add_section(const BodySection& section, const PlacedSettings& settings, BlockSet& set) {
   check_form(section);
   const Vec3 velocity = vector_of(settings.velocity_m_s), spin = vector_of(settings.spin_rad_s);
-  if (settings.in_place) {
+  if (!settings.file.empty() && settings.position_m.empty()) {
     add_bodies(section, velocity, spin, 1, bodies_in_place(section), set);
     return;
   }

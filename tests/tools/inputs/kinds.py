@@ -369,7 +369,7 @@ def ply_of_single_precision(plane):
     write('rock.ply', b'ply\nformat binary_little_endian 1.0\nelement vertex 8\nproperty float x\nproperty float y\n'
           b'property float z\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n' +
           b''.join(struct.pack('<3f', *c) for c in corners) + b''.join(struct.pack('<B4i', 4, *f) for f in faces))
-    run('[blocks.b]\nfile = "rock.ply"\nin_place = true\n[material.rock]\n', 'precision|rounded', tool='talus-blocks')
+    run('[blocks.b]\nfile = "rock.ply"\n[material.rock]\n', 'precision|rounded', tool='talus-blocks')
 
 
 @on_site

@@ -5,7 +5,7 @@ expect 0 talus-trn "$source_dir/tests/data/terrain_F.asc" -o trn.tif --crs none 
 
 # mass FILE N: the file gives N blocks of the volumes with which it was made, 4,000 m3 for 39
 mass() {
-  printf '%s\n' '[site]' '[blocks.mass]' "file = \"$1\"" 'in_place = true' '[material.rock]' >site.toml
+  printf '%s\n' '[site]' '[blocks.mass]' "file = \"$1\"" '[material.rock]' >site.toml
   expect 0 blocks --overwrite --report r.json
   [ "$(value r.json n_blocks)" -eq "$2" ] || fail "$1: $(value r.json n_blocks) blocks, expected $2"
   holds "($(value r.json volume_m3) - $2 * 4000 / 39) ^ 2 < 1e-10 * $2"

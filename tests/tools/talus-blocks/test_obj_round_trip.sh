@@ -9,8 +9,7 @@ holds "$(value r.json n_divided) > 0 && $(value r.json n_kept_exact) > 0"
 divided=$(grep -c '^g block_[0-9]*_part_1$' blocks.obj)
 [ "$divided" -eq "$(value r.json n_divided)" ] || fail "$divided objects with parts, not one a divided block"
 
-printf '%s\n' '[site]' 'crs = "EPSG:32633"' '[material.rock]' '[blocks.back]' 'file = "blocks.obj"' \
-  'in_place = true' >site.toml
+printf '%s\n' '[site]' 'crs = "EPSG:32633"' '[material.rock]' '[blocks.back]' 'file = "blocks.obj"' >site.toml
 expect 0 talus-blocks site.toml --trn trn.tif -o back.h5 --no-db --report back.json --footprints back.gpkg
 [ "$(value back.json n_blocks)" -eq "$n" ] || fail "$(value back.json n_blocks) blocks came back, expected $n"
 holds "($(value back.json volume_m3) / $(value r.json volume_m3) - 1) ^ 2 < 1e-18"
@@ -33,7 +32,7 @@ name=$(sed -n 's/^g \(block_[0-9]*\)_part_1$/\1/p' blocks.obj | head -n 1)
 awk -v name="$name" '$1 == "o" { is_it = $2 == name; first = n } $1 == "v" { ++n }
   is_it && $1 == "f" { for (i = 2; i <= NF; ++i) $i -= first } is_it' blocks.obj >one.obj
 read_again() {
-  printf '%s\n' '[site]' 'crs = "EPSG:32633"' '[blocks.one]' 'file = "changed.obj"' 'in_place = true' \
+  printf '%s\n' '[site]' 'crs = "EPSG:32633"' '[blocks.one]' 'file = "changed.obj"' \
     '[material.rock]' >site.toml
   expect "$1" blocks --overwrite --report one.json
 }

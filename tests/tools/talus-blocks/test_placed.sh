@@ -60,6 +60,13 @@ says "a body at (600020, 5200020) does not lie over known ground"
 placed 'shape = "box"' 'size_m = [1]'
 expect 1 blocks --overwrite
 says "the bodies have no place"
+placed 'file = "cube.obj"'
+expect 1 blocks --overwrite
+says "the mesh does not lie over known ground"
+says "give map coordinates in the mesh, or position_m"
+placed 'file = "cube.obj"' 'in_place = true'
+expect 1 blocks --overwrite
+says "the key in_place of [blocks.one] is gone"
 placed 'file = "cube.obj"' 'shape = "box"' 'position_m = [500020, 5200020]'
 expect 1 blocks --overwrite
 says "both file and shape are given"
@@ -94,6 +101,6 @@ placed 'file = "nested.obj"' 'position_m = [500020, 5200020]'
 expect 0 blocks --overwrite
 says '1 pairs of bodies overlap, most of all one and two: 100 % of the smaller one'
 awk '$1 == "v" { printf "v %.2f %.2f %.2f\n", $2 + 500020, $3 + 5200020, $4 + 20; next } { print }' cube.obj >deep.obj
-placed 'file = "deep.obj"' 'in_place = true'
+placed 'file = "deep.obj"'
 expect 0 blocks --overwrite
 says '1 bodies lie wholly below the ground'

@@ -45,7 +45,7 @@ PY
 
 # blocks that were exported are blocks again
 expect 0 talus-export run.h5 -o deposit.obj --no-db
-awk '/^shape/ { print "file = \"deposit.obj\"\nin_place = true"; next } !/^(size_m|position_m|height_above|spin)/' site.toml >again.toml
+awk '/^shape/ { print "file = \"deposit.obj\""; next } !/^(size_m|position_m|height_above|spin)/' site.toml >again.toml
 expect 0 talus-blocks again.toml --trn slope.tif -o again.h5 --no-db --report again.json
 grep -q '"n_blocks": 3' again.json || fail "the exported blocks are not three"
 
