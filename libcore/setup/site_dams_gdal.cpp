@@ -70,21 +70,24 @@ std::vector<Doubt> doubts_on(const BuiltDam& built, const Where& where, const Tr
   const DamBurn& burn = built.burn;
   const Vec2 first = shape.line.front();
   const double least = cells_of_a_part * trn.cell_size;
+  const std::string crest = shape.is_gallery ? "roof" : "crest";
+  const std::string held = shape.is_gallery
+                               ? ""
+                               : " and holds " + text(std::round(burn.in_cells.fill)) + " of its " +
+                                     text(std::round(burn.designed.fill)) + " m3";
   std::vector<Doubt> doubts;
   if (shape.crest_width < least)
-    doubts.push_back(doubt_on_cells(where, "crest_width_m",
-                                    "the terrain lies up to " + text(burn.crest_loss, 3) +
-                                        " m below the crest and holds " +
-                                        text(std::round(burn.in_cells.fill)) + " of its " +
-                                        text(std::round(burn.designed.fill)) + " m3",
-                                    shape.crest_width, least, trn, burn.crest_loss_at));
+    doubts.push_back(doubt_on_cells(
+        where, "crest_width_m",
+        "the terrain lies up to " + text(burn.crest_loss, 3) + " m below the " + crest + held,
+        shape.crest_width, least, trn, burn.crest_loss_at));
   if (shape.ditch_depth > 0 && shape.ditch_width < least)
     doubts.push_back(doubt_on_cells(where, "ditch_m",
                                     "the terrain has " + text(std::round(burn.in_cells.cut)) +
                                         " of its " + text(std::round(burn.designed.cut)) + " m3",
                                     shape.ditch_width, least, trn, first));
   const double run = shape.height / shape.tan_uphill;
-  if (run < trn.cell_size)
+  if (!shape.is_gallery && run < trn.cell_size)
     doubts.push_back(doubt_on_cells(
         where, "slopes_deg",
         "the uphill face runs so far in plan; in the cells it is at most " +
@@ -94,11 +97,11 @@ std::vector<Doubt> doubts_on(const BuiltDam& built, const Where& where, const Tr
       std::max(built.dam.most_height - shape.height, shape.height - built.dam.least_height);
   if (off > other_height * shape.height) {
     Doubt doubt = doubt_on(where,
-                           "the crest stands " + text(built.dam.least_height, 3) + " to " +
+                           "the " + crest + " stands " + text(built.dam.least_height, 3) + " to " +
                                text(built.dam.most_height, 3) +
                                " m above the ground between the points of its line, height_m is " +
                                text(shape.height, 3),
-                           "give the line more points: the crest is straight between them");
+                           "give the line more points: the " + crest + " is straight between them");
     doubts.push_back(std::move(doubt));
   }
   return doubts;
@@ -112,9 +115,21 @@ void check_share_no_node(const Site& site, const DamSettings& settings, const Bu
     const Vec3 at = node_point(trn, node / trn.n_cols, node % trn.n_cols);
     throw InputError(
         where_of_dam(site, settings),
-        "shares ground with dam " + known->second + " at " + place_text(trn, at.head<2>()),
+        "shares ground with dam." + known->second + " at " + place_text(trn, at.head<2>()),
         "draw them as one line, or farther apart");
   }
+}
+
+// The faces of a gallery are vertical, it has no ditch, and nothing judges its strength.
+void check_gallery_keys(const Where& where, const DamSettings& settings) {
+  if (settings.kind != "gallery") return;
+  const auto refuse = [&where](const char* key) {
+    throw InputError(where, std::string("is a gallery with ") + key,
+                     std::string("leave ") + key + " out: it is of dams");
+  };
+  if (settings.slopes_deg != DamSettings{}.slopes_deg) refuse("slopes_deg");
+  if (!settings.ditch_m.empty()) refuse("ditch_m");
+  if (!std::isnan(settings.capacity_kj)) refuse("capacity_kj");
 }
 
 }  // namespace
@@ -125,7 +140,9 @@ std::vector<SiteDam> dams_of(InputLog& log, const Site& site, const Trn& trn,
   if (settings.line.empty() == settings.file.empty())
     throw InputError(where, settings.line.empty() ? "has no line" : "has both line and file",
                      "give one of line and file");
+  check_gallery_keys(where, settings);
   DamShape shape;
+  shape.is_gallery = settings.kind == "gallery";
   shape.height = settings.height_m;
   shape.crest_width = settings.crest_width_m;
   shape.tan_uphill = tangent_of_degrees(settings.slopes_deg[0]);
@@ -145,7 +162,8 @@ std::vector<SiteDam> dams_of(InputLog& log, const Site& site, const Trn& trn,
         points.emplace_back(p.x(), p.y(), 0);
       }
     if (points.size() < 2)
-      throw InputError(where, "has a line with one point", "a dam needs two points");
+      throw InputError(where, "has a line with one point",
+                       "a " + settings.kind + " needs two points");
     check_no_crossing(trn, points, where);
     dams.push_back({settings.name + (lines.size() > 1 ? "." + std::to_string(i + 1) : ""), shape});
   }
@@ -220,6 +238,11 @@ std::string sentence_on(const BuiltDam& built) {
            (has_cut ? ", cut " + text(std::round(work.cut)) + " m3" : "");
   };
   const bool has_cut = dam.shape.ditch_depth > 0;
+  if (dam.shape.is_gallery)
+    return "gallery " + built.name + ": " + text(length_of(dam.shape.line), 4) + " m long, " +
+           text(dam.shape.crest_width, 3) + " m wide, roof " + text(dam.least_height, 3) + " to " +
+           text(dam.most_height, 3) + " m above the ground; in the cells up to " +
+           text(built.burn.crest_loss, 2) + " m lower, its sides a cell wide";
   return "dam " + built.name + ": " + text(length_of(dam.shape.line), 4) + " m long, crest " +
          text(dam.least_height, 3) + " to " + text(dam.most_height, 3) + " m above the ground, " +
          volumes(built.burn.designed, has_cut) + "; in the cells " +

@@ -166,7 +166,7 @@ struct FenceSettings {
 
 /// [dam.NAME]: burnt into the terrain by talus-trn.
 struct DamSettings {
-  std::string name;
+  std::string name, kind = "dam";
   int line_number = 0;
   std::vector<Vec3> line;  ///< middle of the crest, map x, y of at least two points; or file
   std::string file;

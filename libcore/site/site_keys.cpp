@@ -187,6 +187,7 @@ template <> const std::vector<SiteKey<FenceSettings>>& keys_of() {
 template <> const std::vector<SiteKey<DamSettings>>& keys_of() {
   using S = DamSettings;
   static const std::vector<SiteKey<S>> table = {
+      {"kind", &S::kind, "dam of earth, or gallery: the crest is its roof, the sides are vertical", any, "dam|gallery"},
       {"line", &S::line, "middle of the crest", any, "", "a dam needs two points", 2},
       {"file", &S::file, "file with the line, instead"},
       {"height_m", &S::height_m, "height of the crest above the ground at each point of the line; straight between", {0, 100, true, false}},

@@ -37,7 +37,7 @@ const std::vector<SiteLayer>& site_layers() {
        lines,
        "",
        "Dams",
-       {"active", "height_m", "crest_width_m", "slopes_deg", "ditch_m", "capacity_kj"}},
+       {"kind", "active", "height_m", "crest_width_m", "slopes_deg", "ditch_m", "capacity_kj"}},
       {"object_lines", "object", lines, "", "Objects: lines", {"kind", "width_m"}},
       {"objects", "object", areas, "", "Objects", {"kind"}},
       {"observed_boulders",

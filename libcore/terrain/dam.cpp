@@ -277,6 +277,11 @@ Reach window_of(const Dam& dam, const Trn& trn) {
 double dam_height_at(const Dam& dam, const Vec2& at) {
   double highest = -never;
   for_each_sight(dam, at, [&](const Sight& s) {
+    if (dam.shape.is_gallery) {
+      const bool is_roof = std::abs(s.across) <= dam.shape.crest_width / 2 + same_place;
+      if (is_roof && s.beyond <= same_place) highest = std::max(highest, s.crest);
+      return;
+    }
     const double off = std::hypot(s.across, s.beyond);
     // a corner's distance is its own: nothing is beyond it
     highest = std::max(highest, s.crest - std::max(0.0, off - dam.shape.crest_width / 2) / s.cot);
@@ -286,7 +291,7 @@ double dam_height_at(const Dam& dam, const Vec2& at) {
 
 double ditch_height_at(const Dam& dam, const Vec2& at) {
   const DamShape& shape = dam.shape;
-  if (!(shape.ditch_depth > 0)) return never;
+  if (shape.is_gallery || !(shape.ditch_depth > 0)) return never;
   double nearest = never, height = never;
   for_each_sight(dam, at, [&](const Sight& s) {
     const double off = std::hypot(s.across, s.beyond);
@@ -301,10 +306,44 @@ double ditch_height_at(const Dam& dam, const Vec2& at) {
   return height;
 }
 
-int uphill_side(const Trn& ground, const DamShape& shape) {
-  const double beyond =
-      shape.crest_width / 2 + shape.ditch_width + 3 * (shape.height + shape.ditch_depth);
-  double higher_on_the_left = 0;
+std::vector<RoofPiece> roof_pieces(const Trn& trn, const DamShape& gallery) {
+  constexpr double finest_turn = std::numbers::pi / 12;  // of the sides of a corner's piece
+  const double inwards = 1.5 * trn.cell_size;            // from a roof's end to where it is whole
+  std::vector<RoofPiece> pieces;
+  std::vector<Vec2> lefts;
+  for (std::size_t i = 0; i + 1 < gallery.line.size(); ++i) {
+    const Vec2 &a = gallery.line[i], &b = gallery.line[i + 1];
+    const double length = (b - a).norm(), inner = length - 2 * inwards;
+    const Vec2 along = (b - a) / length, left(-along.y(), along.x());
+    const Vec2 from = a + inwards * along, to = b - inwards * along;
+    const double rise = elevation_at(trn, to.x(), to.y()) - elevation_at(trn, from.x(), from.y());
+    const double slope = inner > trn.cell_size ? rise / inner : 0;
+    const Vec3 normal = Vec3(-slope * along.x(), -slope * along.y(), 1).normalized();
+    lefts.emplace_back(gallery.crest_width / 2 * left);
+    pieces.push_back({{a - lefts[i], b - lefts[i], b + lefts[i], a + lefts[i]}, normal});
+    if (i == 0) continue;
+    // the outer side of the corner is the right of a line that turns left
+    const double side = cross(lefts[i - 1], lefts[i]) > 0 ? -1 : 1;
+    const Vec2 first = side * lefts[i - 1], last = side * lefts[i];
+    const double turn = std::atan2(cross(first, last), first.dot(last));
+    const int n = static_cast<int>(std::ceil(std::abs(turn) / finest_turn));
+    if (n == 0) continue;
+    RoofPiece corner{{a}, normal};
+    for (int k = 0; k <= n; ++k)
+      corner.ring.emplace_back(a + Eigen::Rotation2Dd(k * turn / n) * first);
+    if (turn < 0) std::reverse(corner.ring.begin() + 1, corner.ring.end());
+    pieces.push_back(std::move(corner));
+  }
+  return pieces;
+}
+
+double side_distance(const DamShape& shape) {
+  return shape.crest_width / 2 + shape.ditch_width + 3 * (shape.height + shape.ditch_depth);
+}
+
+double rise_to_the_left(const Trn& ground, const DamShape& shape) {
+  const double beyond = side_distance(shape);
+  double sum = 0, length = 0;
   for (std::size_t i = 0; i + 1 < shape.line.size(); ++i) {
     const Vec2 along = shape.line[i + 1] - shape.line[i];
     const Vec2 left = Vec2(-along.y(), along.x()).normalized();
@@ -312,9 +351,15 @@ int uphill_side(const Trn& ground, const DamShape& shape) {
     const Vec2 off = beyond * left;
     const Vec2 a = middle + off, b = middle - off;
     const double rise = elevation_at(ground, a.x(), a.y()) - elevation_at(ground, b.x(), b.y());
-    if (!std::isnan(rise)) higher_on_the_left += rise * along.norm();
+    if (std::isnan(rise)) continue;
+    sum += rise * along.norm();
+    length += along.norm();
   }
-  return higher_on_the_left < 0 ? -1 : 1;
+  return length > 0 ? sum / length : 0;
+}
+
+int uphill_side(const Trn& ground, const DamShape& shape) {
+  return rise_to_the_left(ground, shape) < 0 ? -1 : 1;
 }
 
 DamFault lay_dam(const Trn& ground, const DamShape& shape, Dam& dam) {
@@ -329,6 +374,7 @@ DamFault lay_dam(const Trn& ground, const DamShape& shape, Dam& dam) {
   dam.uphill = uphill_side(ground, shape);
   dam.foot = dam.crest;
   measure_heights(ground, dam);
+  if (shape.is_gallery) return {};
   std::vector<Vec3> feet;
   for (std::size_t i = 0; i < dam.crest.size(); ++i) {
     Vec3 foot;
@@ -365,6 +411,10 @@ DamBurn burn_dam(const Dam& dam, Trn& trn) {
     look(0);
     look(1);
     for_each_edge_crossing(trn, a.head<2>(), b.head<2>(), look);
+  }
+  if (dam.shape.is_gallery) {
+    out.designed = out.in_cells;
+    return out;
   }
   const double cells = static_cast<double>(reach.n_rows) * reach.n_cols;
   const double wanted = fine_per_crest * trn.cell_size / dam.shape.crest_width;

@@ -1,5 +1,6 @@
 // libcore/terrain/dam.hpp: public
-// Dams of earth, and ditches at the foot of their uphill faces, burnt into a terrain.
+// Dams of earth, and ditches at the foot of their uphill faces, burnt into a terrain; galleries as
+// their roofs.
 // in:    the middle of the crest in plan, the cross-section; a terrain
 // out:   nodes of the terrain on dam and ditch moved, all others bit for bit as they were; volumes
 // Definitions: docs/guide/dams.md
@@ -11,7 +12,8 @@
 
 namespace talus {
 
-/// A dam as it is designed. The crest is straight between the points of its line.
+/// A dam as it is designed. The crest is straight between the points of its line. That of a gallery
+/// is its roof, which ends with the line; its sides are vertical: slopes and ditch are not read.
 struct DamShape {
   std::vector<Vec2> line;   ///< middle of the crest, local x, y; at least two, no two alike [m]
   double height = 0;        ///< of the crest above the ground at each point of the line [m]
@@ -20,13 +22,15 @@ struct DamShape {
   double tan_downhill = 0;  ///< of the downhill face, and of the ditch's far side [-]
   double ditch_depth = 0;   ///< below the foot of the uphill face; 0: no ditch [m]
   double ditch_width = 0;   ///< of its bottom [m]
+  bool is_gallery = false;
 };
 
 /// A dam on the ground that was there before it.
 struct Dam {
   DamShape shape;
   std::vector<Vec3> crest;  ///< points of the line at the height of the crest, local   (n_points)
-  std::vector<Vec3> foot;   ///< where the uphill face meets the ground across each     (n_points)
+  std::vector<Vec3> foot;   ///< where the uphill face meets the ground across each; of a gallery
+                            ///< the crest                                              (n_points)
   int uphill = 1;           ///< +1: left of the line seen from its first point, -1: right
   double least_height = 0, most_height = 0;  ///< of the crest above the ground along the line [m]
 };
@@ -41,6 +45,11 @@ struct DamFault {
 /// stands there or not: +1 left of it seen from its first point, -1 right.
 [[nodiscard]] int uphill_side(const Trn& ground, const DamShape& shape);
 
+/// How far from the line the ground of both sides is looked at for it, and how much higher it lies
+/// there on the left than on the right, mean over the line [m].
+[[nodiscard]] double side_distance(const DamShape& shape);
+[[nodiscard]] double rise_to_the_left(const Trn& ground, const DamShape& shape);
+
 /// Lays the dam on the ground. The side on which the ground lies higher is uphill. A point of the
 /// line off the known ground, and an uphill face that does not meet the ground within ten heights,
 /// are faults.
@@ -53,7 +62,8 @@ struct Earthwork {
 /// What burning a dam did.
 struct DamBurn {
   DamFault fault;          ///< none, or nothing was changed
-  Earthwork designed;      ///< of the dam itself on the ground between the nodes
+  Earthwork designed;      ///< of the dam itself on the ground between the nodes; of a gallery that
+                           ///< in the cells
   Earthwork in_cells;      ///< of the terrain, which has a height a node
   std::vector<int> nodes;  ///< that were moved, ascending
   double crest_loss = 0;   ///< most that the terrain lies below the crest along the line [m]
@@ -65,6 +75,16 @@ struct DamBurn {
 /// a side of the ditch that runs on over unknown ground, over the border, or for more than ten
 /// heights from the line is a fault.
 [[nodiscard]] DamBurn burn_dam(const Dam& dam, Trn& trn);
+
+/// A convex piece of a roof: of a straight piece of its line, or of the outer side of a corner. The
+/// roof is level across the line.
+struct RoofPiece {
+  std::vector<Vec2> ring;       ///< in plan, counter-clockwise, local [m]
+  Vec3 normal = Vec3::UnitZ();  ///< upwards
+};
+/// Of a gallery that stands in `trn`. The pieces overlap. One of less than four cells is taken as
+/// level, as its ends in the terrain are lower than it.
+[[nodiscard]] std::vector<RoofPiece> roof_pieces(const Trn& trn, const DamShape& gallery);
 
 /// Height of the dam's crest and faces above a place, and of its ditch; minus and plus infinity
 /// where the dam has none, local [m].

@@ -484,14 +484,17 @@ Json as_json(const talus::BuiltDam& built, const Trn& trn) {
     const talus::Vec3 at = p + trn.origin;
     points.push_back({at.x(), at.y(), at.z()});
   }
-  return {{"name", built.name},
-          {"crest", points},
-          {"least_height_m", built.dam.least_height},
-          {"most_height_m", built.dam.most_height},
-          {"designed", as_json(built.burn.designed)},
-          {"in_cells", as_json(built.burn.in_cells)},
-          {"crest_loss_m", built.burn.crest_loss},
-          {"n_nodes", built.burn.nodes.size()}};
+  const bool is_gallery = built.dam.shape.is_gallery;
+  Json json = {{"name", built.name},
+               {"kind", is_gallery ? "gallery" : "dam"},
+               {"crest", points},
+               {"least_height_m", built.dam.least_height},
+               {"most_height_m", built.dam.most_height},
+               {"in_cells", as_json(built.burn.in_cells)},
+               {"crest_loss_m", built.burn.crest_loss},
+               {"n_nodes", built.burn.nodes.size()}};
+  if (!is_gallery) json["designed"] = as_json(built.burn.designed);
+  return json;
 }
 
 // After the doubts of the ground itself. Returns a sentence each.
@@ -501,6 +504,7 @@ std::string add_dams(Tool& tool, const talus::Site& site, Trn& trn, Json& report
   for (const talus::BuiltDam& built : talus::build_dams(tool, site, trn)) {
     sentences += "\n" + sentence_on(built);
     list.push_back(as_json(built, trn));
+    if (built.dam.shape.is_gallery) continue;  // it is not filled
     tool.metric("dam_" + built.name + "_fill_m3", built.burn.designed.fill, "m3");
     tool.metric("dam_" + built.name + "_cut_m3", built.burn.designed.cut, "m3");
   }

@@ -68,4 +68,21 @@ expect 1 talus-trn dem.tif site.toml -o no.tif --set 'dam.road.line=[[650070, 52
 says 'crosses itself'
 printf '[dam.other]\nline = [[650100, 5200112], [650150, 5200112]]\n' >>site.toml
 expect 1 talus-trn dem.tif site.toml -o no.tif --cell-size-m 1
-says 'shares ground with dam road'
+says 'shares ground with dam.road'
+
+# a gallery: a roof with vertical sides, which neither slopes nor a ditch can be of
+sed -i '/^\[dam.other\]/,$d; /^ditch_m/d; s/^slopes_deg.*/kind = "gallery"\nheight_m = 6\ncrest_width_m = 8/' site.toml
+expect 0 talus-trn dem.tif site.toml -o roof.tif --cell-size-m 1 --report roof.json
+prints 'gallery road: 60 m long, 8 m wide, roof 6 to 6 m above the ground'
+set -- $(net roof.tif)
+python3 - "$1" "$2" <<'PY' || fail "the roof is not what the nodes moved: $1 m3 in $2 nodes"
+import json, sys
+roof, = json.load(open("roof.json"))["dams"]
+assert roof["kind"] == "gallery" and "designed" not in roof
+assert roof["n_nodes"] == int(sys.argv[2]) == 61 * 9  # both borders of 60 m by 8 m
+assert abs(float(sys.argv[1]) - 61 * 9 * 6) < 1e-4  # the mean of 6 m -+ 2 m on a slope of 1 : 2
+PY
+for key in 'slopes_deg=[70, 40]' 'ditch_m=[1, 2]' capacity_kj=100; do
+  expect 1 talus-trn dem.tif site.toml -o no.tif --set "dam.road.$key"
+  says "dam.road: is a gallery with ${key%%=*}"
+done

@@ -1,4 +1,5 @@
-// Dams against closed forms: sections on a plane slope, a heap on flat ground, corners.
+// Dams and galleries against closed forms: sections on a plane slope, a heap on flat ground,
+// corners.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,6 +7,7 @@
 #include <set>
 
 #include "base/random.hpp"
+#include "geometry/plan2d.hpp"
 #include "terrain/dam.hpp"
 
 namespace {
@@ -192,6 +194,77 @@ TEST(Dam, IsRefusedWhereItsFacesRunOn) {
   EXPECT_EQ(built(shape, small).fault.kind, DamFault::off_the_ground);
   shape.line = {{-10, 0}, {30, 0}};
   EXPECT_EQ(built(shape, small).fault.kind, DamFault::off_the_ground);
+}
+
+DamShape gallery_of(const std::vector<Vec2>& line) {
+  DamShape shape;
+  shape.line = line;
+  shape.height = 6;
+  shape.crest_width = 8;
+  shape.is_gallery = true;
+  return shape;
+}
+
+// The roof is level at 6 m over the line, 4 m to both sides, and falls to the ground in a cell.
+TEST(Gallery, HoldsItsSectionOnAPlaneSlope) {
+  // 1 : 2: 6 * 8 under the roof, a cell of 8 / 2 before it and of 4 / 2 behind it
+  const auto gentle = of_20_m(gallery_of({}), plane({0, 0.5}, 1, 100), {1, 0}, true);
+  EXPECT_NEAR(gentle.fill, 20 * (48 + 4 + 2), 1e-6);
+  EXPECT_NEAR(gentle.cut, 0, 1e-9);
+  // 2 : 1: from 3 m uphill of the line on the ground is higher than the roof, and stays
+  const auto steep = of_20_m(gallery_of({}), plane({0, 2}, 1, 100), {1, 0}, true);
+  EXPECT_NEAR(steep.fill, 20 * (7 * 7 + 7), 1e-6);
+}
+
+TEST(Gallery, MovesTheNodesUnderItsRoofAlone) {
+  const Trn ground = plane({0.05, 0.5}, 1, 60);
+  Trn trn = ground;
+  const DamShape shape = gallery_of({{-20, 0}, {20, 0}});
+  const DamBurn burn = built(shape, trn);
+  ASSERT_EQ(burn.fault.kind, DamFault::none);
+  EXPECT_NEAR(burn.crest_loss, 0, 1e-9);
+  for (int r = 0; r < trn.n_rows; ++r)
+    for (int c = 0; c < trn.n_cols; ++c) {
+      const Vec2 at = node_point(trn, r, c).head<2>();
+      const double z = trn.elevation[node_index(trn, r, c)];
+      if (std::abs(at.x()) <= 20 && std::abs(at.y()) <= 4) {
+        EXPECT_NEAR(z, 0.05 * at.x() + 6, 1e-9) << at.transpose();
+      } else {
+        EXPECT_EQ(z, ground.elevation[node_index(trn, r, c)]) << at.transpose();
+      }
+    }
+}
+
+// Pieces in plan and the roof in the terrain are one.
+TEST(Gallery, HasItsRoofWhereItsPiecesAre) {
+  Trn trn = plane({0, 0.4}, 1, 150);
+  Dam dam;
+  ASSERT_EQ(lay_dam(trn, gallery_of({{-20, 0}, {0, 0}, {12, 9}, {12, 30}}), dam).kind,
+            DamFault::none);
+  ASSERT_EQ(burn_dam(dam, trn).fault.kind, DamFault::none);
+  const auto pieces = roof_pieces(trn, dam.shape);
+  ASSERT_EQ(pieces.size(), 5U);
+  for (const talus::RoofPiece& piece : pieces) EXPECT_GT(talus::ring_area(piece.ring), 0);
+  EXPECT_NEAR(pieces[0].normal.z(), 1, 1e-9);
+  EXPECT_NEAR(pieces[3].normal.y() / pieces[3].normal.z(), -0.4, 1e-9);
+  talus::Random random(1, "gallery");
+  int n_on = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const Vec2 at(random.uniform(-30, 30), random.uniform(-10, 40));
+    const auto is_on = [&at](const talus::RoofPiece& piece) {
+      return talus::is_inside(piece.ring, at);
+    };
+    const bool on = std::any_of(pieces.begin(), pieces.end(), is_on);
+    n_on += on;
+    // the sides of a corner's piece lie 4 (1 - cos(7.5 degrees)) within the arc
+    const auto is_near_arc = [&at](const Vec2& corner) {
+      return std::abs((at - corner).norm() - 4) < 0.035;
+    };
+    const bool may_differ = !on && (is_near_arc({0, 0}) || is_near_arc({12, 9}));
+    if (may_differ) continue;
+    EXPECT_EQ(on, std::isfinite(dam_height_at(dam, at))) << at.transpose();
+  }
+  EXPECT_NEAR(n_on / 20000.0 * 60 * 50, 8 * (20 + 15 + 21), 40);
 }
 
 }  // namespace
