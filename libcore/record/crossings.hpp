@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "step/segment.hpp"
-#include "terrain/trn.hpp"
+#include "terrain/dam.hpp"
 
 namespace talus {
 
@@ -23,9 +23,10 @@ struct Scene;
 /// A line that is watched; its base is straight between points.
 struct RecordLine {
   std::string name;
-  std::vector<Vec3> points;      ///< local, z = base of the line [m]; at least two, no two alike
-  std::vector<double> chainage;  ///< of the points, horizontal, from the first [m]  (n_points)
-  bool standing = false;         ///< a fence that stops blocks; false: a line that stops nothing
+  std::vector<Vec3> points;       ///< local, z = base of the line [m]; at least two, no two alike
+  std::vector<double> chainage;   ///< of the points, horizontal, from the first [m]  (n_points)
+  bool standing = false;          ///< a fence that stops blocks; false: a line that stops nothing
+  std::vector<RoofPiece> roof{};  ///< of a gallery, at its line; not in files
 };
 
 /// Where a search considers a fence: lines of this name are watched, though the site has no fence
@@ -35,11 +36,16 @@ inline constexpr std::string_view candidate_prefix = "fence_search.";
   return line.name.starts_with(candidate_prefix);
 }
 
-/// Lines at a dam that stands in the terrain: its crest, which has the name behind this one, and
-/// the line before its uphill face, which ends in `before_dam`.
-inline constexpr std::string_view dam_prefix = "dam.", before_dam = ".before";
+/// Lines at a dam or gallery that stands in the terrain: the crest of a dam, or the valley edge of
+/// a roof, which has the name behind these, and the line before the dam's uphill face, or the
+/// uphill edge of the roof, which ends in `before_dam`.
+inline constexpr std::string_view dam_prefix = "dam.", gallery_prefix = "gallery.",
+                                  before_dam = ".before";
+[[nodiscard]] inline bool is_gallery(const RecordLine& line) {
+  return line.name.starts_with(gallery_prefix);
+}
 [[nodiscard]] inline bool is_dam(const RecordLine& line) {
-  return line.name.starts_with(dam_prefix);
+  return line.name.starts_with(dam_prefix) || is_gallery(line);
 }
 [[nodiscard]] inline bool is_before_dam(const RecordLine& line) {
   return is_dam(line) && line.name.ends_with(before_dam);

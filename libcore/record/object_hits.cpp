@@ -14,6 +14,7 @@ namespace talus {
 namespace {
 
 constexpr double touch_gap = 1e-3;  // [m]
+constexpr int halvings = 20;        // of the time in which a block comes off a roof
 
 bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const double s1 = cross(b - a, c - a), s2 = cross(b - a, d - a);
@@ -54,11 +55,45 @@ double distance_to(const ObjectPart& part, const std::vector<Vec2>& convex) {
   return least;
 }
 
+// Without its roofs.
 template <class Shape>
 double gap_of(const RecordObject& object, const Shape& shape) {
   double least = infinity;
   for (const ObjectPart& part : object.parts) least = std::min(least, distance_to(part, shape));
   return std::max(0.0, least - object.radius);
+}
+
+// The part of a convex polygon to the right of the line from `a` to `b`, or to its left.
+std::vector<Vec2> cut(const std::vector<Vec2>& convex, const Vec2& a, const Vec2& b, bool right) {
+  std::vector<Vec2> kept;
+  const auto side = [&](const Vec2& p) { return (right ? -1 : 1) * cross(b - a, p - a); };
+  for (std::size_t i = 0, j = convex.size() - 1; i < convex.size(); j = i++) {
+    const double before = side(convex[j]), now = side(convex[i]);
+    if ((before < 0 && now > 0) || (before > 0 && now < 0))
+      kept.push_back(convex[j] + before / (before - now) * (convex[i] - convex[j]));
+    if (now >= 0) kept.push_back(convex[i]);
+  }
+  return kept;
+}
+
+// What a convex polygon has outside of the roofs, in convex pieces; none smaller than rounding.
+std::vector<std::vector<Vec2>> outside_of(const std::vector<std::vector<Vec2>>& roofs,
+                                          const std::vector<Vec2>& convex) {
+  constexpr double least_area = 1e-9;  // [m2]
+  std::vector<std::vector<Vec2>> open{convex};
+  for (const std::vector<Vec2>& roof : roofs) {
+    std::vector<std::vector<Vec2>> left;
+    for (std::vector<Vec2>& piece : open)
+      for (std::size_t i = 0, j = roof.size() - 1; i < roof.size(); j = i++) {
+        std::vector<Vec2> beyond = cut(piece, roof[j], roof[i], true);
+        if (beyond.size() > 2 && std::abs(ring_area(beyond)) > least_area)
+          left.push_back(std::move(beyond));
+        piece = cut(piece, roof[j], roof[i], false);
+        if (piece.size() < 3) break;
+      }
+    open = std::move(left);
+  }
+  return open;
 }
 
 // The polygon with the extents along eight axes: its corners lie between neighbouring directions.
@@ -150,12 +185,27 @@ void follow(ObjectRecorder& recorder, const Scene& scene, SegmentMotion& motion,
   const RecordObject& shape = recorder.objects[static_cast<std::size_t>(object)];
   const double stride =
       std::max(0.01, 0.25 * scene.blocks.shapes.radius[static_cast<std::size_t>(segment.block)]);
-  double t = segment.t_start;
+  const auto footprint_at = [&](double time) -> const std::vector<Vec2>& {
+    make_footprint(scene, segment.block, motion.at(time), recorder.footprint);
+    return recorder.footprint;
+  };
+  double t = segment.t_start, covered_at = infinity;
   while (true) {
-    const Motion now = motion.at(t);
-    make_footprint(scene, segment.block, now, recorder.footprint);
-    const double gap = gap_to(shape, recorder.footprint);
-    if (gap <= touch_gap) add_object_hit(recorder, hit_at(scene, segment.block, object, now, t));
+    const double gap = gap_of(shape, footprint_at(t));
+    const bool comes = gap <= touch_gap;
+    if (comes && gap_to(shape, recorder.footprint) > touch_gap) {
+      covered_at = t;
+    } else if (comes) {
+      double first = t;
+      for (int i = 0; covered_at < t && i < halvings; ++i) {
+        const double middle = 0.5 * (covered_at + first);
+        (gap_to(shape, footprint_at(middle)) > touch_gap ? covered_at : first) = middle;
+      }
+      covered_at = infinity;
+      if (first < t)
+        add_object_hit(recorder, hit_at(scene, segment.block, object, motion.at(first), first));
+      add_object_hit(recorder, hit_at(scene, segment.block, object, motion.at(t), t));
+    }
     if (t >= segment.t_end) return;
     const double way = gap <= touch_gap ? stride : gap - 0.5 * touch_gap;
     t = std::min(segment.t_end, t + way / fastest);
@@ -165,9 +215,18 @@ void follow(ObjectRecorder& recorder, const Scene& scene, SegmentMotion& motion,
 }  // namespace
 
 double gap_to(const RecordObject& object, const std::vector<Vec2>& convex) {
-  return gap_of(object, convex);
+  if (object.roofs.empty()) return gap_of(object, convex);
+  double least = infinity;
+  for (const std::vector<Vec2>& piece : outside_of(object.roofs, convex))
+    least = std::min(least, gap_of(object, piece));
+  return least;
 }
-double gap_to(const RecordObject& object, const Vec2& point) { return gap_of(object, point); }
+
+double gap_to(const RecordObject& object, const Vec2& point) {
+  for (const std::vector<Vec2>& roof : object.roofs)
+    if (is_inside(roof, point)) return infinity;
+  return gap_of(object, point);
+}
 
 ObjectRecorder start_objects(const Scene& scene, std::vector<RecordObject> objects) {
   const auto n = static_cast<std::size_t>(n_blocks(scene));
@@ -195,10 +254,10 @@ void record_objects(ObjectRecorder& recorder, const Scene& scene, SegmentMotion&
   const double radius = scene.blocks.shapes.radius[b];
   clearance = infinity;
   for (std::size_t o = 0; o < recorder.objects.size(); ++o) {
-    const double before = gap_to(recorder.objects[o], start) - radius;
+    const double before = gap_of(recorder.objects[o], start) - radius;
     if (before - fastest * duration <= touch_gap)
       follow(recorder, scene, motion, static_cast<int>(o), fastest);
-    clearance = std::min(clearance, gap_to(recorder.objects[o], end) - radius - touch_gap);
+    clearance = std::min(clearance, gap_of(recorder.objects[o], end) - radius - touch_gap);
   }
 }
 

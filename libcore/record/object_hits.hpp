@@ -7,6 +7,10 @@
 // millimetre of it in plan. Objects stop nothing: a block that flies over one touches it too, and
 // its heights say so. The moment is found by steps of at most the time that the gap allows at a
 // speed that no point of the footprint can exceed.
+//
+// What lies under the roof of a gallery is touched by nothing above it: the part of a footprint
+// over the roof does not count. Where a block comes off a roof the moment is found by halving steps
+// of a quarter of the block.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +32,8 @@ struct ObjectPart {
 struct RecordObject {
   std::string name, kind;
   std::vector<ObjectPart> parts;
-  double radius = 0;  ///< about lines and points; 0 for areas [m]
+  double radius = 0;                       ///< about lines and points; 0 for areas [m]
+  std::vector<std::vector<Vec2>> roofs{};  ///< over it: convex rings, counter-clockwise, local [m]
 };
 
 struct ObjectHit {
@@ -48,9 +53,10 @@ struct ObjectHit {
   double largest_top_height = 0;            ///< [m]
 };
 
-/// Distance in plan of a convex polygon from an object, 0 where they overlap [m].
+/// Distance in plan of a convex polygon from an object, 0 where they overlap [m]. The part of the
+/// polygon over a roof of the object does not count; infinite where there is no other.
 [[nodiscard]] double gap_to(const RecordObject& object, const std::vector<Vec2>& convex);
-/// Of a point; 0 on the object [m].
+/// Of a point; 0 on the object [m]; infinite over a roof of it.
 [[nodiscard]] double gap_to(const RecordObject& object, const Vec2& point);
 
 struct ObjectRecorder {

@@ -155,6 +155,7 @@ void rename_alone(const Lineage& lineage, RunFile& run) {
   const auto rename = [&lineage](std::int32_t& block) {
     if (block >= 0) block = lineage.largest[static_cast<size_t>(block)];
   };
+  for (RoofHit& row : run.roof_hits) rename(row.block);
   for (FenceHit& row : run.fence_hits) rename(row.block);
   for (PanelRow& row : run.panels) rename(row.broken_by);
   for (TreeHitRow& row : run.tree_hits) rename(row.hit.block), rename(row.broken_by);

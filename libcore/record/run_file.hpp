@@ -19,6 +19,7 @@
 #include "record/object_hits.hpp"
 #include "record/passages.hpp"
 #include "record/reach.hpp"
+#include "record/roof_hits.hpp"
 #include "scene/events.hpp"
 #include "scene/phase.hpp"
 #include "step/report.hpp"
@@ -167,6 +168,7 @@ struct RunFile {
   std::vector<Crossing> crossings;  ///< by line, then block
   std::vector<RecordObject> objects;
   std::vector<ObjectHit> object_hits;  ///< by object, then block
+  std::vector<RoofHit> roof_hits;      ///< by line, then block
   std::vector<FenceHit> fence_hits;    ///< by time, step by step
   std::vector<PanelRow> panels;        ///< of the fences (panel_rows)
   std::vector<ForestInfo> forests;     ///< of the run

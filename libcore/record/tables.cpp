@@ -141,6 +141,30 @@ const Table<ObjectHit>& table_of() {
 }
 
 template <>
+const Table<RoofHit>& table_of() {
+  static const Table<RoofHit> table = {
+      "roof_hits",
+      "blocks and the roofs of galleries that they hit: the hit that was fastest along the normal",
+      {
+          {"block", "1", "index of the block", of<&RoofHit::block>},
+          {"line", "1", "index of the line at the valley edge of the roof", of<&RoofHit::line>},
+          {"n_hits", "1", "hits of the roof by the block", of<&RoofHit::n_hits>},
+          {"time_s", "s", "time of the hit", of<&RoofHit::time>},
+          {"mass_kg", "kg", "mass of the body that hit", of<&RoofHit::mass>},
+          {"volume_m3", "m3", "its volume", of<&RoofHit::volume>},
+          {"position_x_m", "m", "centroid, local x", of<&RoofHit::position, 0>},
+          {"position_y_m", "m", "centroid, local y", of<&RoofHit::position, 1>},
+          {"position_z_m", "m", "centroid, local z", of<&RoofHit::position, 2>},
+          {"velocity_x_m_s", "m/s", "velocity just before, x", of<&RoofHit::velocity, 0>},
+          {"velocity_y_m_s", "m/s", "velocity just before, y", of<&RoofHit::velocity, 1>},
+          {"velocity_z_m_s", "m/s", "velocity just before, z", of<&RoofHit::velocity, 2>},
+          {"normal_speed_m_s", "m/s", "its part normal to the roof, into it",
+           of<&RoofHit::normal_speed>},
+      }};
+  return table;
+}
+
+template <>
 const Table<PanelRow>& table_of() {
   static const Table<PanelRow> table = {
       "fence_panels",

@@ -35,8 +35,8 @@ struct Table {
   std::vector<StoredField<Row>> fields;
 };
 
-/// Of Passage, Crossing, ObjectHit, PanelRow, FenceHit, TreeHitRow, HealthRow, Break, CrushedBlock
-/// and DeepRow.
+/// Of Passage, Crossing, ObjectHit, RoofHit, PanelRow, FenceHit, TreeHitRow, HealthRow, Break,
+/// CrushedBlock and DeepRow.
 template <class Row>
 [[nodiscard]] const Table<Row>& table_of();
 
@@ -46,6 +46,8 @@ template <>
 const Table<Crossing>& table_of();
 template <>
 const Table<ObjectHit>& table_of();
+template <>
+const Table<RoofHit>& table_of();
 template <>
 const Table<PanelRow>& table_of();
 template <>

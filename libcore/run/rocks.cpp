@@ -200,6 +200,7 @@ void add(Batch& batch, Runner& runner) {
   keep_few_passages(runner);
   add_rows(batch.file.crossings, batch.first, runner.crossings.rows);
   add_rows(batch.file.object_hits, batch.first, runner.objects.rows);
+  add_rows(batch.file.roof_hits, batch.first, runner.roofs.rows);
   add_health(batch.file.health, runner.file.health);
   runner.energy_start += batch.energy_start;
   runner.n_done = batch.end;

@@ -16,6 +16,7 @@
 #include "record/object_hits.hpp"
 #include "record/passage_rows.hpp"
 #include "record/passages.hpp"
+#include "record/roof_hits.hpp"
 #include "record/run_file.hpp"
 #include "run/law.hpp"
 #include "scene/scene.hpp"
@@ -65,6 +66,7 @@ struct Runner {
   PassageRecorder passages;
   CrossingRecorder crossings;
   ObjectRecorder objects;
+  RoofRecorder roofs;
   FrameSampler sampler;
   SegmentMotion motion;     ///< of the segment at hand
   HealthRow interval;       ///< since the last row of health

@@ -25,6 +25,7 @@ void record(Runner& runner, const Segment& segment) {
   if (runner.options.passages) record_passages(runner.passages, runner.scene, runner.motion);
   record_crossings(runner.crossings, runner.scene, segment);
   record_objects(runner.objects, runner.scene, runner.motion);
+  record_roofs(runner.roofs, runner.scene, segment);
   record_frames(runner.sampler, runner.scene, runner.motion,
                 strain_of(runner.state, segment.block));
 }
@@ -301,6 +302,7 @@ std::vector<HealthCheck> checks_of(const Runner& runner, const WorstOfRows& wors
 Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<RecordLine> lines,
                    RunFile file) {
   const bool in_batches = fall_in_batches(scene, options);
+  RoofRecorder roofs = start_roofs(scene, lines);
   Runner runner{scene,
                 options,
                 law_of(options.paper),
@@ -309,6 +311,7 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
                 {},
                 start_crossings(scene, std::move(lines)),
                 start_objects(scene, file.objects),
+                std::move(roofs),
                 start_frames(scene, options.frame_interval),
                 {},
                 {},
@@ -371,6 +374,7 @@ Runner resume_run(const Scene& scene, const RunOptions& options, std::vector<Rec
     runner.crossings.rows.push_back(row);
   }
   restore(runner.objects, runner.file.object_hits);
+  restore(runner.roofs, runner.file.roof_hits);
   return runner;
 }
 
@@ -404,6 +408,7 @@ bool advance(Runner& runner) {
   const StepReport report =
       rests(runner) ? rest(runner) : step_by(runner.law, runner.scene, runner.state, runner.work);
   for (const Segment& segment : runner.work.segments) record(runner, segment);
+  close_step(runner.roofs, runner.scene, runner.state);
   record_breaks(runner, n_breaks);
   record_crushed(runner, n_crushed);
   add_to_interval(runner.interval, report);
@@ -476,6 +481,7 @@ void update_file(Runner& runner, bool with_checkpoint) {
   }
   file.crossings = sorted(runner.crossings);
   file.object_hits = sorted(runner.objects);
+  file.roof_hits = sorted(runner.roofs);
   file.fence_hits = runner.state.fence.hits;
   file.panels = panel_rows(runner.scene, runner.state);
   file.tree_hits = tree_hit_rows(runner.scene, runner.state);

@@ -218,17 +218,34 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
     const Where where = where_of_dam(site, settings);
     for (const SiteDam& dam : dams_of(log, site, trn, settings)) {
       const DamShape& shape = dam.shape;
+      const int side = uphill_side(trn, shape);
+      const auto line_beside = [&](double off, const std::string& name) {
+        return record_line(
+            name, posts_on_ground(trn, off == 0 ? shape.line : beside(shape.line, side * off),
+                                  spacing, where));
+      };
+      const double edge = shape.crest_width / 2;
       // half the height more: the centroid of a block that touches the face has crossed the line
-      const double off =
-          uphill_side(trn, shape) *
-          (shape.crest_width / 2 + shape.height / shape.tan_uphill + shape.height / 2);
-      const std::string name = std::string(dam_prefix) + dam.name;
-      all.push_back({&settings, record_line(name, posts_on_ground(trn, shape.line, spacing, where)),
-                     record_line(name + std::string(before_dam),
-                                 posts_on_ground(trn, beside(shape.line, off), spacing, where))});
+      const double before =
+          shape.is_gallery ? edge : edge + shape.height / shape.tan_uphill + shape.height / 2;
+      const std::string name =
+          std::string(shape.is_gallery ? gallery_prefix : dam_prefix) + dam.name;
+      all.push_back({&settings, line_beside(shape.is_gallery ? -edge : 0, name),
+                     line_beside(before, name + std::string(before_dam))});
+      if (shape.is_gallery) all.back().crest.roof = roof_pieces(trn, shape);
     }
   }
   return all;
+}
+
+std::vector<RoofPiece> gallery_roofs(InputLog& log, const Site& site, const Trn& trn) {
+  std::vector<RoofPiece> roofs;
+  for (const DamSettings& settings : site.dams) {
+    if (!settings.active || settings.kind != "gallery") continue;
+    for (const SiteDam& gallery : dams_of(log, site, trn, settings))
+      for (RoofPiece& piece : roof_pieces(trn, gallery.shape)) roofs.push_back(std::move(piece));
+  }
+  return roofs;
 }
 
 std::string sentence_on(const BuiltDam& built) {

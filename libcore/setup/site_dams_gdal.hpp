@@ -35,13 +35,17 @@ std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn);
 
 /// The two lines that a run watches for a dam in the ground of `trn`, with a point every ten
 /// metres: the crest, and, where blocks come to the dam, one as far before it as the uphill face
-/// would run on level ground and half the height more.
+/// would run on level ground and half the height more. Of a gallery they are the edges of the roof,
+/// that of the valley first.
 struct DamLines {
   const DamSettings* settings = nullptr;
   RecordLine crest, before;
 };
 /// Of all that are active. Throws InputError as dams_of() and posts_on_ground().
 [[nodiscard]] std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn);
+
+/// Roofs of the galleries that are active in the ground of `trn`. Throws InputError as dams_of().
+[[nodiscard]] std::vector<RoofPiece> gallery_roofs(InputLog& log, const Site& site, const Trn& trn);
 
 /// "dam valley: 62 m long, crest 4.9 to 5.2 m above the ground, fill 1240 m3, cut 310 m3 ..."
 [[nodiscard]] std::string sentence_on(const BuiltDam& built);

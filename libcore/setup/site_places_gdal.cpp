@@ -10,6 +10,7 @@
 #include "io/areas_gdal.hpp"
 #include "io/polygons_gdal.hpp"
 #include "scene/site_fence.hpp"
+#include "setup/site_dams_gdal.hpp"
 #include "setup/site_shapes_gdal.hpp"
 #include "terrain/extent_text.hpp"
 
@@ -101,6 +102,7 @@ void check_on_terrain(InputLog& log, const Site& site, const Trn& trn, const Obj
 
 std::vector<RecordObject> site_objects(InputLog& log, const Site& site, const Trn& trn) {
   std::vector<RecordObject> objects;
+  const std::vector<RoofPiece> roofs = gallery_roofs(log, site, trn);
   for (const ObjectSettings& object : site.objects) {
     const SitePlace place = place_of(site, object);
     RecordObject made{object.name, object.kind, {}, 0};
@@ -118,6 +120,10 @@ std::vector<RecordObject> site_objects(InputLog& log, const Site& site, const Tr
       made.parts.push_back(std::move(part));
     }
     check_on_terrain(log, site, trn, object, made);
+    std::vector<std::vector<Vec2>> over;
+    for (const RoofPiece& roof : roofs)
+      if (gap_to(made, roof.ring) <= 0) over.push_back(roof.ring);
+    made.roofs = std::move(over);
     objects.push_back(std::move(made));
   }
   return objects;

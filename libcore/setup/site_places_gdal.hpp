@@ -20,9 +20,10 @@ namespace talus {
 [[nodiscard]] std::vector<RecordLine> fence_lines(InputLog& log, const Site& site, const Trn& trn,
                                                   const FenceSettings& fence);
 
-/// The objects of all [object.*]. Throws InputError for one without a place or with several, lines
-/// without a width, points without a radius, outlines that cross themselves, and an object that
-/// lies outside of the known terrain; warns of one that lies partly outside.
+/// The objects of all [object.*], with the roofs of galleries over them. Throws InputError for one
+/// without a place or with several, lines without a width, points without a radius, outlines that
+/// cross themselves, and an object that lies outside of the known terrain; warns of one that lies
+/// partly outside.
 [[nodiscard]] std::vector<RecordObject> site_objects(InputLog& log, const Site& site,
                                                      const Trn& trn);
 

@@ -112,10 +112,10 @@ const std::vector<Stage>& stages() {
       {"place", {"site.crs", "place"}},
       {"calibrate", {"site.crs", "observed"}},
       {"hazard", {"site.name", "site.crs", "hazard"}},
-      {"trace", {"site.name", "site.crs", "object", "hazard"}},
+      {"trace", {"site.name", "site.crs", "object", "dam", "-dam.capacity_kj", "hazard"}},
       {"search",
        {"site.name", "site.crs", "object", "-object.presence", "-object.vulnerability",
-        "-object.persons_per_day", "fence_search", "hazard"}},
+        "-object.persons_per_day", "dam", "-dam.capacity_kj", "fence_search", "hazard"}},
   };
   return list;
 }

@@ -61,6 +61,7 @@ std::string digest_of(const std::vector<RecordObject>& objects) {
       hash(sum, part.points);
       sum.add(&part.is_area, sizeof part.is_area);
     }
+    for (const std::vector<Vec2>& roof : object.roofs) hash(sum, roof);
   }
   return sum.hex();
 }
@@ -525,6 +526,7 @@ void read_forests(const H5Reader& file, const std::string& path, Part& part) {
 void write_tables(H5Writer& file, const Part& part) {
   write_rows(file, part, &RunFile::crossings, true);
   write_rows(file, part, &RunFile::object_hits, has_objects(part));
+  write_rows(file, part, &RunFile::roof_hits);
   write_rows(file, part, &RunFile::panels);
   write_rows(file, part, &RunFile::fence_hits);
   write_forests(file, part);
@@ -538,6 +540,7 @@ void write_tables(H5Writer& file, const Part& part) {
 void read_tables(const H5Reader& file, const std::string& path, Part& part) {
   read_rows(file, path, part, &RunFile::crossings);
   read_rows(file, path, part, &RunFile::object_hits);
+  read_rows(file, path, part, &RunFile::roof_hits);
   read_rows(file, path, part, &RunFile::panels);
   read_rows(file, path, part, &RunFile::fence_hits);
   read_forests(file, path, part);
@@ -550,6 +553,7 @@ void read_tables(const H5Reader& file, const std::string& path, Part& part) {
     RunFile run = run_of(part, r);
     check_crossings(run, path);
     check_object_hits(run, path);
+    check_roof_hits(run, path);
     check_fences(run, path);
     check_tree_hits(run, path);
     check_breaks(run, path);

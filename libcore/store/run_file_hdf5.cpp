@@ -197,6 +197,12 @@ void read_object_hits(const H5Reader& file, const std::string& path, RunFile& ru
   check_object_hits(run, path);
 }
 
+void read_roof_hits(const H5Reader& file, const std::string& path, RunFile& run) {
+  if (!file.has("roof_hits")) return;
+  run.roof_hits = read_table<RoofHit>(file);
+  check_roof_hits(run, path);
+}
+
 // Only in runs with fences.
 void write_fences(H5Writer& file, const RunFile& run) {
   if (run.panels.empty()) return;
@@ -287,6 +293,7 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
   if (parts.passages && file.has("passages")) read_passages(file, path, run);
   if (parts.crossings) {
     read_crossings(file, path, run);
+    read_roof_hits(file, path, run);
     read_fences(file, path, run);
   }
   if (parts.objects) read_object_hits(file, path, run);
@@ -327,6 +334,7 @@ void write_run_file(const std::string& path, const RunFile& run, const PassageRo
   if (run.grid.n_rows > 0) write_passages(file, run, earlier);
   write_crossings(file, run);
   write_object_hits(file, run);
+  if (!run.roof_hits.empty()) write_table(file, run.roof_hits);
   write_fences(file, run);
   write_trees(file, run);
   write_table(file, run.health);

@@ -177,6 +177,50 @@ PassageGrid read_grid(const H5Reader& file, const std::string& group, const std:
   return grid;
 }
 
+namespace {
+
+// Only where galleries stand over objects.
+void write_roofs(H5Writer& file, const std::vector<RecordObject>& objects) {
+  std::vector<int> roof_begin{0}, begin{0};
+  std::vector<double> points;
+  for (const RecordObject& object : objects) {
+    for (const std::vector<Vec2>& roof : object.roofs) {
+      for (const Vec2& p : roof) points.insert(points.end(), {p.x(), p.y()});
+      begin.push_back(static_cast<int>(points.size() / 2));
+    }
+    roof_begin.push_back(static_cast<int>(begin.size() - 1));
+  }
+  if (points.empty()) return;
+  file.group("object_roofs",
+             "convex pieces of roofs over the objects, under which nothing hits them");
+  put_indices(file, "object_roofs/roof_begin", roof_begin, "object_bound",
+              "pieces over object o: [o], [o + 1)");
+  put_indices(file, "object_roofs/begin", begin, "roof_bound", "points of piece p: [p], [p + 1)");
+  file.array<double>("object_roofs/points_m", points,
+                     {{"point", points.size() / 2}, {"plan_axis", 2}}, "m", "local x, y");
+}
+
+void read_roofs(const H5Reader& file, const std::string& path, std::vector<RecordObject>& objects) {
+  if (!file.has("object_roofs")) return;
+  const std::vector<int> roof_begin = file.array<std::int32_t>("object_roofs/roof_begin", 1);
+  const std::vector<int> begin = file.array<std::int32_t>("object_roofs/begin", 1);
+  const std::vector<double> points = file.array<double>("object_roofs/points_m", 2);
+  const Where where{path, 0, "object_roofs/roof_begin"};
+  check_begin(roof_begin, objects.size(), begin.empty() ? 0 : begin.size() - 1, where);
+  check_begin(begin, begin.empty() ? 0 : begin.size() - 1, points.size() / 2,
+              {path, 0, "object_roofs/begin"});
+  for (std::size_t o = 0; o < objects.size(); ++o)
+    for (int r = roof_begin[o]; r < roof_begin[o + 1]; ++r) {
+      std::vector<Vec2> roof;
+      for (int i = begin[r]; i < begin[r + 1]; ++i)
+        roof.emplace_back(points[2 * i], points[2 * i + 1]);
+      if (roof.size() < 3) throw InputError(where, "has a piece of less than three points");
+      objects[o].roofs.push_back(std::move(roof));
+    }
+}
+
+}  // namespace
+
 void write_objects(H5Writer& file, const std::vector<RecordObject>& objects) {
   std::vector<std::string> names, kinds;
   std::vector<double> radius, points;
@@ -204,6 +248,7 @@ void write_objects(H5Writer& file, const std::vector<RecordObject>& objects) {
   put_indices(file, "objects/begin", begin, "part_bound", "points of part p: [p], [p + 1)");
   file.array<double>("objects/points_m", points, {{"point", points.size() / 2}, {"plan_axis", 2}},
                      "m", "local x, y");
+  write_roofs(file, objects);
 }
 
 std::vector<RecordObject> read_objects(const H5Reader& file, const std::string& path) {
@@ -231,6 +276,7 @@ std::vector<RecordObject> read_objects(const H5Reader& file, const std::string& 
     }
     objects.push_back(std::move(object));
   }
+  read_roofs(file, path, objects);
   return objects;
 }
 
@@ -240,6 +286,13 @@ void check_object_hits(const RunFile& run, const std::string& path) {
         row.object >= static_cast<int>(run.objects.size()))
       throw InputError({path, 0, "object_hits"},
                        "a row names a block or object that does not exist");
+}
+
+void check_roof_hits(const RunFile& run, const std::string& path) {
+  for (const RoofHit& row : run.roof_hits)
+    if (row.block < 0 || row.block >= n_blocks(run) || row.line < 0 ||
+        row.line >= static_cast<int>(run.lines.size()))
+      throw InputError({path, 0, "roof_hits"}, "a row names a block or line that does not exist");
 }
 
 void write_lines(H5Writer& file, const std::vector<RecordLine>& lines) {

@@ -89,6 +89,7 @@ void write_objects(H5Writer& file, const std::vector<RecordObject>& objects);
 [[nodiscard]] std::vector<RecordObject> read_objects(const H5Reader& file, const std::string& path);
 /// Throws InputError when a hit names a block or object that does not exist.
 void check_object_hits(const RunFile& run, const std::string& path);
+void check_roof_hits(const RunFile& run, const std::string& path);
 void write_lines(H5Writer& file, const std::vector<RecordLine>& lines);
 [[nodiscard]] std::vector<RecordLine> read_lines(const H5Reader& file, const std::string& path);
 

@@ -84,6 +84,7 @@ std::vector<Row> read_table(const H5Reader& file, bool only_faults) {
 template void write_table(H5Writer&, const std::vector<Passage>&);
 template void write_table(H5Writer&, const std::vector<Crossing>&);
 template void write_table(H5Writer&, const std::vector<ObjectHit>&);
+template void write_table(H5Writer&, const std::vector<RoofHit>&);
 template void write_table(H5Writer&, const std::vector<PanelRow>&);
 template void write_table(H5Writer&, const std::vector<FenceHit>&);
 template void write_table(H5Writer&, const std::vector<TreeHitRow>&);
@@ -94,6 +95,7 @@ template void write_table(H5Writer&, const std::vector<DeepRow>&);
 template std::vector<Passage> read_table(const H5Reader&, bool);
 template std::vector<Crossing> read_table(const H5Reader&, bool);
 template std::vector<ObjectHit> read_table(const H5Reader&, bool);
+template std::vector<RoofHit> read_table(const H5Reader&, bool);
 template std::vector<PanelRow> read_table(const H5Reader&, bool);
 template std::vector<FenceHit> read_table(const H5Reader&, bool);
 template std::vector<TreeHitRow> read_table(const H5Reader&, bool);

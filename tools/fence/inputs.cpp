@@ -83,9 +83,12 @@ std::vector<DamCase> dam_cases(Tool& tool, const Site& site, const Trn& trn,
       settings.capacity_kj = dam.settings->capacity_kj;
       lines.push_back({settings, dam.*of, make_fence(dam.*of, settings)});
     }
-  for (std::size_t i = 0; i < dams.size(); ++i)
-    cases.push_back({dams[i].crest.name.substr(dam_prefix.size()), dams[i].settings->height_m,
-                     1e3 * dams[i].settings->capacity_kj, first + i, first + dams.size() + i});
+  for (std::size_t i = 0; i < dams.size(); ++i) {
+    const bool roofed = is_gallery(dams[i].crest);
+    cases.push_back({dams[i].crest.name.substr((roofed ? gallery_prefix : dam_prefix).size()),
+                     roofed, dams[i].settings->height_m, 1e3 * dams[i].settings->capacity_kj,
+                     first + i, first + dams.size() + i});
+  }
   return cases;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "base/units.hpp"
 #include "post/fence/fence_text.hpp"
@@ -137,6 +139,24 @@ Json ground_json(const FenceRunGroup& group, std::size_t fence) {
           {"mean_centre_of_mass_L_path_m", number_or_null(g.centre_of_mass_path)}};
 }
 
+// The radius is that of the sphere of the block's volume.
+Json load_json(const LoadCase& of, const FenceRunGroup& group) {
+  Json json = {{"name", of.name}};
+  if (!of.load) return json;
+  const RoofLoad& load = *of.load;
+  json.update(
+      {{"run_id", group.members[load.run].info.run_id},
+       {"block", load.block},
+       {"mass_kg", load.mass},
+       {"volume_m3", load.volume},
+       {"radius_m", std::cbrt(0.75 * load.volume / std::numbers::pi)},
+       {"speed_m_s", load.speed},
+       {"angle_to_roof_deg", std::asin(std::min(1.0, load.normal_speed / load.speed)) / degree},
+       {"normal_speed_m_s", load.normal_speed},
+       {"normal_energy_kj", load.normal_energy() / 1e3}});
+  return json;
+}
+
 }  // namespace
 
 Json fence_json(const FenceCase& fence_case, std::size_t index, const FenceResult& r,
@@ -184,17 +204,23 @@ Json dam_json(const DamCase& dam, const DamResult& r, const FenceRunGroup& group
     shares[text(v)] = share_json(verdict_share(group, dam.arrival, v, basis));
   const bool is_judged =
       r.verdict == DesignVerdict::meets || r.verdict == DesignVerdict::does_not_meet;
-  return {{"name", dam.name},
-          {"length_m", length(crest)},
-          {"height_m", dam.height},
-          {"capacity_kj", number_or_null(dam.capacity / 1e3)},
-          {"verdicts", shares},
-          {"arriving", part_json(r.arriving)},
-          {"passing", part_json(r.passing)},
-          {"energy_use", number_or_null(r.energy_use)},
-          {"verdict", text(r.verdict)},
-          {"pass", is_judged ? Json(r.verdict == DesignVerdict::meets) : Json()},
-          {"text", r.text}};
+  Json json = {{"name", dam.name},
+               {"kind", dam.is_gallery ? "gallery" : "dam"},
+               {"length_m", length(crest)},
+               {"height_m", dam.height},
+               {"capacity_kj", number_or_null(dam.capacity / 1e3)},
+               {"verdicts", shares},
+               {"arriving", part_json(r.arriving)},
+               {"passing", part_json(r.passing)},
+               {"energy_use", number_or_null(r.energy_use)},
+               {"verdict", text(r.verdict)},
+               {"pass", is_judged ? Json(r.verdict == DesignVerdict::meets) : Json()},
+               {"text", r.text}};
+  if (!dam.is_gallery) return json;
+  json["roof_hits"] = {{"blocks", r.n_loads}, {"hits", r.n_hits}};
+  json["load_cases"] = Json::array();
+  for (const LoadCase& of : r.load_cases) json["load_cases"].push_back(load_json(of, group));
+  return json;
 }
 
 Json comparison_json(const FenceRunGroup& with, const FenceRunGroup& without, std::size_t index) {

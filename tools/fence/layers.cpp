@@ -247,6 +247,8 @@ VectorLayer dam_layer(const std::vector<DamCase>& dams, const std::vector<DamRes
   using Dam = const DamRow&;
   static const std::vector<Field<DamRow>> fields = {
       {"dam", "", "Dam", [](Dam r) -> Value { return r.dam.name; }, words},
+      {"kind", "", "Dam or gallery",
+       [](Dam r) -> Value { return std::string(r.dam.is_gallery ? "gallery" : "dam"); }, words},
       {"height_m", "m", "Height of the crest", [](Dam r) -> Value { return r.dam.height; }},
       {"arrivals", "", "Number of arrivals", [](Dam r) -> Value { return r.result.arriving.n; },
        whole},
@@ -256,11 +258,17 @@ VectorLayer dam_layer(const std::vector<DamCase>& dams, const std::vector<DamRes
        [](Dam r) -> Value { return p95(r.result.arriving.energy).value / kilo; }},
       {"energy_max_kj", "kJ", "Kinetic energy of arrivals, largest",
        [](Dam r) -> Value { return r.result.arriving.energy.largest / kilo; }},
+      {"roof_energy_max_kj", "kJ", "Largest energy normal to the roof of a gallery",
+       [](Dam r) -> Value {
+         const std::vector<LoadCase>& cases = r.result.load_cases;
+         return cases.empty() || !cases.back().load ? std::nan("")
+                                                    : cases.back().load->normal_energy() / kilo;
+       }},
       {"verdict", "", "Verdict", [](Dam r) -> Value { return text(r.result.verdict); }, words},
       {"verdict_text", "", "Verdict in words", [](Dam r) -> Value { return r.result.text; },
        words}};
   VectorLayer layer{"dams",
-                    "crests of the dams with their verdict",
+                    "crests of the dams and valley edges of the galleries, with their verdict",
                     GeometryType::line_zm,
                     vector_fields(fields),
                     {},

@@ -114,7 +114,7 @@ bool add_set(RunInputs& runs, const RunSet& set, const std::string& role, RunSet
       set, role, wanted,
       [&](RunFile& run, int index) {
         const bool needs = needs_cells(run, sums, o, runs.members[static_cast<std::size_t>(index)]);
-        if (needs && cells.empty()) cells = object_cells(run.grid, sums.objects);
+        if (needs && cells.empty()) cells = object_cells(run.grid, as_watched(run, sums.objects));
         by_centroid = by_centroid || (needs && run.passages_by_centroid);
         add_run(sums, run, runs.rest_speed_m_s, o.by_cells);
         if (needs) {

@@ -2,12 +2,14 @@
 #include "post/fence/dam_result.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/grouped_text.hpp"
 #include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "post/fence/fence_text.hpp"
+#include "post/percentile_bounds.hpp"
 #include "post/statistics.hpp"
 
 namespace talus {
@@ -28,6 +30,53 @@ std::vector<FenceArrival> over_the_crest(const FenceRunGroup& group, const DamCa
       out.push_back(a);
     }
   return out;
+}
+
+std::vector<RoofLoad> loads_at(const FenceRunGroup& group, const DamCase& gallery) {
+  std::vector<RoofLoad> loads;
+  for (int r = 0; r < n_runs(group); ++r)
+    for (RoofLoad load : group.runs[r].at_fence[gallery.crest].loads) {
+      load.run = r;
+      loads.push_back(load);
+    }
+  std::stable_sort(loads.begin(), loads.end(), [](const RoofLoad& a, const RoofLoad& b) {
+    return a.normal_energy() < b.normal_energy();
+  });
+  return loads;
+}
+
+void add_loads(const FenceRunGroup& group, const DamCase& gallery, DamResult& r) {
+  constexpr std::array<std::pair<double, const char*>, 3> levels = {
+      {{0.5, "p50"}, {0.95, "p95"}, {0.99, "p99"}}};
+  const std::vector<RoofLoad> loads = loads_at(group, gallery);
+  std::vector<BlockWeight> blocks;
+  for (const RoofLoad& load : loads) {
+    blocks.push_back({load.run, load.block, load.weight});
+    r.n_hits += load.n_hits;
+  }
+  r.n_loads = static_cast<int>(loads.size());
+  PercentileBounds bounds{group.clusters};
+  for (const auto& [p, name] : levels) {
+    const int place = percentile_places(bounds, blocks, p).place;
+    r.load_cases.push_back({name, {}});
+    if (place >= 0) r.load_cases.back().load = loads[place];
+  }
+  r.load_cases.push_back({"max", {}});
+  if (!loads.empty()) r.load_cases.back().load = loads.back();
+}
+
+void describe_gallery(DamResult& r) {
+  const std::string passed =
+      std::to_string(r.passing.n) + " passed over it; its strength is not checked";
+  if (r.arriving.n == 0 && r.n_loads == 0) {
+    r.text = "not judged: nothing came to it";
+    return;
+  }
+  r.verdict = DesignVerdict::energy_unknown;
+  r.text = r.n_loads == 0 ? "no block hit the roof; " + passed
+                          : std::to_string(r.n_loads) + " blocks hit the roof, the hardest with " +
+                                grouped_text(r.load_cases.back().load->normal_energy() / 1e3) +
+                                " kJ normal to it; " + passed;
 }
 
 void judge(const DamCase& dam, DamResult& r) {
@@ -76,13 +125,18 @@ DamResult dam_result(const DamCase& dam, const FenceRunGroup& group) {
   DamResult r;
   r.arriving = summarise(not_beside(arrivals_at(group, dam.arrival)), group.clusters);
   r.passing = summarise(over_the_crest(group, dam), group.clusters);
-  judge(dam, r);
+  if (dam.is_gallery) {
+    add_loads(group, dam, r);
+    describe_gallery(r);
+  } else {
+    judge(dam, r);
+  }
   return r;
 }
 
 std::string dam_summary(const DamCase& dam, const DamResult& r, const FenceRunGroup& group) {
-  return verdicts_text("dam " + dam.name, dam.arrival, group) + " " + std::to_string(r.arriving.n) +
-         " came: " + r.text;
+  return verdicts_text((dam.is_gallery ? "gallery " : "dam ") + dam.name, dam.arrival, group) +
+         " " + std::to_string(r.arriving.n) + " came: " + r.text;
 }
 
 }  // namespace talus

@@ -1,11 +1,13 @@
 // libcore/post/fence/dam_result.hpp: public
-// Blocks that reach a dam in the terrain, those that pass over its crest, and whether it holds.
-// in:    runs at the two lines of each dam (dam_lines() of setup/site_dams_gdal.hpp), read as the
+// Blocks that reach a dam in the terrain, those that pass over its crest, and whether it holds; of
+// a gallery the hits of its roof. in:    runs at the two lines of each dam (dam_lines() of
+// setup/site_dams_gdal.hpp), read as the
 //        lines of fences that stop nothing
 // out:   a verdict a block, statistics of arrivals and of passages, a verdict on the whole
 // Definitions: docs/guide/dams.md
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,9 +18,16 @@ namespace talus {
 /// A dam of the site file: its lines among those of the runs.
 struct DamCase {
   std::string name;
+  bool is_gallery = false;             ///< its crest is the valley edge of its roof
   double height = 0;                   ///< of the crest above the ground, as designed [m]
   double capacity = 0;                 ///< energy that it is designed for [J]; NaN: not given
   std::size_t arrival = 0, crest = 0;  ///< indices of RunAtFence
+};
+
+/// The block at a percentile of the energy normal to the roof, or with the largest.
+struct LoadCase {
+  const char* name;              ///< "p50", "p95", "p99", "max"
+  std::optional<RoofLoad> load;  ///< none: too few hits
 };
 
 struct DamResult {
@@ -27,6 +36,8 @@ struct DamResult {
   double energy_use = 0;      ///< 95th percentile of the energy over the capacity [-]; NaN: unknown
   DesignVerdict verdict = DesignVerdict::nothing_came;  ///< meets: it holds
   std::string text;                                     ///< the verdict in words
+  int n_loads = 0, n_hits = 0;       ///< blocks that hit the roof, and how often they did
+  std::vector<LoadCase> load_cases;  ///< of a gallery
 };
 
 /// Of each block, in place of the verdicts at the dam's first line: stopped where it came to the
@@ -35,7 +46,8 @@ struct DamResult {
 void set_verdicts(FenceRunGroup& group, const DamCase& dam);
 
 /// It holds when no block passed over the crest, and the 95th percentile of the energy of those
-/// that came is no more than the capacity. No factor and no freeboard of a code is in it.
+/// that came is no more than the capacity. No factor and no freeboard of a code is in it. A gallery
+/// is not judged.
 [[nodiscard]] DamResult dam_result(const DamCase& dam, const FenceRunGroup& group);
 
 /// "dam road: 280 blocks of 10 runs: 251 stopped, 29 not reached; 251 came, largest energy ..."

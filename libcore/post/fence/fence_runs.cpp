@@ -26,6 +26,10 @@ RunAtFence run_at_fence(const RunFile& run, int index, const Fence& fence, int l
                       fate_of(run, v.block, rest_speed) == Fate::moving;
   for (const PanelRow& panel : run.panels)
     if (panel.line == line && std::isfinite(panel.broken_at)) at.broken.push_back(panel);
+  for (const RoofHit& hit : run.roof_hits)
+    if (hit.line == line)
+      at.loads.push_back({index, hit.block, weight_of(run, hit.block), hit.n_hits, hit.mass,
+                          hit.volume, hit.velocity.norm(), hit.normal_speed});
   std::stable_sort(at.broken.begin(), at.broken.end(),
                    [](const PanelRow& a, const PanelRow& b) { return a.broken_at < b.broken_at; });
   return at;

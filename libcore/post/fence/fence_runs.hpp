@@ -32,6 +32,16 @@ struct FenceCase {
 void check_same_fence(const FenceSettings& stood, const FenceSettings& expected,
                       const std::string& file, const std::string& site_file);
 
+/// The hardest hit of the roof of a gallery by a block.
+struct RoofLoad {
+  int run = 0, block = 0;
+  double weight = 1;
+  int n_hits = 0;                                            ///< by the block
+  double mass = 0, volume = 0, speed = 0, normal_speed = 0;  ///< just before [kg, m3, m/s]
+
+  [[nodiscard]] double normal_energy() const { return 0.5 * mass * normal_speed * normal_speed; }
+};
+
 /// A run at one fence.
 struct RunAtFence {
   std::vector<FenceArrival> arrivals;   ///< at the fence
@@ -40,6 +50,7 @@ struct RunAtFence {
   bool standing = false;
   int n_unsettled = 0;           ///< blocks that the built fence stopped and that move at the end
   std::vector<PanelRow> broken;  ///< panels of the fence that broke, by time; rock by rock
+  std::vector<RoofLoad> loads;   ///< of the gallery's roof, by block
 };
 /// Crossings of blocks that passed a fence for good; one that hangs in a panel has not.
 [[nodiscard]] std::vector<FenceArrival> passed_for_good(const RunAtFence& at);

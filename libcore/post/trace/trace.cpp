@@ -107,6 +107,15 @@ int watched_as(const RunFile& run, const RecordObject& object) {
   return -1;
 }
 
+std::vector<RecordObject> as_watched(const RunFile& run, const std::vector<RecordObject>& objects) {
+  std::vector<RecordObject> out;
+  for (const RecordObject& object : objects) {
+    const int watched = watched_as(run, object);
+    out.push_back(watched < 0 ? object : run.objects[static_cast<std::size_t>(watched)]);
+  }
+  return out;
+}
+
 ObjectCells object_cells(const PassageGrid& grid, const std::vector<RecordObject>& objects) {
   ObjectCells all;
   for (std::size_t o = 0; o < objects.size(); ++o)
@@ -148,10 +157,11 @@ void add_run(TraceSums& sums, const RunFile& run, double rest_speed, bool by_cel
   const auto index = static_cast<std::int32_t>(sums.n_runs);
   sums.n_recorded.resize(sums.objects.size(), 0);
   sums.deposited.resize(sums.objects.size(), 0);
+  const std::vector<RecordObject> objects = as_watched(run, sums.objects);
   std::vector<std::pair<Box, std::size_t>> boxes;  // of the parts; an object
-  for (std::size_t o = 0; o < sums.objects.size(); ++o)
-    for (const ObjectPart& part : sums.objects[o].parts)
-      boxes.emplace_back(box_of(part, sums.objects[o].radius), o);
+  for (std::size_t o = 0; o < objects.size(); ++o)
+    for (const ObjectPart& part : objects[o].parts)
+      boxes.emplace_back(box_of(part, objects[o].radius), o);
   for (int b = 0; b < n_blocks(run); ++b) {
     const auto i = static_cast<std::size_t>(b);
     TraceSource& source = sums.source[source_of(sums.sources, run.blocks.rest[i].position)];
@@ -166,7 +176,7 @@ void add_run(TraceSums& sums, const RunFile& run, double rest_speed, bool by_cel
     if ((end - run.blocks.rest[i].position.head<2>()).norm() <= 0.1) continue;
     std::size_t last = sums.objects.size();  // an object counts once
     for (const auto& [box, o] : boxes)
-      if (o != last && holds(box, end) && gap_to(sums.objects[o], end) <= 0) {
+      if (o != last && holds(box, end) && gap_to(objects[o], end) <= 0) {
         sums.deposited[o] += run.blocks.volume[i];
         last = o;
       }

@@ -59,6 +59,11 @@ struct TraceSums {
 /// Whether the run watched the object, with the same outline; its index in the run, -1: it did not.
 [[nodiscard]] int watched_as(const RunFile& run, const RecordObject& object);
 
+/// Each object as the run watched it, with the roofs that were over it then; as it is where the run
+/// did not.
+[[nodiscard]] std::vector<RecordObject> as_watched(const RunFile& run,
+                                                   const std::vector<RecordObject>& objects);
+
 /// The cells_of() all objects, as pairs of cell and object, ascending.
 using ObjectCells = std::vector<std::pair<std::uint32_t, std::int32_t>>;
 [[nodiscard]] ObjectCells object_cells(const PassageGrid& grid,

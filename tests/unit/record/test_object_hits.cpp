@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "base/numbers.hpp"
 #include "hand_made.hpp"
 #include "record/object_hits.hpp"
 
@@ -134,4 +135,44 @@ TEST(ObjectHits, OfASpinningBlockAreNotMissedHoweverLongTheFlight) {
   EXPECT_NEAR(at_once.rows[0].time, in_pieces.rows[0].time, 1e-3);
   EXPECT_NEAR(at_once.rows[0].largest_total_energy, in_pieces.rows[0].largest_total_energy,
               1e-3 * in_pieces.rows[0].largest_total_energy);
+}
+
+// A road from x = 40 to 60 whose first three quarters lie under a roof of two pieces.
+RecordObject road_under_roof(double roof_end) {
+  RecordObject road = area("road", 40, 40, 60, 60);
+  road.roofs = {{{30, 30}, {48, 30}, {48, 70}, {30, 70}},
+                {{48, 30}, {roof_end, 30}, {roof_end, 70}, {48, 70}}};
+  return road;
+}
+
+TEST(ObjectHits, UnderARoofAreOfWhatLiesBesideItAlone) {
+  const Scene scene = flat_scene({1, 1, 1});
+  const std::vector<Segment> path = {flight(scene, 0, moving({10, 50, 60}, {20, 0, 0}), 0, 3)};
+  const ObjectRecorder part = recorded(scene, {road_under_roof(55)}, path);
+  ASSERT_EQ(part.rows.size(), 1u);
+  EXPECT_NEAR(part.rows[0].time, (55 - 10.5) / 20, 1e-4);
+  EXPECT_EQ(recorded(scene, {road_under_roof(62)}, path).rows.size(), 0u);
+}
+
+TEST(ObjectHits, BesideARoofAreThoseOfAnOpenRoad) {
+  const Scene scene = flat_scene({1, 1, 1});
+  // from the far side, where no roof is
+  const std::vector<Segment> path = {flight(scene, 0, moving({75, 50, 60}, {-20, 0, 0}), 0, 3)};
+  const ObjectHit open = recorded(scene, {area("road", 40, 40, 60, 60)}, path).rows.at(0);
+  const ObjectHit hit = recorded(scene, {road_under_roof(55)}, path).rows.at(0);
+  EXPECT_EQ(hit.time, open.time);
+  EXPECT_LT(hit.largest_speed, open.largest_speed);  // it was over the roof when it was faster
+}
+
+TEST(ObjectHits, GapsCountWhatLiesBesideTheRoof) {
+  const RecordObject road = road_under_roof(55);
+  const auto gap = [&road](double x0, double x1) {
+    return gap_to(road, std::vector<Vec2>{{x0, 45}, {x1, 45}, {x1, 46}, {x0, 46}});
+  };
+  EXPECT_EQ(gap(42, 54), talus::infinity);
+  EXPECT_EQ(gap(42, 56), 0);
+  EXPECT_NEAR(gap(63, 65), 3, 1e-12);
+  EXPECT_NEAR(gap(25, 28), 12, 1e-12);
+  EXPECT_EQ(gap_to(road, Vec2(50, 50)), talus::infinity);
+  EXPECT_EQ(gap_to(road, Vec2(57, 50)), 0);
 }

@@ -79,9 +79,9 @@ std::string with_single_blanks(std::istream& text) {
 // TALUS_PRINT_FIELDS=1 prints the text for docs/reference/fields.md, whose lines may be broken.
 TEST(Tables, ThePageOfFieldsIsTheLists) {
   std::istringstream lists(section<Passage>() + section<Crossing>() + section<ObjectHit>() +
-                           section<PanelRow>() + section<FenceHit>() + section<TreeHitRow>() +
-                           section<HealthRow>() + section<Break>() + section<CrushedBlock>() +
-                           section<DeepRow>());
+                           section<RoofHit>() + section<PanelRow>() + section<FenceHit>() +
+                           section<TreeHitRow>() + section<HealthRow>() + section<Break>() +
+                           section<CrushedBlock>() + section<DeepRow>());
   if (std::getenv("TALUS_PRINT_FIELDS") != nullptr) std::cout << lists.str();
   std::ifstream page(std::string(TALUS_SOURCE_DIR) + "/docs/reference/fields.md");
   EXPECT_NE(with_single_blanks(page).find(with_single_blanks(lists)), std::string::npos)

@@ -253,6 +253,27 @@ TEST(RunFile, HoldsThousandsOfLinesAndObjects) {
   EXPECT_EQ(back.objects.back().name, "hut 2999");
 }
 
+TEST(RunFile, HoldsRoofsOverObjectsAndTheirHits) {
+  const TemporaryFile file("roofs.h5");
+  RunFile run = sample(0, 0);
+  const std::vector<Vec2> roof{{0, 0}, {9, 0}, {9, 8}}, other{{9, 0}, {20, 0}, {20, 8}, {9, 8}};
+  for (const char* name : {"open", "road"})
+    run.objects.push_back({name, "road", {{{{0, 4}, {20, 4}}, false}}, 3});
+  run.objects[1].roofs = {roof, other};
+  run.roof_hits.push_back({1, 0, 3, 2.5, 2600, 1, {1, 2, 3}, {4, 5, -6}, 6});
+  talus::write_run_file(file.path, run);
+  const RunFile back = talus::read_run_file(file.path);
+  ASSERT_EQ(back.objects.size(), 2u);
+  EXPECT_TRUE(back.objects[0].roofs.empty());
+  EXPECT_EQ(back.objects[1].roofs, run.objects[1].roofs);
+  ASSERT_EQ(back.roof_hits.size(), 1u);
+  EXPECT_EQ(back.roof_hits[0].n_hits, 3);
+  EXPECT_EQ(back.roof_hits[0].velocity, Vec3(4, 5, -6));
+  run.roof_hits[0].line = 99;
+  talus::write_run_file(file.path, run);
+  EXPECT_THROW((void)talus::read_run_file(file.path), talus::InputError);
+}
+
 TEST(RunFile, HoldsARunWithoutRows) {
   const TemporaryFile file("empty.h5");
   RunFile run = sample(0, 0);
