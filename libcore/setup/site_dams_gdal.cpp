@@ -64,6 +64,23 @@ Doubt doubt_on_cells(const Where& where, const std::string& key, const std::stri
   return doubt;
 }
 
+// Whether the side that is taken as uphill may be the wrong one.
+std::vector<Doubt> doubts_on_side(const DamShape& shape, const Where& where, const Trn& ground) {
+  const SideRise rise = rise_to_the_left(ground, shape);
+  const bool is_level = std::abs(rise.mean) < other_height * shape.height;
+  if (!is_level && rise.other_share == 0) return {};
+  const bool left = rise.mean >= 0;
+  std::string finding = std::string("uphill is taken to be ") + (left ? "left" : "right") +
+                        " of the line seen from its first point, where the ground lies " +
+                        text(std::abs(rise.mean), 2) + " m higher than on the other side, " +
+                        text(side_distance(shape), 3) + " m from the line";
+  if (rise.other_share > 0)
+    finding += "; along " + text(std::round(100 * rise.other_share)) + " % of it it lies lower";
+  return {doubt_on(where, std::move(finding),
+                   "is it there that blocks come from? If not, draw the line where the ground "
+                   "rises on that side")};
+}
+
 // Doubts: shapes that the cells cannot represent, and heights along the line that differ.
 std::vector<Doubt> doubts_on(const BuiltDam& built, const Where& where, const Trn& trn) {
   const DamShape& shape = built.dam.shape;
@@ -185,6 +202,7 @@ std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn) {
         throw error_of(built.burn.fault, where, settings, trn);
       check_share_no_node(site, settings, built, trn, dam_of_node);
       log.doubts(doubts_on(built, where, trn));
+      log.doubts(doubts_on_side(planned.shape, where, ground));
       all.push_back(std::move(built));
     }
   }

@@ -341,9 +341,9 @@ double side_distance(const DamShape& shape) {
   return shape.crest_width / 2 + shape.ditch_width + 3 * (shape.height + shape.ditch_depth);
 }
 
-double rise_to_the_left(const Trn& ground, const DamShape& shape) {
+SideRise rise_to_the_left(const Trn& ground, const DamShape& shape) {
   const double beyond = side_distance(shape);
-  double sum = 0, length = 0;
+  double sum = 0, length = 0, left_length = 0, right_length = 0;
   for (std::size_t i = 0; i + 1 < shape.line.size(); ++i) {
     const Vec2 along = shape.line[i + 1] - shape.line[i];
     const Vec2 left = Vec2(-along.y(), along.x()).normalized();
@@ -354,12 +354,14 @@ double rise_to_the_left(const Trn& ground, const DamShape& shape) {
     if (std::isnan(rise)) continue;
     sum += rise * along.norm();
     length += along.norm();
+    (rise < 0 ? right_length : left_length) += along.norm();
   }
-  return length > 0 ? sum / length : 0;
+  if (length == 0) return {};
+  return {sum / length, (sum < 0 ? left_length : right_length) / length};
 }
 
 int uphill_side(const Trn& ground, const DamShape& shape) {
-  return rise_to_the_left(ground, shape) < 0 ? -1 : 1;
+  return rise_to_the_left(ground, shape).mean < 0 ? -1 : 1;
 }
 
 DamFault lay_dam(const Trn& ground, const DamShape& shape, Dam& dam) {

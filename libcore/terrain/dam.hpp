@@ -45,10 +45,14 @@ struct DamFault {
 /// stands there or not: +1 left of it seen from its first point, -1 right.
 [[nodiscard]] int uphill_side(const Trn& ground, const DamShape& shape);
 
-/// How far from the line the ground of both sides is looked at for it, and how much higher it lies
-/// there on the left than on the right, mean over the line [m].
+/// How far from the line the ground of both sides is looked at for it [m].
 [[nodiscard]] double side_distance(const DamShape& shape);
-[[nodiscard]] double rise_to_the_left(const Trn& ground, const DamShape& shape);
+/// How much higher the ground lies there on the left than on the right.
+struct SideRise {
+  double mean = 0;         ///< over the line [m]
+  double other_share = 0;  ///< of the line's length, where the other side is higher [-]
+};
+[[nodiscard]] SideRise rise_to_the_left(const Trn& ground, const DamShape& shape);
 
 /// Lays the dam on the ground. The side on which the ground lies higher is uphill. A point of the
 /// line off the known ground, and an uphill face that does not meet the ground within ten heights,

@@ -59,6 +59,11 @@ says 'dam.road.crest_width_m, x 650130, y 5200110: 2 m on cells of 5 m: the terr
 says 'dam.road.ditch_m, x 650070, y 5200110: 3 m on cells of 5 m: the terrain has '
 says 'in the cells it is at most 45 degrees steep'
 
+# down the slope neither side is higher
+sed '/^ditch_m/d; s/^line.*/line = [[650100, 5200090], [650100, 5200130]]/' site.toml >down.toml
+expect 0 talus-trn dem.tif down.toml -o down.tif --cell-size-m 1
+says 'uphill is taken to be left of the line seen from its first point, where the ground lies 0 m higher than on the other side, 16 m from the line'
+
 # dams that cannot be built
 expect 1 talus-trn dem.tif site.toml -o no.tif --set 'dam.road.slopes_deg=[60, 28]'
 says 'the downhill face of 28 degrees does not meet the ground within ten heights'

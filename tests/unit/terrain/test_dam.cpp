@@ -133,6 +133,23 @@ TEST(Dam, LeavesUphillWhereItIs) {
     }
 }
 
+// A line over a saddle has the higher ground left of it here and right of it there.
+TEST(Dam, KnowsHowMuchHigherItsUphillSideIs) {
+  const DamShape shape = shape_of({{-20, 0}, {20, 0}});
+  const talus::SideRise slope = rise_to_the_left(plane({0, 0.5}, 1, 100), shape);
+  EXPECT_NEAR(slope.mean, 0.5 * 2 * side_distance(shape), 1e-9);
+  EXPECT_EQ(slope.other_share, 0);
+  Trn saddle = plane({0, 0}, 1, 100);
+  for (int r = 0; r < saddle.n_rows; ++r)
+    for (int c = 0; c < saddle.n_cols; ++c) {
+      const Vec2 at = node_point(saddle, r, c).head<2>();
+      saddle.elevation[node_index(saddle, r, c)] = 0.01 * at.x() * at.y();
+    }
+  const talus::SideRise twisted = rise_to_the_left(saddle, shape_of({{-10, 0}, {0, 0}, {30, 0}}));
+  EXPECT_NEAR(twisted.mean, 2 * side_distance(shape) * 0.01 * (-5 * 10 + 15 * 30) / 40, 1e-9);
+  EXPECT_NEAR(twisted.other_share, 0.25, 1e-12);
+}
+
 // Which end the line begins at does not matter.
 TEST(Dam, IsTheSameFromBothEnds) {
   DamShape shape = shape_of({{-20, 3}, {4, -2}, {30, 5}});
