@@ -60,7 +60,7 @@ std::vector<ViewedInput> viewed_inputs(const Look& look, const std::vector<Json>
   inputs.add("blocks", std::exchange(points, {}));
   for (const RecordLine& fence : look.inputs.lines) {
     for (const Vec3& post : fence.points) points.emplace_back(post.head<2>());
-    inputs.add(is_dam(fence) ? fence.name : "fence." + fence.name, std::exchange(points, {}));
+    inputs.add(section_of(fence), std::exchange(points, {}));
   }
   for (const RecordObject& object : look.inputs.objects) {
     for (const auto& polygon : polygons_of(object))

@@ -348,12 +348,12 @@ void doubt_objects(Look& look) {
 
 void doubt_fences(Look& look) {
   for (const FenceLook& fence : look.fences) {
-    const std::string key = fence.is_dam ? fence.line.name : "fence." + fence.line.name;
+    const std::string key = section_of(fence.line);
     std::vector<Vec2> posts;
     for (const Vec3& post : fence.line.points) posts.emplace_back(post.head<2>());
     if (fence.is_in_source)
-      add_doubt(look, key, posts, "a post stands in the source: the fence goes with the mass",
-                "move the fence out of the source");
+      add_doubt(look, key, posts, "a point of its line lies in the source: it goes with the mass",
+                "move it out of the source");
     if (!look.slides.empty() && fence.n_fall_lines == 0)
       add_doubt(look, key, posts,
                 "no fall line from the source comes to it; the nearest ends or passes " +

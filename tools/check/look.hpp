@@ -30,12 +30,18 @@ struct ThreeVolumes {
   double nodes = 0;  ///< area of the polygon times the mean depth at its nodes
 };
 
+/// Section of the site file that a line is of.
+[[nodiscard]] inline std::string section_of(const RecordLine& line) {
+  if (is_gallery(line)) return "dam" + line.name.substr(line.name.find('.'));
+  return (is_dam(line) ? "" : "fence.") + line.name;
+}
+
 /// Fall lines at a fence.
 struct FenceLook {
   RecordLine line;
   double height = 0;          ///< [m]
   bool stands = false;        ///< it stops blocks
-  bool is_dam = false;        ///< it is the crest of a dam, which is ground
+  bool is_dam = false;        ///< the crest of a dam, or a gallery's edge: ground
   double low = 0, high = 0;   ///< of its base, local z [m]
   int n_fall_lines = 0;       ///< that cross it
   double nearest = 0;         ///< distance of the nearest fall line; 0 where one crosses it [m]

@@ -310,18 +310,19 @@ std::string fence_section(const Look& look) {
   for (const FenceLook& fence : look.fences)
     rows.push_back(
         {xml_escaped(fence.line.name),
-         fence.is_dam   ? "crest"
-         : fence.stands ? "stands"
-                        : "line only",
+         is_gallery(fence.line) ? "valley edge of the roof"
+         : fence.is_dam         ? "crest"
+         : fence.stands         ? "stands"
+                                : "line only",
          grouped_text(fence.line.chainage.back()), fence.is_dam ? "" : text(fence.height, 3),
          text(std::round(fence.low + look.inputs.origin.z())) + " to " +
              text(std::round(fence.high + look.inputs.origin.z())),
          std::to_string(fence.n_fall_lines) + " of " + std::to_string(look.slides.size())});
-  return html_section("fences", "Fences",
-                      html_table({"Fence", "", "length [m]", "height [m]", "base at [m]",
+  return html_section("fences", "Protective structures",
+                      html_table({"Line", "", "length [m]", "height [m]", "base at [m]",
                                   "fall lines that come to it"},
                                  rows, {false, false, true, true, false, false}) +
-                          html_note("A mass spreads beside its fall lines: a fence that none "
+                          html_note("A mass spreads beside its fall lines: what none "
                                     "comes to may still be reached."));
 }
 

@@ -32,6 +32,8 @@ std::string plain_style() {
   return vector_qml({SymbolKind::polygon, "", {{"", "", {42, 87, 184, 60}}}, 0.5});
 }
 
+constexpr const char* protection = "Protective structures";  // group of the layers
+
 // Where the project lies, paths in it begin.
 std::string relative_to(const std::string& project, const fs::path& path) {
   const fs::path folder = fs::absolute(fs::path(project)).parent_path();
@@ -42,10 +44,10 @@ std::string relative_to(const std::string& project, const fs::path& path) {
 std::string layer_words(const std::string& name) {
   static const std::map<std::string, std::string> words = {
       {"fences", "Fence: verdict"},
-      {"dams", "Dam: verdict"},
+      {"dams", "Dam or gallery: verdict"},
       {"fence_fields", "Fields of the fence: verdict"},
       {"fence_posts", "Posts of the fence"},
-      {"fence_arrivals", "Blocks that arrived at the fence"},
+      {"fence_arrivals", "Blocks that arrived"},
       {"candidates", "Candidate lines"},
       {"front", "Best lines by length and residual"},
       {"proposals", "Proposed fence line"},
@@ -346,9 +348,10 @@ QgisProject project_of(const ReportData& data, const std::string& file,
   add_package(project, file, folder, "stability/blocks.gpkg", "Source", {});
   add_package(project, file, folder, "blocks.gpkg", "Source", {"blocks"});
   add_inputs(project, file, folder, data.site);
-  add_package(project, file, folder, "fence.gpkg", "Fences", {"fence_fields", "fence_posts"});
+  add_package(project, file, folder, "fence.gpkg", protection, {"fence_fields", "fence_posts"});
   if (folder.has("change.tif"))
-    project.layers.push_back(raster_layer(file, folder, "change", "Fences", "Change by the fence"));
+    project.layers.push_back(
+        raster_layer(file, folder, "change", protection, "Change by the structures"));
   add_package(project, file, folder, "calibrate.gpkg", "Observed", {});
   add_objects(project, file, folder, data);
   // Footprints of many runs would cover the maps.

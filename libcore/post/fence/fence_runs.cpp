@@ -39,6 +39,7 @@ RunAtFence run_at_fence(const RunFile& run, int index, const Fence& fence, int l
 
 int find_line(const RunFile& run, const FenceCase& fence, const std::string& file,
               const std::string& site_file) {
+  const std::string what = (is_dam(fence.line) ? "" : "fence ") + fence.line.name;
   for (std::size_t l = 0; l < run.lines.size(); ++l) {
     if (run.lines[l].name != fence.line.name) continue;
     const std::vector<Vec3>&a = run.lines[l].points, &b = fence.line.points;
@@ -46,12 +47,11 @@ int find_line(const RunFile& run, const FenceCase& fence, const std::string& fil
     const auto same = [](const Vec3& p, const Vec3& q) { return (p - q).head<2>().norm() < 1e-3; };
     if (a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), same))
       return static_cast<int>(l);
-    throw InputError({file},
-                     "recorded another line for fence " + fence.line.name + " than " + site_file,
-                     "run talus-dda again with the fence where it is now");
+    throw InputError({file}, "recorded another line for " + what + " than " + site_file,
+                     "run talus-dda again with it where it is now");
   }
-  throw InputError({file}, "recorded no line for fence " + fence.line.name,
-                   "the fence was added later: run talus-dda again");
+  throw InputError({file}, "recorded no line for " + what,
+                   "it was added later: run talus-dda again");
 }
 
 void check_same_fence(const FenceSettings& stood, const FenceSettings& expected,

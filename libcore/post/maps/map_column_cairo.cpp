@@ -118,8 +118,13 @@ void draw_signs(Column& column, const MapGround& ground, const MapPlaces& places
   };
   if (any_line(true)) column.line_row(line_stroke(true), "fence that stands");
   if (any_line(false)) column.line_row(line_stroke(false), "line without a fence");
-  if (std::any_of(places.lines.begin(), places.lines.end(), is_dam))
-    column.line_row(line_stroke(false), "crest of a dam");
+  const auto any_dam = [&places](bool of_gallery) {
+    return std::any_of(places.lines.begin(), places.lines.end(), [=](const RecordLine& line) {
+      return is_dam(line) && is_gallery(line) == of_gallery;
+    });
+  };
+  if (any_dam(false)) column.line_row(line_stroke(false), "crest of a dam");
+  if (any_dam(true)) column.line_row(line_stroke(false), "valley edge of a gallery");
   if (any_object) column.area_row(object_stroke(), "object");
   if (ground.contour_interval > 0)
     column.line_row(contour_stroke(true), "heights every " + text(ground.contour_interval) +

@@ -1,5 +1,5 @@
 # A dam of the site: make burns it into the terrain before blocks are cut, anew when it changes, and
-# the report gives the arrivals at it.
+# the report gives the arrivals at it; a gallery as a measure.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v gdal_translate >/dev/null || skip "needs gdal-bin"
 awk 'BEGIN { print "ncols 60\nnrows 80\nxllcorner 650000\nyllcorner 5200000\ncellsize 2\nNODATA_value -9999"
@@ -48,3 +48,34 @@ grep -q 'talus-trn\|talus-dda' out && fail 'another capacity makes the terrain o
 sed -i 's/^height_m = 4/height_m = 3/' wall/site.toml
 made wall terrain
 prints 'trn: elevation model -> terrain'
+
+# a gallery as a measure: the lane under it is hit no more
+cat >>wall/site.toml <<'TOML'
+[dam.shed]
+kind = "gallery"
+active = false
+line = [[650020, 5200064], [650100, 5200064]]
+height_m = 5
+crest_width_m = 16
+[object.lane]
+line = [[650024, 5200062], [650096, 5200062]]
+width_m = 4
+[variant.gallery]
+without = ["dam.road"]
+dam.shed.active = true
+TOML
+made wall -j2
+python3 - <<'PY' || fail 'the gallery as a measure'
+import json
+def lane(folder): return json.load(open(f'wall/out/{folder}trace.json'))['objects'][0]
+site, shed = lane(''), lane('variant/gallery/')
+assert site['hits_a_run'] > 0 and shed['hits_a_run'] == 0, (site, shed)
+hits = shed['compared']['hits_a_run']
+assert (hits['site'], hits['variant']) == (site['hits_a_run'], 0), hits
+gallery, = json.load(open('wall/out/variant/gallery/fence.json'))['dams']
+assert gallery['kind'] == 'gallery' and gallery['roof_hits']['blocks'] > 0, gallery
+assert 'Measures compared' in open('wall/out/report.html').read()
+page = open('wall/out/variant/gallery/report.html').read()
+for words in 'gallery shed: 80 m long', 'energy normal to the roof', 'its strength is not checked':
+    assert words in page, words
+PY

@@ -69,7 +69,7 @@ for source in sources:
     assert source.startswith("./"), source
     assert os.path.exists(f"{out}/{source.split('|')[0]}"), source
 groups = [g.get("name") for g in project.find("layer-tree-group").findall("layer-tree-group")]
-assert groups == ["Source", "Fences", "Paths", "Hazard", "Terrain"], groups
+assert groups == ["Source", "Protective structures", "Paths", "Hazard", "Terrain"], groups
 hazard = next(g for g in project.find("layer-tree-group") if g.get("name") == "Hazard")
 layers = hazard.findall("layer-tree-layer")
 shown = {os.path.basename(layer.get("source"))[:-4] for layer in layers}
