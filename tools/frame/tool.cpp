@@ -553,6 +553,8 @@ void Tool::listing(Json result, const std::string& lines) {
   impl_->is_listing = true;
 }
 
+bool Tool::prints_json() const { return impl_->options.json; }
+
 void Tool::result(Json result, const std::string& summary) {
   impl_->result = std::move(result);
   if (!impl_->layers_read.empty()) impl_->result["layers_read"] = impl_->layers_read;

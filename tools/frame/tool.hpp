@@ -139,6 +139,7 @@ class Tool : public InputLog {
   void result(Json result, const std::string& summary);
   /// The same of lines that stay as they are, however long.
   void listing(Json result, const std::string& lines);
+  [[nodiscard]] bool prints_json() const;  ///< --json: `lines` of a listing are not printed
   [[nodiscard]] bool overwrite() const;
   [[nodiscard]] double memory_mb() const;      ///< as given; 0: the free memory
   [[nodiscard]] bool is_recorded() const;      ///< not with --no-db

@@ -357,9 +357,11 @@ int main(int argc, char** argv) {
       std::string lines =
           "id    content id        tool          started               outcome      cpu       "
           "command";
-      for (const auto& run : talus::list_runs(db)) {
-        runs.push_back(run_as_json(run));
-        lines += "\n" + one_line(run);
+      for (const auto& run : talus::list_runs(db)) {  // one of both: there may be 100,000 runs
+        if (tool.prints_json())
+          runs.push_back(run_as_json(run));
+        else
+          lines += "\n" + one_line(run);
       }
       tool.listing(report, lines);
     } else if (show->parsed()) {
