@@ -54,17 +54,29 @@ struct GaussArc {
 
 /// sin^2 of 1 degree: directions nearer than that count as parallel.
 inline constexpr double parallel_sin_sq = 3.0458649045213493e-4;
+/// sin^2 of 0.005 degrees: for edges nearer to parallel, the direction across both is rounding of
+/// their vertices.
+inline constexpr double no_crossing_sin_sq = 7.6e-9;
+/// Edges parallel within a degree are an axis where no face is nearer to their direction than 8
+/// degrees.
+inline constexpr double no_face_cos = 0.990268068741570;
+
+/// Whether a unit normal across an edge lies in its arc, farther than 8 degrees from both faces.
+[[nodiscard]] inline bool is_well_inside(const GaussArc& arc, const Vec3& normal) {
+  const double left = normal.dot(arc.left), right = normal.dot(arc.right);
+  return left + right > 1 + arc.left.dot(arc.right) && std::max(left, right) < no_face_cos;
+}
 
 /// The points of two lines that are nearest to each other: p + s e, q + t f.
 struct LinePair {
   double s = 0, t = 0;
-  bool parallel = false;  ///< |e x f| below sin(1 degree) |e| |f|: s and t mean nothing
+  bool parallel = false;  ///< |e x f|^2 below `sin_sq` |e|^2 |f|^2: s and t mean nothing
 };
 [[nodiscard]] inline LinePair nearest_on_lines(const Vec3& p, const Vec3& e, const Vec3& q,
-                                               const Vec3& f) {
+                                               const Vec3& f, double sin_sq = parallel_sin_sq) {
   const double ee = e.squaredNorm(), ff = f.squaredNorm(), ef = e.dot(f);
   const double cross_sq = ee * ff - ef * ef;
-  if (!(cross_sq > parallel_sin_sq * ee * ff)) return {0, 0, true};
+  if (!(cross_sq > sin_sq * ee * ff)) return {0, 0, true};
   const Vec3 d = q - p;
   const double de = d.dot(e), df = d.dot(f);
   return {(de * ff - df * ef) / cross_sq, (de * ef - df * ee) / cross_sq, false};

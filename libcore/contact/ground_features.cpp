@@ -215,18 +215,26 @@ void add_edge_contact(FeatureSearch& s, const Ridge& ridge, size_t i, double dee
   const ShapeEdge& edge = edges_of(s.shapes, s.b)[i];
   const Vec3 &Q = ridge.Q, &f = ridge.f, &P = body[edge.a];
   const Vec3 e = body[edge.b] - P;
-  LinePair at = nearest_on_lines(P, e, Q, f);
+  LinePair at = nearest_on_lines(P, e, Q, f, no_crossing_sin_sq);
   if (at.parallel) return;
   Vec3 normal = e.cross(f);
+  const bool nearly_parallel =
+      normal.squaredNorm() <= parallel_sin_sq * e.squaredNorm() * f.squaredNorm();
+  normal.normalize();
   if (normal.dot(ridge.arc.left + ridge.arc.right) < 0) normal = -normal;
+  // Where a face is as good, the direction across such edges is hardly known.
+  if (nearly_parallel && !(is_well_inside(ridge.arc, normal) && is_well_inside(edge.arc, -normal)))
+    return;
   // Of edges that overlap the nearest points may lie a little beyond an end. Where they cross in
   // plan, the block's is below the ground, however deep.
   const bool overlap = normal.dot(P - Q) < 0;
   const Vec3 up = s.to_local.transpose() * Vec3::UnitZ();
   const LinePair crossing = overlap ? crossing_seen_along(up, P, e, Q, f) : at;
-  normal.normalize();
   // Ridges that meet at a node both support an edge above it: taken by turns they would not.
   const double beyond = std::clamp(normal.dot(Q - P), 0.0, at_node * deepest) / f.norm();
+  // An edge along the normal of one side that ends before the ridge reads as overlapping it by as
+  // much as its end is below the other side's plane, which is in the air there.
+  if (overlap && !is_within(crossing, beyond) && !edges_may_touch(edge.arc, ridge.arc, 0)) return;
   if (!is_within(at, beyond)) at = crossing;
   if (!is_within(at, beyond)) return;
   const Vec3 a = P + at.s * e, X = Q + at.t * f;

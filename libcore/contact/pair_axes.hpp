@@ -28,10 +28,6 @@ inline Vec3 edge_direction(const PartPair& parts, int part, const HullEdge& edge
          parts.placed.vertices[slot(parts.hulls, part, edge.a)];
 }
 
-/// sin^2 of 0.005 degrees: for edges nearer to parallel, the direction across both is rounding of
-/// their vertices.
-inline constexpr double no_crossing_sin_sq = 7.6e-9;
-
 /// Are two edges parallel within a degree, or an angle of another sin^2, or is one of them without
 /// length? Of their cross product.
 inline bool are_parallel(const Vec3& along_a, const Vec3& along_b, const Vec3& cross,

@@ -19,9 +19,6 @@ namespace {
 using Parts = PartPair;
 
 constexpr double none = -infinity;
-// Edges parallel within a degree are an axis where no face is nearer to their direction than 8
-// degrees.
-constexpr double no_face_cos = 0.990268068741570;
 // For bodies of several parts: points nearer than this part of the thickness may be the same place
 // on both sides of a seam; an overlap below this part of its depth counts as free.
 constexpr double seam_ratio = 5e-3;

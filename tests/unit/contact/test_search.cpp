@@ -143,6 +143,38 @@ TEST(FindContacts, AFaceRestsOnALongCrestByItsEdges) {
   }
 }
 
+// The lowest edge of a cube crosses a ridge of 90 degrees: they touch there, however small their
+// angle is. Its ends are less deep in the sides, and no edge that ends before the ridge is deeper.
+TEST(FindContacts, EdgesThatHardlyCrossARidgeTouchIt) {
+  Trn trn;
+  trn.n_rows = trn.n_cols = 9;
+  trn.cell_size = 1;
+  trn.node0 = Vec2(-4, 4);
+  for (int node = 0; node < 81; ++node) trn.elevation.push_back(-std::abs(node % 9 - 4.0));
+  const Ground ground = make_ground(trn, {});
+  const Polyhedron body = box(Vec3(-0.5, -0.4, -0.5), Vec3(0.5, 0.4, 0.5));
+  Shapes shapes;
+  add_shape(shapes, std::span(&body, 1), body, Vec3::Zero(), Mat3::Identity(), face_internal);
+  const Quat on_edge(Eigen::AngleAxisd(std::numbers::pi / 4, Vec3::UnitY()));
+  std::vector<Vec3> vertices;
+  std::vector<Contact> contacts;
+  for (const double depth : {-1e-6, 1e-3, 0.015})
+    for (const double degrees : {0.01, 0.1, 0.3, 0.9, 1.1, 5.0}) {
+      const Quat turned(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vec3::UnitZ()));
+      const Pose pose{Vec3(0, 0.45, std::sqrt(0.5) - depth), turned * on_edge};
+      find_contacts(ground, shapes, 0, pose, Mat3::Identity(), 1e-5, vertices, contacts);
+      const auto is_upright = [](const Contact& c) { return c.normal.z() > 0.9; };
+      const auto edges = std::ranges::find_if(contacts, is_upright);
+      ASSERT_NE(edges, contacts.end()) << degrees << " " << depth;
+      EXPECT_EQ(edges->key.mode, ContactMode::edge_edge);
+      EXPECT_LT((edges->normal - Vec3::UnitZ()).norm(), 1e-9);
+      EXPECT_NEAR(edges->gap, -depth, 1e-12);
+      EXPECT_NEAR(edges->point_b.y(), 0.45, 1e-7);  // rounding over the square of the sine
+      for (const Contact& c : contacts)
+        EXPECT_TRUE(is_upright(c) || c.gap > -std::sqrt(0.5) * std::max(0.0, depth)) << c.gap;
+    }
+}
+
 // A box leans with one face on the flank of a fin whose crest it overlaps by 5 cm. The edges of its
 // next face cross the crest as well, where they read as a metre deep: the shortest displacement out
 // is another one.
