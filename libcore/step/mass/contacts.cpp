@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/scales.hpp"
 #include "motion/free_rotation.hpp"
 #include "scene/bonds.hpp"
 #include "scene/stems.hpp"
@@ -166,7 +167,9 @@ struct MassMaker {
     const double slip_speed = slip.norm();
     contact.slip_speed = static_cast<float>(slip_speed);
     const double approach = std::min(contact.speed_start, (motion.gap_free - motion.gap) / free.h);
-    contact.is_hit = !faces.yields && approach < -faces.resting_speed && motion.gap_free < 0;
+    // Points of a flat hit close together, whatever rounding says of each.
+    contact.is_hit = !faces.yields && approach < -faces.resting_speed &&
+                     motion.gap_free < negligible * faces.thickness;
     contact.yields = faces.yields;
     MassRow& row = out.rows.emplace_back();
     set_floats(n, row.normal);

@@ -278,6 +278,21 @@ TEST(MassStep, ReboundsWithTheRestitution) {
   EXPECT_NEAR(course.state.ledger.impact, impact, 0.02 * impact);
 }
 
+// The same where the corners touch at the end of a step, to rounding: it does not split the hit.
+TEST(MassStep, ReboundsWithTheRestitutionWhereAStepEndsAsItTouches) {
+  Lattice lattice;
+  lattice.along = lattice.across = 6;
+  lattice.high = 1;
+  lattice.restitution = 0.5;
+  lattice.above = 0.2;
+  lattice.velocity = Vec3(0, 0, -2);
+  Scene scene = scene_of_lattice(lattice, with_masses(true));
+  scene.gravity.setZero();
+  const Vec3 normal = slope_frame(lattice.dip_deg, 30).normal;
+  const Course course = run(scene, 0.2);
+  for (const Motion& m : course.state.motion) EXPECT_NEAR(normal.dot(m.velocity), 1, 0.01);
+}
+
 // --- conserved quantities ----------------------------------------------------------------------
 
 // Two lattices meet in the air.
