@@ -7,6 +7,7 @@
 namespace talus {
 namespace {
 
+constexpr int fewest_digits = 6;   // that programs write by default
 constexpr int most_digits = 9;     // more of them leave millimetres of map coordinates
 constexpr int double_digits = 12;  // of a number that is looked at
 
@@ -44,7 +45,9 @@ int RoundingFinder::n_digits() const {
   const auto [fewest, most] = std::minmax_element(n_digits_.begin(), n_digits_.end());
   const auto [shortest, longest] =
       std::minmax_element(n_before_point_.begin(), n_before_point_.end());
-  return *fewest == *most && *most <= most_digits && *shortest < *longest ? *most : 0;
+  return *fewest == *most && *most >= fewest_digits && *most <= most_digits && *shortest < *longest
+             ? *most
+             : 0;
 }
 
 double RoundingFinder::step() const {

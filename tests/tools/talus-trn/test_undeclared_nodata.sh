@@ -12,11 +12,11 @@ grid() { # grid CONDITION VALUE: a slope from 1000 to 1100 m; cells where the co
   gdal_translate -q -ot Float32 -a_srs EPSG:25832 grid.asc grid.tif
 }
 refused() { # refused VALUE CELLS
+  rm -f declared.tif
   expect 1 talus-trn grid.tif -o bad.tif --no-db
   says "the elevation is $1 m in $2 side by side"
   says "hint: if it stands for nodata: gdal_translate -a_nodata $1 grid.tif declared.tif"
   nothing_left bad.tif
-  rm -f declared.tif
   $(sed -n 's/^ *hint: if it stands for nodata: //p' err) -q
   expect 0 talus-trn declared.tif -o good.tif --overwrite --no-db
 }

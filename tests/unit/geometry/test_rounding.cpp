@@ -44,7 +44,7 @@ TEST(Rounding, SignificantDigitsLeaveMetresOfNorthings) {
 
 TEST(Rounding, DoublesAndDecimalsAreNotRounded) {
   EXPECT_EQ(written([](double v) { return v; }).step(), 0);
-  for (const char* format : {"%.0f", "%.1f", "%.2f", "%.3f", "%.10g"})
+  for (const char* format : {"%.0f", "%.1f", "%.2f", "%.3f", "%.5g", "%.10g"})
     EXPECT_EQ(written([format](double v) { return with_digits(v, format); }).step(), 0) << format;
 }
 
