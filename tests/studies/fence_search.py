@@ -13,6 +13,7 @@ has led that astray, all are shifted alike.
 """
 import json
 import math
+import re
 
 import h5py
 
@@ -106,7 +107,9 @@ def compute(study, site):
     both = [found for found in searches if found['proposals']]
     hit = {'hit without a fence [%]': f"{100 * searches[0]['run_share']:.0f}"}
     if not both:
-        study.row('sites', site, hit | {'fence': searches[0]['answer'].partition(': ')[2]})
+        answer = searches[0]['answer']
+        nearest, height = re.search(r'stops ([\d.]+) % of the hits', answer), re.search(r'needs a height of ([\d.]+) m', answer)
+        study.row('sites', site, hit | {'fence': f'none of this kind: the nearest stops {nearest[1]} % of the hits, and would need {height[1]} m of height'})
         return
     found = min(both, key=lambda one: one['proposals'][0]['cost'])
     fence = found['proposals'][0]
