@@ -378,7 +378,7 @@ def obj_of_seven_digits(plane):
     corners = [(x + a, y + b, plane.z(x, y) + 1 + c) for c in (0, 1.1) for b in (0, 1.3) for a in (0, 2)]
     faces = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
     write('rock.obj', ''.join('v %.7g %.7g %.7g\n' % c for c in corners) + ''.join('f %d %d %d %d\n' % f for f in faces))
-    run('[blocks.b]\nfile = "rock.obj"\nin_place = true\n[material.rock]\n', 'warning: .* 7 digits', tool='talus-blocks')
+    run('[blocks.b]\nfile = "rock.obj"\n[material.rock]\n', 'warning: .* 7 digits', tool='talus-blocks')
 
 
 @on_site
