@@ -129,7 +129,7 @@ struct Edited {
   void find_objects() {
     static const std::set<std::string> not_read = {
         "units", "long_name", "description", "CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST"};
-    const auto visit = [](hid_t top, const char* name, const H5O_info_t* info, void* to) -> herr_t {
+    const auto visit = [](hid_t top, const char* name, const auto* info, void* to) -> herr_t {
       auto& found = *static_cast<std::vector<Object>*>(to);
       if (info->type == H5O_TYPE_DATASET) found.push_back({name, ""});
       const hid_t object = H5Oopen(top, name, H5P_DEFAULT);
@@ -145,7 +145,11 @@ struct Edited {
       H5Oclose(object);
       return 0;
     };
+#if H5_VERSION_GE(1, 12, 0)
+    H5Ovisit3(file, H5_INDEX_NAME, H5_ITER_INC, visit, &objects, H5O_INFO_BASIC);
+#else
     H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, visit, &objects);
+#endif
   }
 
   void apply(const Edit& edit) {

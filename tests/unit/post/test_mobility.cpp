@@ -17,7 +17,7 @@ std::vector<MobilityRelation> shipped() {
   return mobility_relations(read_csv(TALUS_SOURCE_DIR "/share/mobility.csv"));
 }
 
-const MobilityRelation& named(const std::vector<MobilityRelation>& list, const std::string& id) {
+MobilityRelation named(const std::vector<MobilityRelation>& list, const std::string& id) {
   for (const MobilityRelation& r : list)
     if (r.id == id) return r;
   throw std::runtime_error("no relation " + id);
