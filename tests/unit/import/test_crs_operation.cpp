@@ -96,9 +96,8 @@ TEST(CrsOperation, AMissingGridIsNamed) {
     static_cast<void>(find_operation(wkt("EPSG:4267"), wkt("EPSG:26911"), nevada, {"old.shp"}));
   });
   if (refusal.finding.empty()) GTEST_SKIP() << "the grids of NOAA are installed";
-  EXPECT_NE(refusal.finding.find("needs the grid us_noaa_conus.tif"), std::string::npos)
-      << refusal.finding;
-  EXPECT_NE(refusal.hint.find("projsync --file us_noaa_conus.tif"), std::string::npos);
+  EXPECT_NE(refusal.finding.find("needs the grid us_noaa_"), std::string::npos) << refusal.finding;
+  EXPECT_NE(refusal.hint.find("projsync --file us_noaa_"), std::string::npos);
   EXPECT_NE(refusal.hint.find("--accept-ballpark"), std::string::npos);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "post/maps/map_drawing.hpp"
@@ -68,10 +69,15 @@ TEST(MapPage, HasTheSizeOfItsPaper) {
   // 297 x 210 mm and 420 x 297 mm at 150 dots an inch, and in points
   EXPECT_EQ(size_of_png(Sheet(PageSize::a4).png()), std::pair(1754U, 1240U));
   EXPECT_EQ(size_of_png(Sheet(PageSize::a3).png()), std::pair(2480U, 1754U));
-  EXPECT_NE(Sheet(PageSize::a4).pdf().find("/MediaBox [ 0 0 841.889764 595.275591 ]"),
-            std::string::npos);
-  EXPECT_NE(Sheet(PageSize::a3).pdf().find("/MediaBox [ 0 0 1190.551181 841.889764 ]"),
-            std::string::npos);
+  const auto points_of = [](const std::string& pdf) {
+    const std::string box = "/MediaBox [ 0 0 ";
+    std::istringstream numbers(pdf.substr(pdf.find(box) + box.size(), 40));
+    double width = 0, height = 0;
+    numbers >> width >> height;
+    return Vec2(width, height);
+  };
+  EXPECT_LT((points_of(Sheet(PageSize::a4).pdf()) - Vec2(297, 210) / 25.4 * 72).norm(), 1e-3);
+  EXPECT_LT((points_of(Sheet(PageSize::a3).pdf()) - Vec2(420, 297) / 25.4 * 72).norm(), 1e-3);
 }
 
 // Leaving out any one item changes the drawing: all of it is there.

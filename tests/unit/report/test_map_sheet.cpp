@@ -53,7 +53,9 @@ TEST(CellsSvg, LiesWhereItsCellsAre) {
   const double metre = 1000 / view.scale * 96 / 25.4;
   const std::string place = "matrix(" + text(2 * metre, 8) + ",0,0," + text(2 * metre, 8) + "," +
                             text(4 * metre, 8) + "," + text(6 * metre, 8) + ")";
-  EXPECT_NE(without.find(place), std::string::npos) << place << without;
+  std::string dense = without;  // Cairo sets blanks or not
+  std::erase(dense, ' ');
+  EXPECT_NE(dense.find(place), std::string::npos) << place << without;
   EXPECT_EQ(without.find("<script"), std::string::npos);
   picture.values = "values";
   picture.labels = {{2, "a </script>"}};

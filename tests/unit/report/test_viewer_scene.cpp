@@ -177,9 +177,11 @@ TEST(PlanView, HoldsWhatTheRunDid) {
   const PageLayout layout = layout_of(PageSize::a4);
   sheet.ground = map_ground(trn, layout, view_of(layout, {40, 80}, {90, 120}));
   const std::string svg = plan_view_svg(talus::testing::shipped_texts(), sliding_box(), sheet);
+  std::string dense = svg;  // Cairo sets blanks or not
+  std::erase(dense, ' ');
   for (const char* part :
-       {"class=\"blocks\"", "<title>block 0", "rgb(94.117647%,50.980392%,7.843137%)",
+       {"class=\"blocks\"", "<title>block0", "rgb(94.117647%,50.980392%,7.843137%)",
         "href=\"#map-ground\"", "href=\"#map-places\""})
-    EXPECT_NE(svg.find(part), std::string::npos) << part;
+    EXPECT_NE(dense.find(part), std::string::npos) << part;
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
