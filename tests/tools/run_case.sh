@@ -40,6 +40,8 @@ whole_lines() { sed -e ':next' -e '/;$/{N' -e 's/;\n  /; /' -e 't next' -e '}' "
 says() { whole_lines err | grep -qF -- "$1" || { sed 's/^/  err: /' err >&2; fail "standard error does not say: $1"; }; }
 # prints TEXT: standard output of the last command holds TEXT
 prints() { whole_lines out | grep -qF -- "$1" || { sed 's/^/  out: /' out >&2; fail "standard output does not say: $1"; }; }
+# cell FILE BAND COLUMN ROW: the value of a cell, its nodata number too
+cell() { gdal_translate -q -of XYZ -b "$2" -srcwin "$3" "$4" 1 1 "$1" /vsistdout/ | cut -d' ' -f3; }
 # nothing_left PATTERN...: no such file, and no temporary one
 nothing_left() {
   for name in "$@"; do [ ! -e "$name" ] || fail "$name was left behind"; done

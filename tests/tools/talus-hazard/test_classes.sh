@@ -8,7 +8,7 @@ frequency_per_a = 0.0136
 TOML
 expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o maps --pages png,pdf --json hazard.json
 prints 'maps of 12 runs of class V1'
-value() { gdallocationinfo -valonly -b "$2" "maps/$1.tif" "$3" 10; }
+value() { cell "maps/$1.tif" "$2" "$3" 10; }
 # cells of 2 m: column 10 is passed by box 0 at 99 to 129 kJ, column 5 at the start by less than 30
 [ "$(value class 1 10)" = 3 ] || fail "class $(value class 1 10), expected 3"
 [ "$(value class_certain 1 10)" = 1 ] || fail 'a class that is the same at both bounds is not certain'

@@ -6,7 +6,7 @@ run-probe . 12 blocks=3 objects=watched
 cp site.toml plain.toml
 block 1 >valley.toml
 with() { { cat plain.toml; printf '\n[hazard]\nrecipe = "%s"\n[hazard.class.all]\nfrequency_per_a = %s\n' "$1" "$2"; } >site.toml; }
-value() { gdallocationinfo -valonly -b 1 "$1/$2.tif" "$3" 10; }
+value() { cell "$1/$2.tif" 1 "$3" 10; }
 classes() { echo "$(value "$1" class 10) $(value "$1" class 5)"; }
 
 # once in 73.5 years: above 50 kJ within 500 years is "watch", less is nothing; once in 33 years one class more
@@ -22,7 +22,7 @@ gdalinfo valley/class.tif | grep -qF 'RECIPE_SOURCE=return_period_a, intensity, 
   fail 'no source of the recipe in the tags'
 gdalinfo valley/class.tif | grep -q 'SPLIT=' && fail 'a side is told of cells that have one class'
 grep -q 'look every spring' valley/class.qml || fail 'no label of the recipe in the style'
-ogr2ogr -f CSV polygons.csv valley/hazard.gpkg classes && grep -q '^watch,.1.,look every spring,' polygons.csv || fail 'no polygon'
+ogr2ogr -f CSV polygons.csv valley/hazard.gpkg classes && grep -q '^watch,"*1"*,look every spring,' polygons.csv || fail 'no polygon'
 [ -f valley/ke_T50.tif ] && [ -f valley/return_period_50kJ.tif ] && [ ! -e valley/ke_T100.tif ] || fail 'maps of other limits'
 grep -q 'Our valley, draft of 2026, mark v; class o' valley.json || fail 'the note does not say the marks'
 

@@ -35,7 +35,7 @@ says "hint: mend it in the map, or go on with --accept-doubts (make TIN_FLAGS=--
 nothing_left bad.ply
 python3 "$source_dir/tests/tools/fields.py" "$source_dir/docs/reference/fields.md" places.gpkg || fail "fields"
 ogr2ogr -q -f CSV places.csv places.gpkg doubts -lco GEOMETRY=AS_XY
-grep -q '650[0-9]*,5200100,contour,zero.geojson,"5",.*,0,1040,1060,refused' places.csv || fail "$(cat places.csv)"
+grep -q '650[0-9]*,5200100,contour,zero.geojson,"*5"*,.*,0,1040,1060,refused' places.csv || fail "$(cat places.csv)"
 slope 5 -600 >deep.geojson
 expect 1 talus-tin deep.geojson -o bad.ply
 says "contour at -600 m, feature 5, x 650000, y 5200100: expected -500 m or more: no land lies lower"

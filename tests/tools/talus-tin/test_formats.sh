@@ -7,7 +7,7 @@ says "elevation from Z of layer map"
 ogr2ogr -q map.gpkg map.geojson
 ogr2ogr -q -lco SHPT=ARCZ map.shp map.geojson
 ogr2ogr -q -f GML -dsco FORMAT=GML3 map.gml map.geojson
-ogr2ogr -q -nlt MULTILINESTRING -nln many multi.gpkg map.geojson
+ogr2ogr -q -nlt MULTILINESTRINGZ -nln many multi.gpkg map.geojson
 ogr2ogr -q -f DXF map.dxf map.gpkg -dialect sqlite -sql "SELECT geom FROM map"
 for file in map.gpkg map.shp map.gml multi.gpkg; do
   expect 0 talus-tin "$file" -o "$file.ply"

@@ -17,7 +17,7 @@ awk 'BEGIN {
 gdal_translate -q -a_srs EPSG:25833 wall.asc wall.tif
 gdal_contour -q -i 5 -a ELEV wall.tif whole.gpkg
 ogr2ogr -q -simplify 1.5 general.geojson whole.gpkg -lco COORDINATE_PRECISION=3
-places() { ogr2ogr -q -f CSV /vsistdout/ "$1" -lco GEOMETRY=AS_XY -sql "SELECT what, value FROM doubts WHERE state = '$2'"; }
+places() { ogr2ogr -q -f CSV /vsistdout/ "$1" -lco GEOMETRY=AS_XY -sql "SELECT geom, what, value FROM doubts WHERE state = '$2'"; }
 n_places() { places "$1" "$2" | sed 1d | wc -l; }
 
 expect 0 talus-tin whole.gpkg -o whole.ply --report whole.json
