@@ -1,8 +1,6 @@
 # A dam in the terrain: arrivals, passages over its crest, and whether it holds, for a
 # high one, a low one and one that is for less energy; lines, layers, report, look before the runs.
-. "$source_dir/tests/tools/talus-dda/common.sh"
-command -v python3 >/dev/null || skip "needs python3"
-make_terrain # 30 degrees down to the east, flat from 500100 on
+. "$source_dir/tests/tools/talus-fence/dams.sh"
 cat >site.toml <<'TOML'
 [site]
 name = "rocks"
@@ -29,12 +27,8 @@ passages = false
 TOML
 # run NAME OPTIONS: the dam's terrain, rocks and a run, evaluated
 run() {
-  name=$1
+  compute "$@"
   shift
-  mkdir -p $name
-  expect 0 talus-trn slope.tif site.toml "$@" -o $name/trn.tif --cell-size-m 0.5 --report $name/trn.json --no-db
-  expect 0 talus-blocks site.toml "$@" --trn $name/trn.tif -o $name/blocks.h5 --trn-out $name/bed.tif --no-db
-  expect 0 talus-dda site.toml "$@" --trn $name/bed.tif --blocks $name/blocks.h5 -o $name/run_1.h5 --no-db
   expect 0 talus-fence site.toml "$@" $name/run_1.h5 --trn $name/bed.tif -o $name/fence.gpkg --json $name/fence.json --csv $name/fence.csv --no-db
 }
 run high

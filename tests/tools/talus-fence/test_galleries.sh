@@ -1,8 +1,6 @@
 # A gallery in the terrain: a block dropped on its roof has the energy of its fall, others come to
 # rest on it or pass over it, what lies under it is not hit; load cases, layer, no capacity.
-. "$source_dir/tests/tools/talus-dda/common.sh"
-command -v python3 >/dev/null || skip "needs python3"
-make_terrain # 30 degrees down to the east, flat from 500100 on
+. "$source_dir/tests/tools/talus-fence/dams.sh"
 cat >site.toml <<'TOML'
 [site]
 name = "rocks"
@@ -32,12 +30,8 @@ duration_s = 16
 TOML
 # run NAME OPTIONS: terrain, rocks and a run, evaluated at gallery and objects
 run() {
-  name=$1
+  compute "$@"
   shift
-  mkdir -p $name
-  expect 0 talus-trn slope.tif site.toml "$@" -o $name/trn.tif --cell-size-m 0.5 --no-db
-  expect 0 talus-blocks site.toml "$@" --trn $name/trn.tif -o $name/blocks.h5 --trn-out $name/bed.tif --no-db
-  expect 0 talus-dda site.toml "$@" --trn $name/bed.tif --blocks $name/blocks.h5 -o $name/run_1.h5 --no-db
   expect 0 talus-trace site.toml "$@" $name/run_1.h5 --trn $name/bed.tif -o $name/trace.gpkg --json $name/trace.json --no-db
 }
 fence() { expect 0 talus-fence site.toml "$@" $name/run_1.h5 --trn $name/bed.tif -o $name/fence.gpkg --json $name/fence.json --no-db; }
