@@ -179,7 +179,7 @@ template <> const std::vector<SiteKey<FenceSettings>>& keys_of() {
       {"capacity_kj", &S::capacity_kj, "energy that a panel takes before it breaks; else rigid", positive},
       {"max_deflection_m", &S::max_deflection_m, "deflection at which one block has used up the capacity; else half the height", positive},
       {"post_spacing_m", &S::post_spacing_m, "distance of posts", positive},
-      {"active", &S::active, "whether it stands"},
+      {"active", &S::active, "whether it is in place"},
       {"cor", &S::cor, "coefficient of restitution of a rigid fence", share},
       {"friction_deg", &S::friction_deg, "friction angle", angle_below_90, "", friction_hint}};
   return table;
@@ -217,7 +217,7 @@ template <> const std::vector<SiteKey<ForestSettings>>& keys_of() {
       {"drag_kg_s", &S::drag_kg_s, "viscous drag below height_m, instead of stems: 250 open, 500 medium, 750 dense forest", {0, 100000}},
       {"seed", &S::seed, "seed of the stand", not_negative},
       {"new_stand_per_run", &S::new_stand_per_run, "each [solver] seed draws a stand of its own"},
-      {"active", &S::active, "whether it stands"}};
+      {"active", &S::active, "whether it is in place"}};
   return table;
 }
 template <> const std::vector<SiteKey<OutputSettings>>& keys_of() {

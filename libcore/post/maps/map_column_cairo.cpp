@@ -116,7 +116,7 @@ void draw_signs(Column& column, const MapGround& ground, const MapPlaces& places
       return line.standing == stands && !is_dam(line) && is_seen(view, line.points);
     });
   };
-  if (any_line(true)) column.line_row(line_stroke(true), "fence that stands");
+  if (any_line(true)) column.line_row(line_stroke(true), "fence in place");
   if (any_line(false)) column.line_row(line_stroke(false), "line without a fence");
   const auto any_dam = [&places](bool of_gallery) {
     return std::any_of(places.lines.begin(), places.lines.end(), [=](const RecordLine& line) {
