@@ -46,8 +46,8 @@ enum class Outlook { stands, goes_in_part, goes };
 [[nodiscard]] Outlook outlook_of(double moved_share);
 [[nodiscard]] const char* text(Outlook outlook);
 
-/// Processor time of a run of blocks in contact [s], from runs of masses on real slopes; how far off
-/// it was there: docs/evidence/measurements.md. `dt`: time step [s].
+/// Processor time of a run of blocks in contact [s], from runs of masses on real slopes; how far
+/// off it was there: docs/evidence/measurements.md. `dt`: time step [s].
 [[nodiscard]] double expected_cpu_s(double n_blocks, double duration, double dt);
 /// Of one simulated second while all blocks are in contact [s].
 [[nodiscard]] double cpu_s_of_a_packed_second(double n_blocks, double dt);
