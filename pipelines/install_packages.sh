@@ -8,7 +8,7 @@ build="g++ cmake ninja-build make ccache libgdal-dev libcgal-dev libboost-dev li
   libhdf5-dev libsqlite3-dev libsqlitecpp-dev libssl-dev libcli11-dev libtomlplusplus-dev
   nlohmann-json3-dev gdal-bin proj-data git help2man python3 pkgconf libpango1.0-dev
   fonts-dejavu-core"
-test="libgtest-dev librapidcheck-dev sqlite3 hdf5-tools procps python3-gdal
+test="libgtest-dev librapidcheck-dev sqlite3 hdf5-tools procps unzip python3-gdal
   python3-h5py python3-matplotlib python3-netcdf4 python3-pandas python3-vtk9 python3-xarray"
 release="debootstrap dpkg-dev file patchelf umoci"
 # without these their tests are skipped, with a line that says so; Debian 13 has no clang-format-14
