@@ -17,13 +17,20 @@
 namespace talus {
 namespace {
 
-// The driver writes the time of day into the file unless it is told one.
-class FixedDate {
+// The driver writes the time of day into the file unless it is told one, and from GDAL 3.10 on the
+// metadata into a file beside it too.
+class DriverSettings {
  public:
-  FixedDate() { CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z"); }
-  ~FixedDate() { CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", nullptr); }
-  FixedDate(const FixedDate&) = delete;
-  FixedDate& operator=(const FixedDate&) = delete;
+  DriverSettings() {
+    CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z");
+    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO");
+  }
+  ~DriverSettings() {
+    CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", nullptr);
+    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr);
+  }
+  DriverSettings(const DriverSettings&) = delete;
+  DriverSettings& operator=(const DriverSettings&) = delete;
 };
 
 // In the order of GeometryType.
@@ -182,7 +189,7 @@ void write_geopackage(const std::string& path, const std::string& crs_wkt,
                       const std::vector<VectorLayer>& layers,
                       const std::vector<std::pair<std::string, std::string>>& tags) {
   register_gdal_drivers();
-  const FixedDate date;
+  const DriverSettings settings;
   const GdalErrors errors;
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
   std::unique_ptr<GDALDataset> dataset(
