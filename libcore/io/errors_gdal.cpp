@@ -5,6 +5,7 @@
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <gdal.h>
+#include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
 #include "base/error.hpp"
@@ -26,6 +27,20 @@ void check_proj_database() {
   if (OGRSpatialReference().importFromEPSG(4326) != OGRERR_NONE)
     throw InputError({"proj.db"}, "PROJ's database of coordinate systems cannot be found or read",
                      "install the package proj-data, or set PROJ_LIB to the folder that holds it");
+}
+
+// GDAL 3.10 writes a file of metadata beside a GeoPackage that is closed with its metadata unread.
+GDALDataset* (*open_geopackage)(GDALOpenInfo*) = nullptr;
+GDALDataset* open_with_metadata(GDALOpenInfo* info) {
+  GDALDataset* const dataset = open_geopackage(info);
+  if (dataset != nullptr) dataset->GetMetadata();
+  return dataset;
+}
+void read_metadata_of_geopackages() {
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
+  if (driver == nullptr) return;
+  open_geopackage = driver->pfnOpen;
+  driver->pfnOpen = open_with_metadata;
 }
 
 }  // namespace
@@ -55,6 +70,7 @@ void register_gdal_drivers() {
     fix_library_settings();
     GDALAllRegister();
     forbid_network();
+    read_metadata_of_geopackages();
     check_proj_database();
     if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) == nullptr) GDALSetCacheMax64(128 << 20);
     return true;

@@ -160,9 +160,10 @@ def grid_with_nan(plane, at):
     return 'dem.asc'
 
 
-@row(TRN, 'that begins with nan', 'sed', options='--crs EPSG:25832', share=.8)
-def nan_first(plane):
-    return grid_with_nan(plane, 0)
+if int(gdal.VersionInfo()) < 3100000:  # GDAL 3.10 reads them
+    @row(TRN, 'that begins with nan', 'sed', options='--crs EPSG:25832', share=.8)
+    def nan_first(plane):
+        return grid_with_nan(plane, 0)
 
 
 @row(TRN, 'rows 0 to 39', 'sed', options='--crs EPSG:25832', share=.8)
