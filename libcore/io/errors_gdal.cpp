@@ -29,18 +29,20 @@ void check_proj_database() {
                      "install the package proj-data, or set PROJ_LIB to the folder that holds it");
 }
 
-// GDAL 3.10 writes a file of metadata beside a GeoPackage that is closed with its metadata unread.
+// GDAL 3.10 writes a file of metadata beside a GeoPackage that is read, unless its metadata are
+// read first, without such files.
 GDALDataset* (*open_geopackage)(GDALOpenInfo*) = nullptr;
-GDALDataset* open_with_metadata(GDALOpenInfo* info) {
+GDALDataset* open_without_file_beside(GDALOpenInfo* info) {
+  const CPLConfigOptionSetter no_file_beside("GDAL_PAM_ENABLED", "NO", false);
   GDALDataset* const dataset = open_geopackage(info);
   if (dataset != nullptr) dataset->GetMetadata();
   return dataset;
 }
-void read_metadata_of_geopackages() {
+void leave_geopackages_alone() {
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
   if (driver == nullptr) return;
   open_geopackage = driver->pfnOpen;
-  driver->pfnOpen = open_with_metadata;
+  driver->pfnOpen = open_without_file_beside;
 }
 
 }  // namespace
@@ -70,7 +72,7 @@ void register_gdal_drivers() {
     fix_library_settings();
     GDALAllRegister();
     forbid_network();
-    read_metadata_of_geopackages();
+    leave_geopackages_alone();
     check_proj_database();
     if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) == nullptr) GDALSetCacheMax64(128 << 20);
     return true;

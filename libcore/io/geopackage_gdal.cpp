@@ -17,22 +17,6 @@
 namespace talus {
 namespace {
 
-// The driver writes the time of day into the file unless it is told one, and from GDAL 3.10 on the
-// metadata into a file beside it too.
-class DriverSettings {
- public:
-  DriverSettings() {
-    CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z");
-    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO");
-  }
-  ~DriverSettings() {
-    CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", nullptr);
-    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr);
-  }
-  DriverSettings(const DriverSettings&) = delete;
-  DriverSettings& operator=(const DriverSettings&) = delete;
-};
-
 // In the order of GeometryType.
 constexpr OGRwkbGeometryType ogr_types[] = {wkbPoint,        wkbPoint25D,      wkbMultiPoint25D,
                                             wkbLineString,   wkbLineString25D, wkbLineStringZM,
@@ -189,7 +173,10 @@ void write_geopackage(const std::string& path, const std::string& crs_wkt,
                       const std::vector<VectorLayer>& layers,
                       const std::vector<std::pair<std::string, std::string>>& tags) {
   register_gdal_drivers();
-  const DriverSettings settings;
+  // the driver writes the time of day into the file unless it is told one, and from GDAL 3.10 on
+  // the metadata into a file beside it too
+  const CPLConfigOptionSetter date("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z", false);
+  const CPLConfigOptionSetter no_file_beside("GDAL_PAM_ENABLED", "NO", false);
   const GdalErrors errors;
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
   std::unique_ptr<GDALDataset> dataset(
