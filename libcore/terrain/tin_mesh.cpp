@@ -5,12 +5,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <span>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "geometry/plan2d.hpp"
@@ -134,6 +136,21 @@ void cut_to_rings(const std::vector<BoundaryRing>& rings, TriangleMesh& mesh) {
   mesh.constrained.resize(n_kept);
   for (auto& neighbors : mesh.neighbors)
     for (int& t : neighbors) t = t < 0 ? -1 : new_number[t];
+}
+
+double area_of(const std::vector<BoundaryRing>& rings) {
+  if (rings.empty()) return 0;
+  constexpr int n = 300;  // places along a side
+  Vec2 low(infinity, infinity), high = -low;
+  for (const BoundaryRing& ring : rings)
+    for (const Vec2& p : ring.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const RingBands bands(rings);
+  const Vec2 step = (high - low) / n;
+  std::int64_t n_inside = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      n_inside += bands.contains(low + step.cwiseProduct(Vec2(i + 0.5, j + 0.5))) ? 1 : 0;
+  return static_cast<double>(n_inside) * step.x() * step.y();
 }
 
 Tin to_tin(TriangleMesh mesh, const ContourMap& map) {

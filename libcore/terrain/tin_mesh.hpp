@@ -19,6 +19,9 @@ void check_boundary(const ContourMap& map, const std::string& source);
 /// dropped.
 void cut_to_rings(const std::vector<BoundaryRing>& rings, TriangleMesh& mesh);
 
+/// Area inside the polygons, by 300 x 300 places in the rectangle that holds them [m2].
+[[nodiscard]] double area_of(const std::vector<BoundaryRing>& rings);
+
 /// The mesh as a TIN in the map's place, without points that belong to no triangle. Uses up the
 /// mesh.
 [[nodiscard]] Tin to_tin(TriangleMesh mesh, const ContourMap& map);

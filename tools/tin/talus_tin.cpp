@@ -129,6 +129,18 @@ void refresh_inside(const ContourMap& map, talus::Triangulation& triangulation, 
     throw InputError({file_of_boundary(o)}, "the boundary and the contours share no ground");
 }
 
+// The rim of a map has no triangles where its last contours end.
+void doubt_missing_part(Tool& tool, const Options& o, const ContourMap& map, double covered_m2) {
+  constexpr double share_of_rim = 0.05;
+  const double asked_m2 = talus::area_of(map.boundary);
+  if (!(covered_m2 < (1 - share_of_rim) * asked_m2)) return;
+  tool.doubts({talus::doubt_on(
+      {file_of_boundary(o)},
+      "the boundary reaches beyond the data: " + percent(1 - covered_m2 / asked_m2) + " of its " +
+          text(asked_m2 / 10'000, 3) + " ha is missing",
+      "draw it around the part that is there, or add the data of the rest")});
+}
+
 Json cleaning_json(const talus::CleaningCounts& c) {
   return {{"duplicate_points", c.duplicate_points},
           {"duplicate_segments", c.duplicate_segments},
@@ -231,6 +243,7 @@ talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Jso
   judge_heights(tool, o, std::move(doubts), report);
   const std::vector<std::uint8_t> flat = find_flat_triangles(mesh, measured);
   const talus::AreaShare before = area_of(mesh, flat);
+  doubt_missing_part(tool, o, map, before.all_m2);
   report["flat"] = {{"mode", o.flat}, {"share_before", before.share()}};
   if (o.flat == "fill" && before.marked_m2 > 0)
     mend(tool, o, map, flat, interval, triangulation, mesh, report["flat"]);
@@ -324,6 +337,8 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
   talus::cut_to_rings(map.boundary, found.mesh);
   if (found.mesh.triangles.empty())
     throw InputError({file_of_boundary(o)}, "the boundary and the points share no ground");
+  const std::vector<std::uint8_t> none_marked(found.mesh.triangles.size());
+  doubt_missing_part(tool, o, map, area_of(found.mesh, none_marked).all_m2);
   const talus::EdgeLengths edges = talus::edge_lengths(found.mesh);
   report["points"]["median_edge_m"] = edges.median;
   report["points"]["longest_edge_m"] = edges.longest;

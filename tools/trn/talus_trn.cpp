@@ -162,6 +162,30 @@ void check_frame(const GridFrame& frame, const MapWindow& data, const Options& o
                    "choose a smaller cell or a larger window");
 }
 
+MapWindow grown(const MapWindow& w, double by) {
+  return {w.x_min - by, w.y_min - by, w.x_max + by, w.y_max + by};
+}
+
+// `edges`: of the data.
+void doubt_missing_part(Tool& tool, const Options& o, const MapWindow& edges,
+                        const GridFrame& frame) {
+  if (o.window_text.empty()) return;
+  const double half = 0.5 * frame.cell_size;
+  const MapWindow& asked = o.window;
+  const MapWindow known =
+      o.like.empty() ? edges : talus::intersection(edges, grown(talus::extent(frame), half));
+  const MapWindow there = talus::intersection(asked, known);
+  const double beyond = std::max({there.x_min - asked.x_min, there.y_min - asked.y_min,
+                                  asked.x_max - there.x_max, asked.y_max - there.y_max});
+  if (beyond < half) return;
+  const auto area = [](const MapWindow& w) { return (w.x_max - w.x_min) * (w.y_max - w.y_min); };
+  tool.doubts({talus::doubt_on(
+      {o.source},
+      "--window " + o.window_text + " reaches beyond what is there, " + window_as_text(known) +
+          ": " + percent(1 - area(there) / area(asked)) + " of it is missing",
+      "ask for the part that is there (window_m of a site), or add the data of the rest")});
+}
+
 // A surface that folds over, or has a second layer, has two heights in one place; a terrain has
 // one.
 void judge_layers(Tool& tool, const Options& o, const std::string& finding, const talus::Vec3& at,
@@ -240,6 +264,7 @@ Ground ground_of_tin(Tool& tool, const Options& o) {
     frame = o.window.x_min > -far ? talus::frame_covering(o.window, size)
                                   : talus::frame_inside(data, size);
   check_frame(frame, data, o);
+  doubt_missing_part(tool, o, data, frame);
   talus::TwoHeights two;
   ground.trn = talus::make_trn(
       frame, crs, talus::grid_tin(tin, frame, tool.progress(), tin.is_judged ? nullptr : &two));
@@ -274,7 +299,9 @@ Ground ground_of_dem(Tool& tool, const Options& o) {
   ground.operations = dem.reading().notes;
   const GridFrame frame = o.like.empty() ? talus::frame_on_dem(dem.frame(), o.cell_size_m, o.window)
                                          : frame_like(o, dem.crs_wkt());
-  check_frame(frame, talus::extent(dem.frame()), o);
+  const MapWindow nodes = talus::extent(dem.frame());
+  check_frame(frame, nodes, o);
+  doubt_missing_part(tool, o, grown(nodes, 0.5 * dem.frame().cell_size), frame);
   if (o.cell_size_m != 0 && frame.cell_size != o.cell_size_m)
     tool.info("the nodes are the DEM's own, " + text(frame.cell_size, 12) + " m apart");
   ground.trn = talus::make_trn(frame, dem.crs_wkt(), talus::read_dem(dem, frame, tool.progress()));

@@ -85,6 +85,10 @@ square() { printf '[[[499900,5199900],[%s,5199900],[%s,5200100],[499900,5200100]
 polygon "]$(square 500000),$(square 499950)[" | sed 's/"Polygon","coordinates":\[\]/"MultiPolygon","coordinates":[/; s/\[\]}/]}/' >overlap.geojson
 expect 0 talus-tin map.geojson -o overlap.ply --boundary overlap.geojson
 cmp -s west.ply overlap.ply || fail "where polygons of a boundary overlap is a hole"
+says "overlap.geojson: the boundary reaches beyond the data: 19.8 % of its 2 ha is missing"
+polygon '[[499950,5199950],[500050,5199950],[500050,5200050],[499950,5200050],[499950,5199950]]' >inside.geojson
+expect 0 talus-tin map.geojson -o inside.ply --boundary inside.geojson
+! grep -q 'reaches beyond' err || fail "$(cat err)"
 polygon '[[499900,5199900],[500100,5200100],[500100,5199900],[499900,5200100],[499900,5199900]]' >bow.geojson
 expect 1 talus-tin map.geojson -o bad.ply --boundary bow.geojson
 says "bow.geojson: polygon 1 of the boundary crosses itself at x 500000, y 5200000"

@@ -92,4 +92,14 @@ TEST(Boundary, ARingElsewhereLeavesNothing) {
   EXPECT_TRUE(mesh.triangles.empty());
 }
 
+TEST(Boundary, ItsAreaCountsOverlapsOnceAndHolesNot) {
+  const auto ring = [](int polygon, double low, double high) {
+    return talus::BoundaryRing{
+        polygon, {Vec2(low, low), Vec2(high, low), Vec2(high, high), Vec2(low, high)}};
+  };
+  EXPECT_EQ(talus::area_of(std::vector<talus::BoundaryRing>{}), 0);
+  EXPECT_NEAR(talus::area_of({ring(0, 0, 20), ring(0, 5, 10)}), 375, 2);
+  EXPECT_NEAR(talus::area_of({ring(0, 0, 20), ring(1, 5, 10)}), 400, 2);
+}
+
 }  // namespace
