@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <set>
 
 #include "base/numbers.hpp"
 #include "base/percentile.hpp"
+#include "geometry/plan2d.hpp"
 #include "terrain/as_index.hpp"
 #include "terrain/contours.hpp"
 #include "terrain/lone_levels.hpp"
+#include "terrain/two_heights.hpp"
 
 namespace talus {
 namespace {
@@ -181,13 +185,59 @@ std::vector<Outlier> measured_outliers(const TriangleMesh& mesh, const LinesOfPo
     found.push_back({lines.line[first + i], point, low[i], high[i],
                      stands_off(n_impossible[i], 0, n_edges[i])});
   }
-  // of a line the point that says most about it
+  return found;
+}
+
+// --- two heights in one place --------------------------------------------------------------------
+
+// Spot heights: the upper one of two, and those off a contour where no other contour goes with
+// them. A breakline there may be the edge of a wall.
+std::vector<Outlier> two_heights(const TriangleMesh& mesh, const LinesOfPoints& lines,
+                                 double interval) {
+  std::vector<int> n_points(as_index(lines.n_lines));
+  for (const int line : lines.line) ++n_points[line];
+  const auto n = static_cast<int>(lines.line.size());
+  const auto is_spot = [&](int point) {
+    return point >= lines.n_contour_points && point < n && n_points[lines.line[point]] == 1;
+  };
+  std::vector<Outlier> found;
+  std::map<int, double> off;  // by spot: a contour in its place [m]
+  std::set<int> alike;        // spots with a contour in place that goes with them
+  for (const auto& corners : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int spot = corners[k], next = corners[(k + 1) % 3], last = corners[(k + 2) % 3];
+      if (!is_spot(spot)) continue;
+      const Vec3& place = mesh.points[spot];
+      for (const int other : {next, last}) {
+        const double z = mesh.points[other].z();
+        if (is_spot(other) && place.z() > z &&
+            are_two_heights(place, mesh.points[other], one_place_m))
+          found.push_back({lines.line[spot], place, z, z, false});
+      }
+      if (std::max(next, last) >= lines.n_contour_points) continue;
+      if (lines.line[next] != lines.line[last]) continue;
+      const Vec3 &from = mesh.points[next], &to = mesh.points[last];
+      const Vec3 beside(
+          place.x() + distance_to_segment<Vec2>(place.head<2>(), from.head<2>(), to.head<2>()),
+          place.y(), from.z());
+      if ((beside - place).head<2>().norm() > one_place_m) continue;
+      const bool is_off = are_two_heights(place, beside, one_place_m) &&
+                          std::abs(place.z() - beside.z()) > interval / 2;
+      if (is_off) off[spot] = beside.z();
+      if (!is_off) alike.insert(spot);
+    }
+  for (const auto& [spot, z] : off)
+    if (!alike.contains(spot)) found.push_back({lines.line[spot], mesh.points[spot], z, z, false});
+  return found;
+}
+
+// By line; of a line the one that says most about it.
+void keep_one_of_each(std::vector<Outlier>& found) {
   std::stable_sort(found.begin(), found.end(), [](const Outlier& a, const Outlier& b) {
     return a.line != b.line ? a.line < b.line : a.is_impossible > b.is_impossible;
   });
   const auto same = [](const Outlier& a, const Outlier& b) { return a.line == b.line; };
   found.erase(std::unique(found.begin(), found.end(), same), found.end());
-  return found;
 }
 
 }  // namespace
@@ -195,7 +245,10 @@ std::vector<Outlier> measured_outliers(const TriangleMesh& mesh, const LinesOfPo
 std::vector<Outlier> find_outliers(const TriangleMesh& mesh, const LinesOfPoints& lines,
                                    double interval) {
   std::vector<Outlier> found = contour_outliers(mesh, lines, interval);
-  const std::vector<Outlier> measured = measured_outliers(mesh, lines, interval);
+  std::vector<Outlier> measured = measured_outliers(mesh, lines, interval);
+  const std::vector<Outlier> two = two_heights(mesh, lines, interval);
+  measured.insert(measured.end(), two.begin(), two.end());
+  keep_one_of_each(measured);
   found.insert(found.end(), measured.begin(), measured.end());
   return found;
 }

@@ -34,6 +34,9 @@ struct Outlier {
 /// Measured points that lie more than two steps above the highest contour beside them or below the
 /// lowest. A step is `interval`, or the difference of those two where that is more.
 ///
+/// Spot heights (lines of one measured point) up to 0.5 m from another one that is lower, or from
+/// contours none of which is within half an interval, where the step is above 0.5 m and 79 degrees.
+///
 /// A finding is impossible where four in five of those edges are higher than 200 m and than
 /// five times their length: steeper than 79 degrees all around, as cells of an undeclared value in
 /// a raster (lone_levels.hpp).

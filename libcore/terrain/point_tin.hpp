@@ -30,8 +30,9 @@ struct PointMesh {
 /// A point is in doubt when it is above all its neighbours, or below them all, by more than 70
 /// degrees along every edge; it is impossible when four in five of its edges are higher than 200 m
 /// and five times their length. Points in one place (x, y) that differ by more than 0.5 m in height
-/// are impossible; laser scans rounded to centimetres differ by less. Uses the points up. Throws
-/// InputError naming `source` when all are on one line.
+/// are impossible; laser scans rounded to centimetres differ by less. Of two points up to 0.5 m and
+/// a fifth of the median edge apart that differ by more, and by more than 79 degrees, the upper one
+/// is in doubt. Uses the points up. Throws InputError naming `source` when all are on one line.
 [[nodiscard]] PointMesh mesh_of_points(std::vector<Vec3> points, const std::string& source);
 
 /// Of the triangles' edges in plan [m].

@@ -272,6 +272,27 @@ def spot_on_a_breakline(plane):
     return 'map.gpkg'
 
 
+def two_spots(step):
+    @kind(TIN, 'spot height at 105[58] m', '--spots spots.gpkg')
+    def spots(plane):
+        contours('map.gpkg', plane)
+        shapes('spots.gpkg', [(f'POINT Z ({X0 + 100 + gap} {Y0 + 110} {1055 + z})', {}) for gap, z in ((0, 0), (.05, step))])
+        return 'map.gpkg'
+    spots.__name__ = f'spots_5_cm_apart_{step}_m'.replace('-', 'minus_')
+
+
+for step_of_spots in (3, -3):
+    two_spots(step_of_spots)
+
+
+@kind(TIN, 'point at 1058 m', '--points --crs EPSG:25832')
+def points_5_cm_apart(plane):
+    table('list.csv', plane, lambda k, x, y, z: f'{x:.3f},{y:.3f},{z:.3f}', 'x,y,z\n')
+    with open('list.csv', 'a', encoding='utf-8') as file:
+        file.write(f'{X0 + 100},{Y0 + 110},1055\n{X0 + 100},{Y0 + 110.05},1058\n')
+    return 'list.csv'
+
+
 @kind(TIN, '')
 def contours_far_west(plane):
     plane.x0, plane.y0, plane.code = -30000, 6735000, 'EPSG:25833'

@@ -121,4 +121,33 @@ TEST(Outliers, WhatNoGroundCanBeIsTold) {
   EXPECT_FALSE(spot[1].is_impossible);
 }
 
+// Both lie far within the heights of the contours beside them.
+TEST(Outliers, OfTwoSpotHeightsInOnePlaceTheUpperOneIsNamed) {
+  for (const double gap : {0.05, 0.3}) {
+    const std::vector<Outlier> found =
+        doubts({rising(11), {{Vec3(50, 92, 1046)}, {Vec3(50 + gap, 92, 1049)}}});
+    ASSERT_EQ(found.size(), 1U) << gap;
+    EXPECT_EQ(found[0].line, 12);
+    EXPECT_EQ(found[0].low, 1046);
+    EXPECT_FALSE(found[0].is_impossible);
+  }
+  const Vec3 foot(50, 92, 1046), top(50.05, 92, 1049);
+  EXPECT_TRUE(doubts({rising(11), {{foot}, {Vec3(50.05, 92, 1046.4)}}}).empty());
+  EXPECT_TRUE(doubts({rising(11), {{foot}, {Vec3(51, 92, 1049)}}}).empty());
+  // a breakline between them, or at one of them, is the edge of a wall
+  const std::vector<Vec3> edge = {Vec3(50.02, 88, 1049), Vec3(50.02, 96, 1049)};
+  EXPECT_TRUE(doubts({rising(11), {edge, {foot}, {top}}}).empty());
+  EXPECT_TRUE(doubts({rising(11), {{top, Vec3(60, 92, 1046)}, {foot}}}).empty());
+}
+
+TEST(Outliers, ASpotHeightBesideAContourGoesWithIt) {
+  for (const double wrong : {1058.0, 1042.0}) {
+    const std::vector<Outlier> found = doubts({rising(11), {{Vec3(57, 100.05, wrong)}}});
+    ASSERT_EQ(found.size(), 1U) << wrong;
+    EXPECT_EQ(found[0].low, 1050);
+  }
+  EXPECT_TRUE(doubts({rising(11), {{Vec3(57, 100.05, 1054)}}}).empty());
+  EXPECT_TRUE(doubts({rising(11), {{Vec3(57, 100.7, 1058)}}}).empty());
+}
+
 }  // namespace

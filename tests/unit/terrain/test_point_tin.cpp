@@ -1,6 +1,7 @@
 // Scattered points as triangles: spikes, pits, doubles.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <tuple>
 
 #include "base/error.hpp"
@@ -70,6 +71,26 @@ TEST(PointTin, PointsInOnePlaceAreOneUnlessTheirHeightsDiffer) {
   ASSERT_EQ(found.doubts.size(), 1U);
   EXPECT_TRUE(found.doubts[0].is_impossible);
   EXPECT_NEAR(found.doubts[0].place.z() - found.doubts[0].low, 3.04, 1e-12);
+}
+
+TEST(PointTin, OfTwoPointsSideBySideTheUpperOneIsInDoubt) {
+  for (const double gap : {0.05, 0.3}) {
+    std::vector<Vec3> points = slope();
+    points.emplace_back(points[60] + Vec3(0, gap, -3));
+    const PointMesh found = mesh_of_points(points, "p");
+    ASSERT_EQ(found.doubts.size(), 1U) << gap;
+    EXPECT_EQ(found.doubts[0].place, points[60]);
+    EXPECT_EQ(found.doubts[0].low, points[60].z() - 3);
+    EXPECT_FALSE(found.doubts[0].is_impossible);
+    points.back().z() += 2.6;
+    EXPECT_TRUE(mesh_of_points(points, "p").doubts.empty());
+  }
+  // a rock face as a scan sees it, 0.3 m apart on it
+  std::vector<Vec3> face;
+  for (int r = 0; r < 30; ++r)
+    for (int c = 0; c < 30; ++c)
+      face.emplace_back(0.3 * c, 0.1 * r, 10 * std::max(0, r - 10) * 0.1);
+  EXPECT_TRUE(mesh_of_points(face, "p").doubts.empty());
 }
 
 TEST(PointTin, GapsShowInTheLongestEdge) {
