@@ -682,10 +682,11 @@ std::string unit_text(double metres, const char* name) {
   return std::string(name ? name : "unknown units") + " of " + text(metres, 10) + " m";
 }
 
-std::string describe_problem(const OGRSpatialReference& srs) {
+std::string describe_problem(const std::string& crs_wkt) {
+  const OGRSpatialReference srs = parsed_crs(crs_wkt);
   if (srs.IsGeographic()) return "in degrees";
   if (srs.IsGeocentric()) return "measured from the centre of the Earth";
-  if (!srs.IsProjected() && !srs.IsLocal()) return "neither projected nor local";
+  if (!srs.IsProjected() && !is_local(crs_wkt)) return "neither projected nor local";
   const char* name = nullptr;
   const double unit = srs.GetLinearUnits(&name);
   if (std::abs(unit - 1) > 1e-9) return "in " + unit_text(unit, name);
@@ -706,9 +707,9 @@ CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place) {
   if (crs_wkt.empty()) return {"there is no CRS, expected a projected one in metres", {}};
   const GdalErrors errors;
   const OGRSpatialReference srs = parsed_crs(crs_wkt);
-  const std::string problem = describe_problem(srs);
+  const std::string problem = describe_problem(crs_wkt);
   if (problem.empty()) return {};
-  const bool fit_in_plan = srs.IsCompound() && describe_problem(parse_plan(crs_wkt)).empty();
+  const bool fit_in_plan = srs.IsCompound() && describe_problem(horizontal_crs(crs_wkt)).empty();
   const double height_unit_m = fit_in_plan ? srs.GetTargetLinearUnits("VERT_CS") : 1;
   return {
       "the CRS is " + crs_name(crs_wkt) + ", " + problem + ", expected a projected one in metres",

@@ -2,6 +2,8 @@
 // coordinates can be in it.
 #include <ogrsf_frmts.h>
 
+#include <cmath>
+
 #include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "import/crs_place_gdal.hpp"
@@ -22,16 +24,20 @@ bool make_local_metres(RawLayer& layer) {
   return is_scaled;
 }
 
-void check_local_unit(const RawLayer& layer) {
-  const double unit_m = is_local(layer.own_crs) ? length_unit_m(layer.own_crs) : 1;
+// `crs`: the file's, or the user's for a file without one.
+void check_local_unit(const RawLayer& layer, const std::string& crs, bool is_ground) {
+  const double unit_m = is_local(crs) ? length_unit_m(crs) : 1;
   if (unit_m == 1) return;
-  throw InputError({layer.path()},
-                   "the CRS is " + crs_name(layer.own_crs) + ", in units of " + text(unit_m, 10) +
-                       " m, expected metres",
-                   layer.is_of_site()
-                       ? "bring its coordinates to metres"
-                       : option_words(layer.source.role, "--unit-m") + text(unit_m, 10) +
-                             " scales plan and heights to local metres");
+  const double height_m = height_unit_m(crs).value_or(unit_m);
+  const bool is_alike = !is_ground || std::abs(height_m - unit_m) < 1e-9;
+  const std::string hint = (crs == layer.own_crs ? "" : "--crs none ") +
+                           option_words(layer.source.role, "--unit-m") + text(unit_m, 10) +
+                           (is_alike ? "" : " --elevation-unit-m " + text(height_m, 10));
+  throw InputError(
+      {layer.path()},
+      "the CRS is " + crs_name(crs) + ", in units of " + text(unit_m, 10) + " m, expected metres",
+      layer.is_of_site() ? "bring its coordinates to metres"
+                         : hint + " scales plan and heights to local metres");
 }
 
 // The system of the ground, which the frame follows.
@@ -39,7 +45,7 @@ void place_ground(RawLayer& ground, RawInputs& raw) {
   const InputsRequest& request = raw.request;
   const std::vector<Vec3>& points = ground.lines.points;
   const bool is_local_metres = make_local_metres(ground);
-  check_local_unit(ground);
+  check_local_unit(ground, ground.own_crs, true);
   const bool is_beyond = is_beyond_degrees(ground.own_crs, points);
   if (is_beyond && !request.crs_given)
     throw InputError({ground.path()}, "the CRS is " + crs_name(ground.own_crs) + no_degrees,
@@ -48,6 +54,7 @@ void place_ground(RawLayer& ground, RawInputs& raw) {
     ground.crs =
         crs_said({ground.path(), is_beyond ? std::string() : ground.own_crs, window_of(points)},
                  request, raw.reading.notes);
+  check_local_unit(ground, ground.crs, true);
   ground.decide("system", crs_name(ground.crs),
                 is_local_metres                ? "--unit-m"
                 : ground.crs == ground.own_crs ? "the file says it"
@@ -64,7 +71,7 @@ void place_ground(RawLayer& ground, RawInputs& raw) {
 // coordinates, but for those of a site, which no option names.
 void place_beside(RawLayer& layer, RawInputs& raw) {
   make_local_metres(layer);
-  if (raw.frame.empty()) check_local_unit(layer);
+  if (raw.frame.empty()) check_local_unit(layer, layer.own_crs, false);
   const bool is_beyond =
       layer.written == nullptr && is_beyond_degrees(layer.own_crs, layer.lines.points);
   layer.is_in_frame = layer.own_crs.empty() || raw.frame.empty() ||

@@ -211,13 +211,16 @@ Dataset reprojected(GDALDataset& source, GDALDataset& ringed, const std::string&
                std::to_string(n_rows)});
 }
 
-// The command that makes metres of the plan and the heights of a local system.
-std::string local_metres_command(double unit_m, const MapWindow& w, const std::string& path) {
+// The command that makes metres of the plan and the heights of a local system; heights without a
+// system are in the unit of the plan.
+std::string local_metres_command(const std::string& crs, const MapWindow& w,
+                                 const std::string& path) {
+  const double unit_m = length_unit_m(crs);
   const auto metres = [unit_m](double value) { return text(value * unit_m, 12); };
   return translate_command("-a_srs 'LOCAL_CS[\"metres\",UNIT[\"metre\",1]]' -a_ullr " +
                                metres(w.x_min) + " " + metres(w.y_max) + " " + metres(w.x_max) +
                                " " + metres(w.y_min) + " -ot Float64 -scale 0 10000 0 " +
-                               metres(10000),
+                               text(10000 * height_unit_m(crs).value_or(unit_m), 12),
                            path, "metres.tif");
 }
 
@@ -230,9 +233,9 @@ void check_crs(const std::string& crs, const std::string& path, const MapWindow&
   if (problem.height_unit_m != 1)
     throw InputError({path}, problem.finding, metres_command(problem.height_unit_m, crs, path));
   if (is_local(crs))
-    throw InputError({path}, problem.finding,
-                     "metres of plan and heights, for --crs none: " +
-                         local_metres_command(length_unit_m(crs), edges, path));
+    throw InputError(
+        {path}, problem.finding,
+        "metres of plan and heights, for --crs none: " + local_metres_command(crs, edges, path));
   const std::string to = problem.mend_to.empty() ? "EPSG:code" : problem.mend_to;
   throw InputError({path}, problem.finding,
                    has_options

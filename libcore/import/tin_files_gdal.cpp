@@ -441,7 +441,10 @@ std::string crs_of_tin(const Tin& tin, const SystemsByUser& said, const LayerRef
         {path}, problem.finding,
         is_other ? "name the system of the same projection in metres with --crs "
                    "EPSG:code, or --crs none for local metres"
-                 : way_out + " " + (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to));
+        : is_local(crs)
+            ? "--crs none --unit-m " + text(length_unit_m(crs), 10) +
+                  " scales plan and heights to local metres"
+            : way_out + " " + (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to));
   CrsExtent place{crs, data};
   place.way_to_other_crs = way_out;
   place.crs_said_in = said.crs_given ? "--crs" : "the file";

@@ -15,10 +15,11 @@ import sqlite3
 import sys
 import tarfile
 import zipfile
+from xml.sax.saxutils import escape
 
 from inputs import (CODE, FEET, SHELL, SIDE, SURVEY_FEET, X0, Y0, Plane, call, commands_in, contours, dem, dxf,
-                    errors_of, follow, gdal, hint_in, landxml, line, made_by, mesh, np, ogr, polyline, raster,
-                    shapes, square, srs, terrain_of, write)
+                    errors_of, follow, gdal, hint_in, landxml, line, made_by, mesh, np, ogr, osr, polyline,
+                    raster, shapes, square, srs, terrain_of, write)
 
 TABLE = []
 
@@ -192,6 +193,39 @@ def system_of_heights_in_feet(plane):
 def local_feet(plane):
     dem('dem.tif', plane, factor=1 / FEET, code='LOCAL_CS["site",UNIT["foot",0.3048]]', kind=gdal.GDT_Float64)
     return 'dem.tif'
+
+
+def in_local_feet(to, source):
+    """A VRT whose system is local feet with heights in metres, which a GeoTIFF cannot say."""
+    system = osr.SpatialReference()
+    system.ImportFromWkt('COMPD_CS["c",LOCAL_CS["site",UNIT["foot",0.3048]],VERT_CS["v",VERT_DATUM["d",2005],'
+                         'UNIT["metre",1],AXIS["Up",UP]]]')
+    gdal.Translate(to, source)
+    with open(to, encoding='utf-8') as file:
+        words = file.read()
+    write(to, words.replace('<GeoTransform>', f'<SRS>{escape(system.ExportToWkt())}</SRS><GeoTransform>'))
+    return to
+
+
+@row(TRN, 'in foot of', 'gdal_translate', then='--crs none')
+def local_feet_with_heights_in_metres(plane):
+    dem('dem.tif', plane, factor=1 / FEET, height_factor=1, code='', kind=gdal.GDT_Float64)
+    return in_local_feet('dem.vrt', 'dem.tif')
+
+
+@row(TIN, 'in units of 0.3048 m', '--crs none --unit-m 0.3048', options="""--points --crs 'LOCAL_CS["site",UNIT["foot",0.3048]]'""",
+     tolerance=.1)
+def table_in_local_feet(plane):
+    write('list.csv', 'x,y,z\n' + ''.join(f'{x / FEET:.3f},{y / FEET:.3f},{z / FEET:.3f}\n' for x, y, z in plane.points(20)))
+    return 'list.csv'
+
+
+@row(TRN, 'in foot of', '--crs none --unit-m 0.3048', options="""--cell-size-m 5 --crs 'LOCAL_CS["site",UNIT["foot",0.3048]]'""")
+def mesh_in_local_feet(plane):
+    vertices, triangles = mesh(plane)
+    write('ground.obj', ''.join(f'v {x!r} {y!r} {z!r}\n' for x, y, z in (vertices / FEET).tolist()) +
+          ''.join('f ' + ' '.join(f'{i + 1}' for i in face) + '\n' for face in triangles))
+    return 'ground.obj'
 
 
 @row(TIN, 'SHAPE_RESTORE_SHX', 'ogr2ogr')

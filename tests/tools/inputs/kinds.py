@@ -293,6 +293,12 @@ def points_5_cm_apart(plane):
     return 'list.csv'
 
 
+@kind(TIN, '--crs none --unit-m 0.3048006096 scales',
+      """--points --crs 'LOCAL_CS["site",UNIT["US survey foot",0.3048006096012192]]'""")
+def table_of_local_feet(plane):
+    return table('list.csv', plane, lambda k, x, y, z: f'{x / FEET:.3f},{y / FEET:.3f},{z / FEET:.3f}', 'x,y,z\n')
+
+
 @kind(TIN, '')
 def contours_far_west(plane):
     plane.x0, plane.y0, plane.code = -30000, 6735000, 'EPSG:25833'

@@ -59,7 +59,8 @@ TEST_F(DeclarePlace, ALocalSystemInFeetIsOfLocalMetresOnceItIsScaled) {
   ask(InputRole::points, path);
   request.crs_given = true;
   request.crs = crs_from_user(feet, "a test");
-  EXPECT_NE(error_of([&] { (void)declared(); }).find("in foot of 0.3048 m"), std::string::npos);
+  const std::string error = error_of([&] { (void)declared(); });
+  EXPECT_NE(error.find("in units of 0.3048 m"), std::string::npos) << error;
   request.layers[0].ref.unit_m = 0.3048;
   RawInputs raw = open_all(request);
   raw.layers[0].own_crs = request.crs;  // of the file
