@@ -82,6 +82,25 @@ def seam_along_a_row(plane):
     return 'dem.tif'
 
 
+@kind(TRN, 'seam')
+def seam_of_a_tile_that_ends_inside(plane):
+    cells = plane.cells()
+    for name, rows, cols, datum in (('all', 40, 40, 0), ('west', 22, 18, .8)):
+        raster(f'{name}.tif', cells[:rows, :cols] + datum, (X0, Y0 + SIDE), 5)
+    gdal.BuildVRT('dem.vrt', ['all.tif', 'west.tif'])
+    return 'dem.vrt'
+
+
+@kind(TRN, 'seam')
+def seams_of_three_tiles(plane):
+    cells = plane.cells()
+    for name, rows, cols, datum in (('a', slice(0, 21), slice(0, 40), 3), ('b', slice(21, 40), slice(0, 17), 0),
+                                    ('c', slice(21, 40), slice(17, 40), .8)):
+        raster(f'{name}.tif', cells[rows, cols] + datum, (X0 + 5 * cols.start, Y0 + SIDE - 5 * rows.start), 5)
+    gdal.BuildVRT('dem.vrt', ['a.tif', 'b.tif', 'c.tif'])
+    return 'dem.vrt'
+
+
 def word_of_unit(word):
     @kind(TRN, '')
     def unit(plane):
