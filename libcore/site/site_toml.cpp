@@ -20,6 +20,7 @@
 #include "site/site_layers.hpp"
 #include "site/soils.hpp"
 #include "site/stages.hpp"
+#include "site/uncertainty.hpp"
 
 namespace talus {
 namespace {
@@ -705,8 +706,9 @@ Refusal refusal_of(const VariantSettings& variant, const VariantSettings::Change
     return {"would make other runs, and runs of the same seeds are compared",
             "write it in [solver], for all variants"};
   if (is_alternative(variant)) {
-    if (stage_reads("run", value) && !stage_reads("import", value) && change.group != "uncertainty")
-      return {};
+    const bool is_shared = stage_reads("import", value) || stage_reads("trn", value) ||
+                           is_rock_key(value.section + "." + value.key);
+    if (stage_reads("run", value) && !is_shared && change.group != "uncertainty") return {};
     return {"changes nothing in its runs: alternatives share terrain, blocks and what is evaluated",
             "take the weight out, so that it is compared, or make another site of it"};
   }

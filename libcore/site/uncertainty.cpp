@@ -51,6 +51,7 @@ std::string why_not_drawn(const std::string& path) {
       group == "uncertainty" || group == "fence" || group == "fence_search" || group == "object" ||
       group == "hazard")
     return "[" + group + "] is the same in all runs";
+  if (group == "dam") return "a dam stands in the terrain, which is the same in all runs";
   if (group == "terrain")
     return "the terrain is the same in all runs; its error is terrain_rmse_m of [uncertainty]";
   if (key == "seed") return "seeds follow from the run and its rock mass";

@@ -315,6 +315,9 @@ TEST(Uncertainty, WhatCannotBeDrawnIsRefusedWithPlaceAndWayOut) {
   EXPECT_TRUE(has(refusal("keys = \"solver.law\"\n" + normal), "solver.law holds no number"));
   EXPECT_TRUE(has(refusal("keys = \"solver.seed\"\n" + normal), "seeds follow from the run"));
   EXPECT_TRUE(has(refusal("keys = \"terrain.cell_size_m\"\n" + normal), "terrain_rmse_m"));
+  EXPECT_TRUE(has(refusal("keys = \"dam.road.height_m\"\n" + normal,
+                          "[dam.road]\nline = [[0, 5], [9, 5]]\nheight_m = 3\n"),
+                  "a dam stands in the terrain, which is the same in all runs"));
   EXPECT_TRUE(has(refusal("keys = \"hazard.class.V1.frequency_per_a\"\n" + normal),
                   "[hazard] is the same in all runs"));
   EXPECT_TRUE(has(refusal("keys = \"joints.J1.spacing_m\"\n" + normal), "needs a rock mass"));

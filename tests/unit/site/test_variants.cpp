@@ -101,6 +101,12 @@ TEST(Variants, WithAWeightAreAlternativesOfOneAnother) {
   const std::string two = "[variant.a]\nweight = 3\n[variant.b]\nweight = 1\n";
   EXPECT_NE(refusal(two + "joints.J1.spacing_m = 4\nsource.depth_m = 7\n").find("share terrain"),
             std::string::npos);
+  // neither the terrain with its dams nor the rock is made anew
+  const std::string dam = "[dam.road]\nline = [[0, 5], [9, 5]]\n";
+  for (const std::string key : {"dam.road.height_m = 6\n", "dam.road.ditch_m = [3, 6]\n",
+                                "dam.road.active = false\n", "joints.J1.spacing_m = 4\n"})
+    EXPECT_NE(refusal(dam + two + key).find("share terrain"), std::string::npos) << key;
+  EXPECT_EQ(refusal(dam + two + "joints.J1.friction_deg = 31\n"), "accepted");
   EXPECT_NE(refusal(two + "without = ['fence.net']\n").find("other sections than the site"),
             std::string::npos);
   EXPECT_NE(refusal(two + "cost = 7\n").find("a weight and a cost"), std::string::npos);
