@@ -21,6 +21,7 @@
 #include "import/crs_place_gdal.hpp"
 #include "import/readings.hpp"
 #include "import/systems_gdal.hpp"
+#include "io/burnt_dams_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
 #include "io/judged_heights_gdal.hpp"
@@ -483,6 +484,7 @@ Trn read_trn(const std::string& path) {
   check_size(dem.frame(), path);
   Trn trn = make_trn(dem.frame(), dem.crs_wkt(), read_dem(dem, dem.frame()));
   check_trn(trn, path);
+  trn.dams = burnt_dams(path, trn);
   return trn;
 }
 

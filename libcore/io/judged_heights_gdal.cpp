@@ -71,10 +71,12 @@ std::string HeightsDigest::hex() { return hash_.hex(); }
 
 bool were_heights_judged(const std::string& path) { return has_own_digest(*open_raster(path)); }
 
-std::string accepted_doubts(const std::string& path) {
+std::string tag_of_judged(const std::string& path, const char* name) {
   const Dataset dataset = open_raster(path);
-  const std::string accepted = tag_in(*dataset, accepted_tag);
-  return !accepted.empty() && has_own_digest(*dataset) ? accepted : std::string();
+  const std::string value = tag_in(*dataset, name);
+  return !value.empty() && has_own_digest(*dataset) ? value : std::string();
 }
+
+std::string accepted_doubts(const std::string& path) { return tag_of_judged(path, accepted_tag); }
 
 }  // namespace talus

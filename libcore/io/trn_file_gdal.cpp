@@ -13,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/printable.hpp"
+#include "io/burnt_dams_gdal.hpp"
 #include "io/errors_gdal.hpp"
 #include "io/judged_heights_gdal.hpp"
 #include "io/raster_bands_gdal.hpp"
@@ -72,6 +73,8 @@ void describe(GDALDataset& dataset, const Trn& trn, const TrnFileOptions& option
     dataset.SetMetadataItem(name.c_str(), printable(value).c_str());
   if (!options.accepted_doubts.empty())
     dataset.SetMetadataItem(accepted_tag, options.accepted_doubts.c_str());
+  if (const std::string dams = dams_text(trn); !dams.empty())
+    dataset.SetMetadataItem(dams_tag, dams.c_str());
   GDALRasterBand& band = *dataset.GetRasterBand(1);
   band.SetNoDataValue(terrain_nodata);
   band.SetDescription("elevation of the TRN's nodes");

@@ -203,6 +203,9 @@ std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn) {
       check_share_no_node(site, settings, built, trn, dam_of_node);
       log.doubts(doubts_on(built, where, trn));
       log.doubts(doubts_on_side(planned.shape, where, ground));
+      BurntDam burnt{built.name, built.dam.uphill, {}, built.burn.nodes};
+      for (const Vec3& p : built.dam.crest) burnt.crest.push_back(p.z());
+      trn.dams.push_back(std::move(burnt));
       all.push_back(std::move(built));
     }
   }
@@ -226,6 +229,13 @@ std::vector<Vec2> beside(const std::vector<Vec2>& line, double distance) {
   return out;
 }
 
+const BurntDam& burnt_in(const Trn& trn, const SiteDam& dam, const Where& where) {
+  for (const BurntDam& burnt : trn.dams)
+    if (burnt.name == dam.name && burnt.crest.size() == dam.shape.line.size()) return burnt;
+  throw InputError(where, "is active, and the terrain was made without it",
+                   "make the terrain again with this site file, or set active = false");
+}
+
 }  // namespace
 
 std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn) {
@@ -236,10 +246,10 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
     const Where where = where_of_dam(site, settings);
     for (const SiteDam& dam : dams_of(log, site, trn, settings)) {
       const DamShape& shape = dam.shape;
-      const int side = uphill_side(trn, shape);
+      const BurntDam& burnt = burnt_in(trn, dam, where);
       const auto line_beside = [&](double off, const std::string& name) {
         return record_line(
-            name, posts_on_ground(trn, off == 0 ? shape.line : beside(shape.line, side * off),
+            name, posts_on_ground(trn, off == 0 ? shape.line : beside(shape.line, burnt.uphill * off),
                                   spacing, where));
       };
       const double edge = shape.crest_width / 2;

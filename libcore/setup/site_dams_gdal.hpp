@@ -41,7 +41,8 @@ struct DamLines {
   const DamSettings* settings = nullptr;
   RecordLine crest, before;
 };
-/// Of all that are active. Throws InputError as dams_of() and posts_on_ground().
+/// Of all that are active. Throws InputError as dams_of() and posts_on_ground(), and for a dam that
+/// `trn` was made without.
 [[nodiscard]] std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn);
 
 /// Roofs of the galleries that are active in the ground of `trn`. Throws InputError as dams_of().

@@ -360,10 +360,6 @@ SideRise rise_to_the_left(const Trn& ground, const DamShape& shape) {
   return {sum / length, (sum < 0 ? left_length : right_length) / length};
 }
 
-int uphill_side(const Trn& ground, const DamShape& shape) {
-  return rise_to_the_left(ground, shape).mean < 0 ? -1 : 1;
-}
-
 DamFault lay_dam(const Trn& ground, const DamShape& shape, Dam& dam) {
   TALUS_ASSERT(shape.line.size() >= 2);
   dam = {};
@@ -373,7 +369,7 @@ DamFault lay_dam(const Trn& ground, const DamShape& shape, Dam& dam) {
     if (std::isnan(z)) return {DamFault::off_the_ground, p};
     dam.crest.emplace_back(p.x(), p.y(), z + shape.height);
   }
-  dam.uphill = uphill_side(ground, shape);
+  dam.uphill = rise_to_the_left(ground, shape).mean < 0 ? -1 : 1;
   dam.foot = dam.crest;
   measure_heights(ground, dam);
   if (shape.is_gallery) return {};

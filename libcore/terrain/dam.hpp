@@ -41,11 +41,7 @@ struct DamFault {
   Vec2 at = Vec2::Zero();  ///< local
 };
 
-/// The side of the line on which the ground lies higher, beyond faces and ditch, whether the dam
-/// stands there or not: +1 left of it seen from its first point, -1 right.
-[[nodiscard]] int uphill_side(const Trn& ground, const DamShape& shape);
-
-/// How far from the line the ground of both sides is looked at for it [m].
+/// How far from the line the ground is looked at for the side on which it lies higher [m].
 [[nodiscard]] double side_distance(const DamShape& shape);
 /// How much higher the ground lies there on the left than on the right.
 struct SideRise {

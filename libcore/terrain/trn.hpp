@@ -25,6 +25,14 @@
 
 namespace talus {
 
+/// A dam or gallery in the ground: what the ground with it no longer says.
+struct BurntDam {
+  std::string name;           ///< of its section; of several lines with a point and a number
+  int uphill = 1;             ///< +1: left of the line seen from its first point, -1: right
+  std::vector<double> crest;  ///< its height at the points of the line, local z [m]
+  std::vector<int> nodes;     ///< that it moved, ascending
+};
+
 struct Trn {  // clang-format off
   int n_rows = 0;                 ///< nodes from north to south, the paper's m
   int n_cols = 0;                 ///< nodes from west to east, the paper's n
@@ -33,6 +41,7 @@ struct Trn {  // clang-format off
   Vec3 origin = Vec3::Zero();     ///< map coordinates of the local zero [m]
   std::string crs_wkt;            ///< projected, metres; empty when unknown
   std::vector<double> elevation;  ///< z at [r * n_cols + c] [m], NaN: unknown  (n_rows * n_cols)
+  std::vector<BurntDam> dams;     ///< that talus-trn burnt into it
 };  // clang-format on
 
 /// A cell by the row and column of its north-west node.

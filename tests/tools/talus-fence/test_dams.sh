@@ -20,6 +20,11 @@ line = [[500115, 5000010], [500115, 5000090]]
 height_m = 12
 slopes_deg = [75, 45]
 capacity_kj = 2000
+[dam.below]
+active = false
+line = [[500131, 5000010], [500131, 5000090]]
+height_m = 5
+slopes_deg = [75, 45]
 [solver]
 duration_s = 14
 [output]
@@ -40,6 +45,11 @@ run weak --set dam.road.capacity_kj=1
 prints 'does not hold: the energy is '
 run alone --set rockfall.a.rocks=2
 prints 'not judged: too few arrivals, '
+# 16 m from the crest, where uphill is looked for, the ground is 0.6 m high and the next dam 5 m
+run single --set dam.road.height_m=5
+run pair --set dam.road.height_m=5 --set dam.below.active=true
+expect 1 talus-fence site.toml --set dam.below.active=true high/run_1.h5 --trn high/bed.tif -o no.gpkg --no-db
+says 'dam.below: is active, and the terrain was made without it'
 python3 - <<'PY' || fail "what comes and what passes"
 import csv, json
 of = {name: json.load(open(name + "/fence.json"))["dams"][0] for name in ("high", "low", "weak")}
@@ -48,6 +58,8 @@ n = {k: v["n"] for k, v in high["verdicts"].items()}
 assert sum(n.values()) == 90 and n["overtopped"] == 0 and n["stopped"] > 60, n
 assert high["pass"] is True and low["pass"] is False and of["weak"]["pass"] is False
 assert low["verdicts"]["overtopped"]["n"] == low["passing"]["n"] > 10, low["verdicts"]
+single, pair = (json.load(open(name + "/fence.json"))["dams"][0] for name in ("single", "pair"))
+assert pair["arriving"]["n"] == single["arriving"]["n"] > 60, (pair["arriving"], single["arriving"])
 # the arrivals are the same: the dam begins behind that line
 for key in "n", "mean_angle_to_normal_deg":
     assert abs(high["arriving"][key] - of["weak"]["arriving"][key]) < 1e-9

@@ -119,20 +119,6 @@ TEST(Dam, LeavesAllOtherNodesAsTheyWere) {
     EXPECT_EQ(moved.count(i) == 0, trn.elevation[i] == ground.elevation[i]);
 }
 
-// Runs see the ground with the dam in it, and must know where uphill is too.
-TEST(Dam, LeavesUphillWhereItIs) {
-  for (const double rise : {0.02, 0.1, 0.5})
-    for (const double to : {-1.0, 1.0}) {
-      DamShape shape = shape_of({{-20, 0}, {20, 0}});
-      shape.ditch_depth = 2;
-      shape.ditch_width = 4;
-      Trn trn = plane({0, to * rise}, 1, 100);
-      EXPECT_EQ(uphill_side(trn, shape), static_cast<int>(to));
-      ASSERT_EQ(built(shape, trn).fault.kind, DamFault::none);
-      EXPECT_EQ(uphill_side(trn, shape), static_cast<int>(to)) << rise;
-    }
-}
-
 // A line over a saddle has the higher ground left of it here and right of it there.
 TEST(Dam, KnowsHowMuchHigherItsUphillSideIs) {
   const DamShape shape = shape_of({{-20, 0}, {20, 0}});
