@@ -27,6 +27,7 @@ struct RecordLine {
   std::vector<double> chainage;   ///< of the points, horizontal, from the first [m]  (n_points)
   bool standing = false;          ///< a fence that stops blocks; false: a line that stops nothing
   std::vector<RoofPiece> roof{};  ///< of a gallery, at its line; not in files
+  std::vector<int> roof_nodes{};  ///< nodes of the terrain at the roof's height, ascending; as roof
 };
 
 /// Where a search considers a fence: lines of this name are watched, though the site has no fence

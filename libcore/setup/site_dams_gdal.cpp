@@ -260,7 +260,9 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
           std::string(shape.is_gallery ? gallery_prefix : dam_prefix) + dam.name;
       all.push_back({&settings, line_beside(shape.is_gallery ? -edge : 0, name),
                      line_beside(before, name + std::string(before_dam))});
-      if (shape.is_gallery) all.back().crest.roof = roof_pieces(trn, shape);
+      if (!shape.is_gallery) continue;
+      all.back().crest.roof = roof_pieces(trn, shape);
+      all.back().crest.roof_nodes = burnt.nodes;
     }
   }
   return all;

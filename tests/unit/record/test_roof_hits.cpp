@@ -27,6 +27,11 @@ struct Fall {
     add_box(scene, {1, 1, 1});
     RecordLine edge = talus::record_line("gallery.road", {{40, 40, 6}, {60, 40, 6}});
     edge.roof = {{{{40, 40}, {60, 40}, {60, 60}, {40, 60}}, normal}};
+    for (int row = 0; row < scene.ground.trn.n_rows; ++row)
+      for (int col = 0; col < scene.ground.trn.n_cols; ++col)
+        if (const Vec3 at = node_point(scene.ground.trn, row, col);
+            at.x() >= 40 && at.x() <= 60 && at.y() >= 40 && at.y() <= 60)
+          edge.roof_nodes.push_back(static_cast<int>(node_index(scene.ground.trn, row, col)));
     RecordLine crest = talus::record_line("dam.other", {{40, 40, 6}, {60, 40, 6}});
     recorder = talus::start_roofs(scene, {crest, edge});
     state.motion.resize(1);
@@ -102,6 +107,18 @@ TEST(RoofHits, AreNeitherBesideTheRoofNorAboveItNorOfWhatSlides) {
   EXPECT_EQ(hits({50, 50, 8}, {0, 0, -5}, {0, 0, 0}), 0U);      // by something above it
   EXPECT_EQ(hits({50, 50, 6.5}, {5, 0, 0}, {2, 0, 0}), 0U);     // stopped along it
   EXPECT_EQ(hits({50, 50, 6.5}, {0, 0, -0.4}, {0, 0, 0}), 0U);  // too slow
+}
+
+// The roof's ring reaches into the cell over which the terrain rises to the slope behind it.
+TEST(RoofHits, AreNotOnTheStepsBesideTheRoof) {
+  const auto hits = [](double y) {
+    Fall fall;
+    fall.recorder.lines[1].roof[0].ring = {{40, 40}, {60, 40}, {60, 63}, {40, 63}};
+    fall.step({flight(fall.scene, 0, moving({50, y, 6.5}, {0, 0, -5}), 0, 1e-9)}, {0, 0, 0});
+    return fall.recorder.rows.size();
+  };
+  EXPECT_EQ(hits(58), 1U);
+  EXPECT_EQ(hits(61), 0U);
 }
 
 // In a mass the contacts act over the segment itself, not between two.
