@@ -1,7 +1,9 @@
 // Burns the [dam.*] of a site into its terrain.
 #include "setup/site_dams_gdal.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "base/text.hpp"
@@ -229,6 +231,20 @@ std::vector<Vec2> beside(const std::vector<Vec2>& line, double distance) {
   return out;
 }
 
+// Height of the crest across the nearest place of the line.
+double crest_at(const DamShape& shape, const std::vector<double>& crest, const Vec2& at) {
+  double nearest = std::numeric_limits<double>::infinity(), height = 0;
+  for (std::size_t i = 0; i + 1 < shape.line.size(); ++i) {
+    const Vec2 &a = shape.line[i], &b = shape.line[i + 1];
+    const double share = std::clamp((at - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+    const double off = (at - a - share * (b - a)).norm();
+    if (!(off < nearest)) continue;
+    nearest = off;
+    height = crest[i] + share * (crest[i + 1] - crest[i]);
+  }
+  return height;
+}
+
 const BurntDam& burnt_in(const Trn& trn, const SiteDam& dam, const Where& where) {
   for (const BurntDam& burnt : trn.dams)
     if (burnt.name == dam.name && burnt.crest.size() == dam.shape.line.size()) return burnt;
@@ -248,9 +264,12 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
       const DamShape& shape = dam.shape;
       const BurntDam& burnt = burnt_in(trn, dam, where);
       const auto line_beside = [&](double off, const std::string& name) {
-        return record_line(
-            name, posts_on_ground(trn, off == 0 ? shape.line : beside(shape.line, burnt.uphill * off),
-                                  spacing, where));
+        std::vector<Vec3> posts = posts_on_ground(
+            trn, off == 0 ? shape.line : beside(shape.line, burnt.uphill * off), spacing, where);
+        if (shape.is_gallery)  // at the edge itself the terrain falls from the roof
+          for (Vec3& post : posts)
+            post.z() = std::max(post.z(), crest_at(shape, burnt.crest, post.head<2>()));
+        return record_line(name, std::move(posts));
       };
       const double edge = shape.crest_width / 2;
       // half the height more: the centroid of a block that touches the face has crossed the line

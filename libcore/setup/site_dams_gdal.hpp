@@ -36,7 +36,7 @@ std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn);
 /// The two lines that a run watches for a dam in the ground of `trn`, with a point every ten
 /// metres: the crest, and, where blocks come to the dam, one as far before it as the uphill face
 /// would run on level ground and half the height more. Of a gallery they are the edges of the roof,
-/// that of the valley first.
+/// that of the valley first, at its height or on higher ground.
 struct DamLines {
   const DamSettings* settings = nullptr;
   RecordLine crest, before;
