@@ -216,21 +216,6 @@ std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn) {
 
 namespace {
 
-// Beside the line, at corners where its pieces' own lines meet.
-std::vector<Vec2> beside(const std::vector<Vec2>& line, double distance) {
-  std::vector<Vec2> out;
-  const auto left_of = [&line](std::size_t piece) {
-    const Vec2 along = (line[piece + 1] - line[piece]).normalized();
-    return Vec2(-along.y(), along.x());
-  };
-  const std::size_t last = line.size() - 2;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const Vec2 a = left_of(i == 0 ? 0 : i - 1), b = left_of(std::min(i, last));
-    out.emplace_back(line[i] + distance / (1 + a.dot(b)) * (a + b));
-  }
-  return out;
-}
-
 // Height of the crest across the nearest place of the line.
 double crest_at(const DamShape& shape, const std::vector<double>& crest, const Vec2& at) {
   double nearest = std::numeric_limits<double>::infinity(), height = 0;
@@ -263,9 +248,9 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
     for (const SiteDam& dam : dams_of(log, site, trn, settings)) {
       const DamShape& shape = dam.shape;
       const BurntDam& burnt = burnt_in(trn, dam, where);
-      const auto line_beside = [&](double off, const std::string& name) {
+      const auto edge_at = [&](double off, const std::string& name) {
         std::vector<Vec3> posts = posts_on_ground(
-            trn, off == 0 ? shape.line : beside(shape.line, burnt.uphill * off), spacing, where);
+            trn, off == 0 ? shape.line : line_beside(shape.line, burnt.uphill * off), spacing, where);
         if (shape.is_gallery)  // at the edge itself the terrain falls from the roof
           for (Vec3& post : posts)
             post.z() = std::max(post.z(), crest_at(shape, burnt.crest, post.head<2>()));
@@ -277,8 +262,8 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
           shape.is_gallery ? edge : edge + shape.height / shape.tan_uphill + shape.height / 2;
       const std::string name =
           std::string(shape.is_gallery ? gallery_prefix : dam_prefix) + dam.name;
-      all.push_back({&settings, line_beside(shape.is_gallery ? -edge : 0, name),
-                     line_beside(before, name + std::string(before_dam))});
+      all.push_back({&settings, edge_at(shape.is_gallery ? -edge : 0, name),
+                     edge_at(before, name + std::string(before_dam))});
       if (!shape.is_gallery) continue;
       all.back().crest.roof = roof_pieces(trn, shape);
       all.back().crest.roof_nodes = burnt.nodes;

@@ -13,6 +13,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double most_heights = 10;      // that a face may run from the line
 constexpr double same_place = 1e-6;      // what is nearer than this meets [m]
 constexpr double most_fine_nodes = 4e6;  // of the grid that the designed volumes are taken from
+constexpr double finest_turn = std::numbers::pi / 12;  // of the sides of a round corner
 constexpr double fine_per_crest = 4;     // its cells across the crest
 
 // --- the line --------------------------------------------------------------------------------
@@ -306,8 +307,29 @@ double ditch_height_at(const Dam& dam, const Vec2& at) {
   return height;
 }
 
+std::vector<Vec2> line_beside(const std::vector<Vec2>& line, double distance) {
+  std::vector<Vec2> out;
+  const std::size_t last = line.size() - 2;
+  const auto piece = [&](std::size_t i) { return Vec2(line[i + 1] - line[i]); };
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const Vec2 before = piece(i == 0 ? 0 : i - 1), after = piece(std::min(i, last));
+    const auto left = [](const Vec2& along) { return Vec2(-along.y(), along.x()).normalized(); };
+    const Vec2 a = distance * left(before), b = distance * left(after);
+    const double turn = std::atan2(cross(a, b), a.dot(b));
+    const int n = static_cast<int>(std::ceil(std::abs(turn) / finest_turn));
+    if (turn * distance < 0 && n > 1) {
+      for (int k = 0; k <= n; ++k)
+        out.emplace_back(line[i] + Eigen::Rotation2Dd(k * turn / n) * a);
+      continue;
+    }
+    const double shortest = std::min(before.norm(), after.norm());
+    const double back = std::min(std::abs(distance * std::tan(turn / 2)), shortest);
+    out.emplace_back(line[i] + std::hypot(distance, back) * (a + b).normalized());
+  }
+  return out;
+}
+
 std::vector<RoofPiece> roof_pieces(const Trn& trn, const DamShape& gallery) {
-  constexpr double finest_turn = std::numbers::pi / 12;  // of the sides of a corner's piece
   const double inwards = 1.5 * trn.cell_size;            // from a roof's end to where it is whole
   std::vector<RoofPiece> pieces;
   std::vector<Vec2> lefts;

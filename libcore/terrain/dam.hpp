@@ -86,6 +86,10 @@ struct RoofPiece {
 /// level, as its ends in the terrain are lower than it.
 [[nodiscard]] std::vector<RoofPiece> roof_pieces(const Trn& trn, const DamShape& gallery);
 
+/// The line at a distance to the left, < 0 right: round at the outer side of a corner, as faces and
+/// roof are; at the inner side where its pieces meet, but no farther than one of them is long.
+[[nodiscard]] std::vector<Vec2> line_beside(const std::vector<Vec2>& line, double distance);
+
 /// Height of the dam's crest and faces above a place, and of its ditch; minus and plus infinity
 /// where the dam has none, local [m].
 [[nodiscard]] double dam_height_at(const Dam& dam, const Vec2& at);

@@ -17,7 +17,7 @@ velocity_m_s = [5, 0, 0]
 rocks = 25
 [dam.road]
 kind = "gallery"
-line = [[500096, 5000005], [500096, 5000095]]
+line = [[500096.2, 5000005], [500096.2, 5000095]]
 height_m = 6
 crest_width_m = 20
 [object.road]
@@ -79,4 +79,7 @@ assert abs(hardest["normal_energy_kj"] / energy - 1) < 1e-6, (hardest, energy)
 assert abs(hardest["angle_to_roof_deg"] - 90) < 1e-3 and gallery["roof_hits"]["blocks"] == 1
 assert gallery["verdicts"]["overtopped"]["n"] == 0, gallery["verdicts"]
 PY
+# the valley edge lies between two nodes, where the terrain falls 8 m: heights count from the roof
+z=$(awk 'BEGIN { printf "%.3f", 1000 - 96.2 * 0.5773502691896257 + 6 }')
+ogrinfo -q -al roof/fence.gpkg dams | grep -q "LINESTRING ZM (500106.2 5000005 $z" || fail "the edge does not lie at $z m"
 ogrinfo -q -al roof/fence.gpkg dams | grep -q 'kind (String) = gallery' || fail 'no layer of galleries'

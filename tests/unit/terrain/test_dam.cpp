@@ -149,6 +149,24 @@ TEST(Dam, IsTheSameFromBothEnds) {
     EXPECT_NEAR(one.elevation[i], other.elevation[i], 1e-9);
 }
 
+// Round a point that is 10 m long and 2 m wide the line stays 5 m away, and within its hollow no
+// farther than its arms are long.
+TEST(Dam, IsWatchedAtTheSameDistanceRoundSharpCorners) {
+  const std::vector<Vec2> line = {{-20, 0}, {-1, 0}, {0, 10}, {1, 0}, {20, 0}};
+  for (const Vec2& at : line_beside(line, 5)) {
+    double off = 1e9;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+      off = std::min(off, talus::distance_to_segment<Vec2>(at, line[i], line[i + 1]));
+    EXPECT_NEAR(off, 5, 1e-9) << at.transpose();
+  }
+  for (const Vec2& at : line_beside(line, -5)) EXPECT_LT((at - Vec2(0, 0)).norm(), 20.7);
+  // the middle of a hollow that is square: sqrt(2) 3
+  const auto square = line_beside({{0, 9}, {0, 0}, {9, 0}}, 3);
+  ASSERT_EQ(square.size(), 3U);
+  EXPECT_NEAR((square[1] - Vec2(3, 3)).norm(), 0, 1e-9);
+  EXPECT_NEAR((square[0] - Vec2(3, 9)).norm(), 0, 1e-9);
+}
+
 // No face is steeper than it was designed, at corners and ends either.
 TEST(Dam, HasNoStepInItsFaces) {
   const Trn trn = plane({0, 0.4}, 1, 150);
