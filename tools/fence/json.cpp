@@ -70,6 +70,7 @@ Json design_json(const DesignResult& r, bool with_steps) {
                {"design_height_m", number_or_null(r.design_height)},
                {"free_border_m", number_or_null(r.free_border)},
                {"required_height_m", number_or_null(r.required_height)},
+               {"still_moving", r.n_moving},
                {"energy_use", number_or_null(r.energy_use)},
                {"height_use", number_or_null(r.height_use)},
                {"required_distance_m", number_or_null(r.required_distance)},

@@ -88,6 +88,7 @@ std::vector<VectorStyle::Class> verdict_classes() {
           {"energy not checked", "no capacity given: energy not checked", {253, 191, 111, 255}},
           {"too few arrivals", "not judged: too few arrivals", {120, 120, 120, 255}},
           {"first touches only", "not judged: first touches only", {120, 120, 120, 255}},
+          {"still moving", "not judged: blocks still move", {120, 120, 120, 255}},
           {"nothing came", "not judged: nothing came", {190, 190, 190, 255}}};
 }
 

@@ -130,6 +130,10 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
     set_verdicts(runs.with, dam);
     dam_results.push_back(dam_result(dam, runs.with));
     dam_list.push_back(dam_json(dam, dam_results.back(), runs.with, lines[dam.crest].fence, basis));
+    if (const int n = dam_results.back().n_moving; n > 0)
+      tool.warn(lines[dam.crest].line.name + ": " + std::to_string(n) +
+                " blocks that had not passed it still moved when their run ended; give talus-dda a "
+                "longer [solver] duration_s");
     summary += (summary.empty() ? "" : "\n") + dam_summary(dam, dam_results.back(), runs.with);
   }
   std::vector<Fence> crests;

@@ -65,11 +65,25 @@ void add_loads(const FenceRunGroup& group, const DamCase& gallery, DamResult& r)
   if (!loads.empty()) r.load_cases.back().load = loads.back();
 }
 
+int n_moving(const FenceRunGroup& group, const DamCase& dam) {
+  int sum = 0;
+  for (const FenceRun& run : group.runs)
+    for (const BlockVerdict& v : run.at_fence[dam.arrival].verdicts)
+      sum += run.moves[v.block] != 0 &&
+             (v.verdict == Verdict::stopped || v.verdict == Verdict::not_reached);
+  return sum;
+}
+
+std::string moving_text(const DamResult& r) {
+  return std::to_string(r.n_moving) + " that had not passed it still moved when their run ended";
+}
+
 void describe_gallery(DamResult& r) {
   const std::string passed =
       std::to_string(r.passing.n) + " passed over it; its strength is not checked";
   if (r.arriving.n == 0 && r.n_loads == 0) {
-    r.text = "not judged: nothing came to it";
+    r.text = r.n_moving > 0 ? "not judged: " + moving_text(r) : "not judged: nothing came to it";
+    if (r.n_moving > 0) r.verdict = DesignVerdict::still_moving;
     return;
   }
   r.verdict = DesignVerdict::energy_unknown;
@@ -88,6 +102,12 @@ void judge(const DamCase& dam, DamResult& r) {
     r.verdict = DesignVerdict::does_not_meet;
     r.text = "does not hold: " + std::to_string(r.passing.n) + " of " +
              std::to_string(std::max(r.passing.n, r.arriving.n)) + " blocks passed over the crest";
+  } else if (r.energy_use > 1) {
+    r.verdict = DesignVerdict::does_not_meet;
+    r.text = "does not hold: the energy is " + energy + capacity;
+  } else if (r.n_moving > 0) {
+    r.verdict = DesignVerdict::still_moving;
+    r.text = "not judged: " + moving_text(r);
   } else if (r.arriving.n == 0) {
     r.text = "not judged: nothing came to it";
   } else if (std::isnan(p95)) {
@@ -97,9 +117,6 @@ void judge(const DamCase& dam, DamResult& r) {
   } else if (std::isnan(dam.capacity)) {
     r.verdict = DesignVerdict::energy_unknown;
     r.text = "high enough; no capacity given: energy not checked, " + energy;
-  } else if (r.energy_use > 1) {
-    r.verdict = DesignVerdict::does_not_meet;
-    r.text = "does not hold: the energy is " + energy + capacity;
   } else {
     r.verdict = DesignVerdict::meets;
     r.text = "holds: none passed over the crest; energy " + energy + capacity;
@@ -125,6 +142,7 @@ DamResult dam_result(const DamCase& dam, const FenceRunGroup& group) {
   DamResult r;
   r.arriving = summarise(not_beside(arrivals_at(group, dam.arrival)), group.clusters);
   r.passing = summarise(over_the_crest(group, dam), group.clusters);
+  r.n_moving = n_moving(group, dam);
   if (dam.is_gallery) {
     add_loads(group, dam, r);
     describe_gallery(r);

@@ -33,6 +33,7 @@ struct LoadCase {
 struct DamResult {
   FencePartSummary arriving;  ///< at the line before the uphill face
   FencePartSummary passing;   ///< over the crest
+  int n_moving = 0;  ///< blocks that had neither passed it nor come to rest when their run ended
   double energy_use = 0;      ///< 95th percentile of the energy over the capacity [-]; NaN: unknown
   DesignVerdict verdict = DesignVerdict::nothing_came;  ///< meets: it holds
   std::string text;                                     ///< the verdict in words
@@ -45,8 +46,8 @@ struct DamResult {
 /// else not reached.
 void set_verdicts(FenceRunGroup& group, const DamCase& dam);
 
-/// It holds when no block passed over the crest, and the 95th percentile of the energy of those
-/// that came is no more than the capacity. No factor and no freeboard of a code is in it. A gallery
+/// It holds when no block passed over the crest, none of the others moves any more, and the 95th
+/// percentile of the energy of those that came is no more than the capacity. No factor and no freeboard of a code is in it. A gallery
 /// is not judged.
 [[nodiscard]] DamResult dam_result(const DamCase& dam, const FenceRunGroup& group);
 

@@ -59,6 +59,7 @@ enum class DesignVerdict {
   too_few,         ///< arrivals for the percentiles that the code asks for
   nothing_came,
   first_touches,  ///< all holds, but for touches of a built fence: not design values
+  still_moving,   ///< all holds, of a dam, but blocks that had not passed it moved at the end
 };
 [[nodiscard]] const char* text(DesignVerdict verdict);
 

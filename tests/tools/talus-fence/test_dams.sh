@@ -45,6 +45,8 @@ run weak --set dam.road.capacity_kj=1
 prints 'does not hold: the energy is '
 run alone --set rockfall.a.rocks=2
 prints 'not judged: too few arrivals, '
+run short --set solver.duration_s=9
+prints ' that had not passed it still moved when their run ended'
 # 16 m from the crest, where uphill is looked for, the ground is 0.6 m high and the next dam 5 m
 run single --set dam.road.height_m=5
 run pair --set dam.road.height_m=5 --set dam.below.active=true
@@ -56,7 +58,9 @@ of = {name: json.load(open(name + "/fence.json"))["dams"][0] for name in ("high"
 high, low = of["high"], of["low"]
 n = {k: v["n"] for k, v in high["verdicts"].items()}
 assert sum(n.values()) == 90 and n["overtopped"] == 0 and n["stopped"] > 60, n
-assert high["pass"] is True and low["pass"] is False and of["weak"]["pass"] is False
+short = json.load(open("short/fence.json"))["dams"][0]
+assert short["still_moving"] > 0 and short["pass"] is None and short["verdict"] == "still moving", short
+assert high["still_moving"] == 0 and high["pass"] is True and low["pass"] is False and of["weak"]["pass"] is False
 assert low["verdicts"]["overtopped"]["n"] == low["passing"]["n"] > 10, low["verdicts"]
 single, pair = (json.load(open(name + "/fence.json"))["dams"][0] for name in ("single", "pair"))
 assert pair["arriving"]["n"] == single["arriving"]["n"] > 60, (pair["arriving"], single["arriving"])
