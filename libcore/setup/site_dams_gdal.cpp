@@ -263,7 +263,7 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
       const std::string name =
           std::string(shape.is_gallery ? gallery_prefix : dam_prefix) + dam.name;
       all.push_back({&settings, edge_at(shape.is_gallery ? -edge : 0, name),
-                     edge_at(before, name + std::string(before_dam))});
+                     edge_at(before, name + std::string(before_dam)), burnt.uphill});
       if (!shape.is_gallery) continue;
       all.back().crest.roof = roof_pieces(trn, shape);
       all.back().crest.roof_nodes = burnt.nodes;

@@ -40,6 +40,7 @@ std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn);
 struct DamLines {
   const DamSettings* settings = nullptr;
   RecordLine crest, before;
+  int uphill = 1;  ///< +1: left of both seen from their first points, -1: right
 };
 /// Of all that are active. Throws InputError as dams_of() and posts_on_ground(), and for a dam that
 /// `trn` was made without.

@@ -87,7 +87,7 @@ std::vector<DamCase> dam_cases(Tool& tool, const Site& site, const Trn& trn,
     const bool roofed = is_gallery(dams[i].crest);
     cases.push_back({dams[i].crest.name.substr((roofed ? gallery_prefix : dam_prefix).size()),
                      roofed, dams[i].settings->height_m, 1e3 * dams[i].settings->capacity_kj,
-                     first + i, first + dams.size() + i});
+                     first + i, first + dams.size() + i, dams[i].crest, dams[i].uphill});
   }
   return cases;
 }

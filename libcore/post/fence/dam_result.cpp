@@ -22,10 +22,49 @@ std::vector<FenceArrival> not_beside(const std::vector<FenceArrival>& all) {
   return out;
 }
 
+// The crest and its straight continuations, which part the ground in two sides.
+RecordLine continued(const RecordLine& crest) {
+  constexpr double beyond = 1e5;  // farther than terrains reach [m]
+  std::vector<Vec3> points = crest.points;
+  const auto out_of = [](const Vec3& end, const Vec3& next) {
+    return Vec3(end + beyond * (end - next) / (end - next).head<2>().norm());
+  };
+  const std::size_t n = points.size();
+  const Vec3 first = out_of(points[0], points[1]), last = out_of(points[n - 1], points[n - 2]);
+  points.insert(points.begin(), first);
+  points.push_back(last);
+  return record_line(crest.name, std::move(points));
+}
+
+/// The side of a dam that a block ends on.
+struct Sides {
+  RecordLine line;
+  Vec2 uphill = Vec2::Zero();  // a place close to the line
+
+  explicit Sides(const DamCase& dam) : line(continued(dam.line)) {
+    const Vec2 a = dam.line.points[0].head<2>(), b = dam.line.points[1].head<2>();
+    const Vec2 along = (b - a).normalized();
+    uphill = 0.5 * (a + b) + 1e-3 * dam.uphill * Vec2(-along.y(), along.x());
+  }
+  [[nodiscard]] bool is_downhill(const Vec2& at) const {
+    return line_meetings(line, uphill, at).size() % 2 == 1;
+  }
+};
+
+// Passages of the crest, and beside it, of blocks that came from uphill and end downhill.
+std::vector<FenceArrival> passages(const FenceRun& run, const DamCase& dam) {
+  const Sides sides(dam);
+  std::vector<FenceArrival> out;
+  for (const FenceArrival& a : passed_for_good(run.at_fence[dam.crest]))
+    if (a.direction == -dam.uphill && (!a.beside || sides.is_downhill(run.end[a.block])))
+      out.push_back(a);
+  return out;
+}
+
 std::vector<FenceArrival> over_the_crest(const FenceRunGroup& group, const DamCase& dam) {
   std::vector<FenceArrival> out;
   for (int r = 0; r < n_runs(group); ++r)
-    for (FenceArrival a : not_beside(passed_for_good(group.runs[r].at_fence[dam.crest]))) {
+    for (FenceArrival a : not_beside(passages(group.runs[r], dam))) {
       a.run = r;
       out.push_back(a);
     }
@@ -132,7 +171,7 @@ void set_verdicts(FenceRunGroup& group, const DamCase& dam) {
       v.verdict = Verdict::not_reached;
       if (v.arrival >= 0 && !before.arrivals[v.arrival].beside) v.verdict = Verdict::stopped;
     }
-    for (const FenceArrival& a : passed_for_good(crest))
+    for (const FenceArrival& a : passages(run, dam))
       before.verdicts[a.block].verdict =
           a.beside ? crest.verdicts[a.block].verdict : Verdict::overtopped;
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "post/fence/fence_result.hpp"
+#include "record/crossings.hpp"
 
 namespace talus {
 
@@ -22,6 +23,8 @@ struct DamCase {
   double height = 0;                   ///< of the crest above the ground, as designed [m]
   double capacity = 0;                 ///< energy that it is designed for [J]; NaN: not given
   std::size_t arrival = 0, crest = 0;  ///< indices of RunAtFence
+  RecordLine line;                     ///< of the crest
+  int uphill = 1;                      ///< +1: left of it seen from its first point, -1: right
 };
 
 /// The block at a percentile of the energy normal to the roof, or with the largest.
@@ -42,8 +45,8 @@ struct DamResult {
 };
 
 /// Of each block, in place of the verdicts at the dam's first line: stopped where it came to the
-/// dam and did not pass its crest, overtopped where it did, bypassed where it passed beside an end,
-/// else not reached.
+/// dam and did not pass its crest, overtopped where it did, bypassed where it came from uphill beside
+/// an end and ended on the other side, else not reached.
 void set_verdicts(FenceRunGroup& group, const DamCase& dam);
 
 /// It holds when no block passed over the crest, none of the others moves any more, and the 95th
