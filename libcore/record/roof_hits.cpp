@@ -30,17 +30,6 @@ bool find_touch(const Scene& scene, int block, const Motion& motion, Vec2& place
   return touches;
 }
 
-// Whether the ground at a place is roof: beside it the terrain falls or rises over a cell.
-bool is_on_roof(const Trn& trn, const std::vector<int>& roof_nodes, const Vec2& at) {
-  const GridPoint place = locate(trn, at.x(), at.y());
-  const auto [row, col] = place.cell;
-  const auto is_roof = [&](int south, int east) {
-    return std::binary_search(roof_nodes.begin(), roof_nodes.end(),
-                              static_cast<int>(node_index(trn, row + south, col + east)));
-  };
-  return is_roof(0, 0) && is_roof(1, 1) && (is_upper(place) ? is_roof(0, 1) : is_roof(1, 0));
-}
-
 void add_hit(RoofRecorder& recorder, const RoofHit& hit) {
   std::int32_t& index =
       recorder.row_of[static_cast<std::size_t>(hit.block) * recorder.lines.size() +
@@ -68,7 +57,8 @@ void look(RoofRecorder& recorder, const Scene& scene, const Segment& segment, co
   const Vec3& before = at_end ? end : start;
   const Vec3 change = at_end ? Vec3(after - end) : Vec3(end - start - fallen);
   for (std::size_t l = 0; l < recorder.lines.size(); ++l) {
-    if (!is_on_roof(scene.ground.trn, recorder.lines[l].roof_nodes, place)) continue;
+    // beside the roof the terrain falls or rises over a cell
+    if (corners_among(scene.ground.trn, recorder.lines[l].roof_nodes, place) < 3) continue;
     for (const RoofPiece& piece : recorder.lines[l].roof) {
       if (!is_inside(piece.ring, place)) continue;
       const double speed = -before.dot(piece.normal);

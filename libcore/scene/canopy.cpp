@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "terrain/dam.hpp"
+
 namespace talus {
 namespace {
 
@@ -43,7 +45,7 @@ double drag_at(const std::vector<Canopy>& canopies, const Trn& trn, const Vec3& 
       continue;
     // off the known ground the elevation is not a number, and nothing is below a canopy
     if (position.z() < elevation_at(trn, at.x(), at.y()) + canopy.height &&
-        canopy.area.contains(at))
+        canopy.area.contains(at) && !is_on_a_dam(trn, at))
       drag += canopy.drag;
   }
   return drag;

@@ -29,7 +29,7 @@ struct Canopy {
                                const Vec3& from, const Vec3& to);
 
 /// Drag on a mass centre at `position`: the sum of all stands over whose area and below whose
-/// canopy it is [kg/s].
+/// canopy it is, none over a dam [kg/s].
 [[nodiscard]] double drag_at(const std::vector<Canopy>& canopies, const Trn& trn,
                              const Vec3& position);
 

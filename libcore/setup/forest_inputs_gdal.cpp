@@ -16,6 +16,7 @@
 #include "scene/stems.hpp"
 #include "setup/forest_section.hpp"
 #include "setup/site_shapes_gdal.hpp"
+#include "terrain/dam.hpp"
 #include "terrain/grid_frame.hpp"
 
 namespace talus {
@@ -318,6 +319,19 @@ void check_apart(const ForestSection& s, const std::vector<Stem>& stems,
            "leave one of the two out: the same stem would stand there twice");
 }
 
+// --- stems on dams -----------------------------------------------------------------------------
+
+// A dam is built of earth, a roof of concrete: what stood there was felled.
+void leave_out_on_dams(const ForestSection& s, std::vector<Stem>& stems) {
+  const std::size_t n = stems.size();
+  std::erase_if(stems,
+                [&s](const Stem& stem) { return is_on_a_dam(s.trn, stem.foot.head<2>()); });
+  if (stems.size() < n)
+    s.warn(std::to_string(n - stems.size()) + " of " +
+           counted(static_cast<std::int64_t>(n), "stem") +
+           " stand on a dam, in its ditch or on a gallery, left out");
+}
+
 // --- stems in blocks ---------------------------------------------------------------------------
 
 /// The blocks where they start, to find stems in them.
@@ -398,6 +412,7 @@ StandingForests read_forests(InputLog& log, const Site& site, const Trn& trn,
     if (stems.empty() && !(forest.stems_per_ha == 0))
       s.refuse("has no stem on the terrain",
                "check where it lies, and how many stems on a hectare there are");
+    leave_out_on_dams(s, stems);
     say_stems(s, stems);
     if (!forest.stems_file.empty()) check_apart(s, stems, out);
     if (!start) start.emplace(blocks);

@@ -307,6 +307,21 @@ double ditch_height_at(const Dam& dam, const Vec2& at) {
   return height;
 }
 
+int corners_among(const Trn& trn, const std::vector<int>& nodes, const Vec2& at) {
+  const GridPoint place = locate(trn, at.x(), at.y());
+  const auto is_among = [&](int south, int east) {
+    const std::size_t node = node_index(trn, place.cell.row + south, place.cell.col + east);
+    return std::binary_search(nodes.begin(), nodes.end(), static_cast<int>(node)) ? 1 : 0;
+  };
+  return is_among(0, 0) + is_among(1, 1) + (is_upper(place) ? is_among(0, 1) : is_among(1, 0));
+}
+
+bool is_on_a_dam(const Trn& trn, const Vec2& at) {
+  return std::any_of(trn.dams.begin(), trn.dams.end(), [&](const BurntDam& dam) {
+    return corners_among(trn, dam.nodes, at) > 0;
+  });
+}
+
 std::vector<Vec2> line_beside(const std::vector<Vec2>& line, double distance) {
   std::vector<Vec2> out;
   const std::size_t last = line.size() - 2;

@@ -90,6 +90,11 @@ struct RoofPiece {
 /// roof are; at the inner side where its pieces meet, but no farther than one of them is long.
 [[nodiscard]] std::vector<Vec2> line_beside(const std::vector<Vec2>& line, double distance);
 
+/// How many corners of the triangle at a place are among `nodes`, which ascend.
+[[nodiscard]] int corners_among(const Trn& trn, const std::vector<int>& nodes, const Vec2& at);
+/// Whether a dam, a ditch or a gallery of the terrain moved a corner of the triangle there.
+[[nodiscard]] bool is_on_a_dam(const Trn& trn, const Vec2& at);
+
 /// Height of the dam's crest and faces above a place, and of its ditch; minus and plus infinity
 /// where the dam has none, local [m].
 [[nodiscard]] double dam_height_at(const Dam& dam, const Vec2& at);

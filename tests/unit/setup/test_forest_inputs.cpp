@@ -65,6 +65,32 @@ TEST_F(Forests, AreDrawnClearOfTheBlocksAndAlikeEachTime) {
   EXPECT_NE(other.stems[0].foot, one.stems[0].foot);
 }
 
+// A dam that moved the nodes from 60 to 70 m takes what stands from 55 to 75 m, and nothing else.
+TEST_F(Forests, HaveNoStemOnADam) {
+  const std::string keys = polygon + "stems_per_ha = 1500\ndbh_mean_cm = 25\n";
+  const StandingForests all = wood(keys);
+  ASSERT_EQ(trn.cell_size, 5);
+  BurntDam dam;
+  for (int row = 0; row < trn.n_rows; ++row)
+    for (int col = 0; col < trn.n_cols; ++col)
+      if (const double x = node_point(trn, row, col).x(); x >= 60 && x <= 70)
+        dam.nodes.push_back(static_cast<int>(node_index(trn, row, col)));
+  trn.dams = {dam};
+  const StandingForests left = wood(keys);
+  std::size_t n = 0;
+  for (const Stem& stem : all.stems) {
+    if (stem.foot.x() > 55 && stem.foot.x() < 75) continue;
+    ASSERT_LT(n, left.stems.size());
+    EXPECT_EQ(left.stems[n].id, stem.id);
+    EXPECT_EQ(left.stems[n++].foot, stem.foot);
+  }
+  EXPECT_EQ(n, left.stems.size());
+  EXPECT_LT(n, all.stems.size());
+  ASSERT_FALSE(left.warnings.empty());
+  EXPECT_NE(left.warnings[0].find("stand on a dam, in its ditch or on a gallery, left out"),
+            std::string::npos);
+}
+
 TEST_F(Forests, OfAListStandWhereItSays) {
   list("stems.geojson");
   const StandingForests found = wood("stems_file = 'stems.geojson'\n");
