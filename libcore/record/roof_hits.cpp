@@ -41,7 +41,7 @@ void add_hit(RoofRecorder& recorder, const RoofHit& hit) {
   }
   RoofHit& known = recorder.rows[static_cast<std::size_t>(index)];
   const std::int32_t n = known.n_hits + hit.n_hits;
-  if (hit.normal_speed > known.normal_speed) known = hit;
+  if (hit.normal_energy() > known.normal_energy()) known = hit;
   known.n_hits = n;
 }
 

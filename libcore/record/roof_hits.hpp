@@ -21,12 +21,14 @@ struct State;
 struct RoofHit {
   std::int32_t block = 0, line = 0;
   std::int32_t n_hits = 0;
-  // of the hit that was fastest along the normal of the roof
+  // of the hit with the most energy along the normal of the roof
   double time = 0;               ///< [s]
   double mass = 0, volume = 0;   ///< of the body that hit [kg], [m3]
   Vec3 position = Vec3::Zero();  ///< of the centroid, local [m]
   Vec3 velocity = Vec3::Zero();  ///< just before [m/s]
   double normal_speed = 0;       ///< ... its part into the roof [m/s]
+
+  [[nodiscard]] double normal_energy() const { return 0.5 * mass * normal_speed * normal_speed; }
 };
 
 struct RoofRecorder {

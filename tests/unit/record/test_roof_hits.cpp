@@ -96,6 +96,16 @@ TEST(RoofHits, KeepTheHardestAndCountAll) {
   EXPECT_EQ(sorted(again)[0].n_hits, 3);
 }
 
+// A block that was crushed hits faster, with less energy: 5 m/s with all of it, 6 m/s with half.
+TEST(RoofHits, AreTheHardestByTheirEnergy) {
+  Fall fall;
+  fall.step({flight(fall.scene, 0, moving({50, 50, 6.5}, {0, 0, -5}), 0, 1e-9)}, {0, 0, 0});
+  fall.scene.blocks.mass[0] /= 2;
+  fall.step({flight(fall.scene, 0, moving({50, 50, 6.5}, {0, 0, -6}), 1, 1 + 1e-9)}, {0, 0, 0});
+  EXPECT_EQ(fall.recorder.rows[0].n_hits, 2);
+  EXPECT_NEAR(fall.recorder.rows[0].normal_speed, 5, 1e-7);
+}
+
 TEST(RoofHits, AreNeitherBesideTheRoofNorAboveItNorOfWhatSlides) {
   const auto hits = [](const Vec3& position, const Vec3& velocity, const Vec3& after) {
     Fall fall;
