@@ -59,7 +59,8 @@ std::vector<BurntDam> burnt_dams(const std::string& path, const Trn& trn) {
       for (double& z : dams.back().crest) z -= trn.origin.z();
     }
   } catch (const JsonError& error) {
-    throw InputError({path}, std::string("its tag ") + dams_tag + " cannot be read: " + error.what(),
+    throw InputError({path},
+                     std::string("its tag ") + dams_tag + " cannot be read: " + error.what(),
                      "make the terrain again");
   }
   return dams;

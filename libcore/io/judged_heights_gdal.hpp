@@ -36,8 +36,8 @@ class HeightsDigest {
 /// Throws InputError when it cannot be opened.
 [[nodiscard]] bool were_heights_judged(const std::string& path);
 
-/// A tag of the raster; empty: none, or other heights than those that were judged. Throws InputError
-/// when it cannot be opened.
+/// A tag of the raster; empty: none, or other heights than those that were judged. Throws
+/// InputError when it cannot be opened.
 [[nodiscard]] std::string tag_of_judged(const std::string& path, const char* name);
 
 /// Places whose heights the user accepted, in words; empty: none, or other heights than those.

@@ -4,8 +4,8 @@
 // out:   one row per block and roof
 //
 // A hit is a change of the velocity normal to the roof by more than 0.5 m/s, gravity taken off, of
-// a block that touches the roof: from one segment to the next, or in a single one. A triangle of the
-// terrain is roof where all its corners are: the steps at its sides are walls.
+// a block that touches the roof: from one segment to the next, or in a single one. A triangle of
+// the terrain is roof where all its corners are: the steps at its sides are walls.
 #pragma once
 
 #include <cstdint>

@@ -144,7 +144,8 @@ template <>
 const Table<RoofHit>& table_of() {
   static const Table<RoofHit> table = {
       "roof_hits",
-      "blocks and the roofs of galleries that they hit: the hit with the most energy along the normal",
+      "blocks and the roofs of galleries that they hit: the hit with the most energy along the "
+      "normal",
       {
           {"block", "1", "index of the block", of<&RoofHit::block>},
           {"line", "1", "index of the line at the valley edge of the roof", of<&RoofHit::line>},

@@ -324,8 +324,7 @@ void check_apart(const ForestSection& s, const std::vector<Stem>& stems,
 // A dam is built of earth, a roof of concrete: what stood there was felled.
 void leave_out_on_dams(const ForestSection& s, std::vector<Stem>& stems) {
   const std::size_t n = stems.size();
-  std::erase_if(stems,
-                [&s](const Stem& stem) { return is_on_a_dam(s.trn, stem.foot.head<2>()); });
+  std::erase_if(stems, [&s](const Stem& stem) { return is_on_a_dam(s.trn, stem.foot.head<2>()); });
   if (stems.size() < n)
     s.warn(std::to_string(n - stems.size()) + " of " +
            counted(static_cast<std::int64_t>(n), "stem") +

@@ -250,7 +250,8 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
       const BurntDam& burnt = burnt_in(trn, dam, where);
       const auto edge_at = [&](double off, const std::string& name) {
         std::vector<Vec3> posts = posts_on_ground(
-            trn, off == 0 ? shape.line : line_beside(shape.line, burnt.uphill * off), spacing, where);
+            trn, off == 0 ? shape.line : line_beside(shape.line, burnt.uphill * off), spacing,
+            where);
         if (shape.is_gallery)  // at the edge itself the terrain falls from the roof
           for (Vec3& post : posts)
             post.z() = std::max(post.z(), crest_at(shape, burnt.crest, post.head<2>()));

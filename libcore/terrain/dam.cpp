@@ -14,7 +14,7 @@ constexpr double most_heights = 10;      // that a face may run from the line
 constexpr double same_place = 1e-6;      // what is nearer than this meets [m]
 constexpr double most_fine_nodes = 4e6;  // of the grid that the designed volumes are taken from
 constexpr double finest_turn = std::numbers::pi / 12;  // of the sides of a round corner
-constexpr double fine_per_crest = 4;     // its cells across the crest
+constexpr double fine_per_crest = 4;                   // its cells across the crest
 
 // --- the line --------------------------------------------------------------------------------
 
@@ -317,9 +317,8 @@ int corners_among(const Trn& trn, const std::vector<int>& nodes, const Vec2& at)
 }
 
 bool is_on_a_dam(const Trn& trn, const Vec2& at) {
-  return std::any_of(trn.dams.begin(), trn.dams.end(), [&](const BurntDam& dam) {
-    return corners_among(trn, dam.nodes, at) > 0;
-  });
+  return std::any_of(trn.dams.begin(), trn.dams.end(),
+                     [&](const BurntDam& dam) { return corners_among(trn, dam.nodes, at) > 0; });
 }
 
 std::vector<Vec2> line_beside(const std::vector<Vec2>& line, double distance) {
@@ -333,8 +332,7 @@ std::vector<Vec2> line_beside(const std::vector<Vec2>& line, double distance) {
     const double turn = std::atan2(cross(a, b), a.dot(b));
     const int n = static_cast<int>(std::ceil(std::abs(turn) / finest_turn));
     if (turn * distance < 0 && n > 1) {
-      for (int k = 0; k <= n; ++k)
-        out.emplace_back(line[i] + Eigen::Rotation2Dd(k * turn / n) * a);
+      for (int k = 0; k <= n; ++k) out.emplace_back(line[i] + Eigen::Rotation2Dd(k * turn / n) * a);
       continue;
     }
     const double shortest = std::min(before.norm(), after.norm());
@@ -345,7 +343,7 @@ std::vector<Vec2> line_beside(const std::vector<Vec2>& line, double distance) {
 }
 
 std::vector<RoofPiece> roof_pieces(const Trn& trn, const DamShape& gallery) {
-  const double inwards = 1.5 * trn.cell_size;            // from a roof's end to where it is whole
+  const double inwards = 1.5 * trn.cell_size;  // from a roof's end to where it is whole
   std::vector<RoofPiece> pieces;
   std::vector<Vec2> lefts;
   for (std::size_t i = 0; i + 1 < gallery.line.size(); ++i) {

@@ -114,7 +114,7 @@ int n_moving(const FenceRunGroup& group, const DamCase& dam) {
 }
 
 std::string moving_text(const DamResult& r) {
-  return std::to_string(r.n_moving) + " that had not passed it still moved when their run ended";
+  return "blocks that had not passed it still moved at the end: " + std::to_string(r.n_moving);
 }
 
 void describe_gallery(DamResult& r) {

@@ -243,7 +243,7 @@ DesignCode design_code(const CsvTable& table) {
 
 const char* text(DesignVerdict verdict) {
   constexpr std::array names = {
-      "meets",        "does not meet",     "energy not checked", "too few arrivals",
+      "meets",        "does not meet",      "energy not checked", "too few arrivals",
       "nothing came", "first touches only", "still moving"};
   return names[static_cast<std::size_t>(verdict)];
 }

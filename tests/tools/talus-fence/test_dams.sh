@@ -46,7 +46,7 @@ prints 'does not hold: the energy is '
 run alone --set rockfall.a.rocks=2
 prints 'not judged: too few arrivals, '
 run short --set solver.duration_s=9
-prints ' that had not passed it still moved when their run ended'
+prints 'not judged: blocks that had not passed it still moved at the end: '
 # 16 m from the crest, where uphill is looked for, the ground is 0.6 m high and the next dam 5 m
 run single --set dam.road.height_m=5
 run pair --set dam.road.height_m=5 --set dam.below.active=true
