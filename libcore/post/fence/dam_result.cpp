@@ -26,7 +26,7 @@ std::vector<FenceArrival> not_beside(const std::vector<FenceArrival>& all) {
 RecordLine continued(const RecordLine& crest) {
   constexpr double beyond = 1e5;  // farther than terrains reach [m]
   std::vector<Vec3> points = crest.points;
-  const auto out_of = [](const Vec3& end, const Vec3& next) {
+  const auto out_of = [&](const Vec3& end, const Vec3& next) {
     return Vec3(end + beyond * (end - next) / (end - next).head<2>().norm());
   };
   const std::size_t n = points.size();
