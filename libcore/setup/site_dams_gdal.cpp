@@ -234,7 +234,7 @@ const BurntDam& burnt_in(const Trn& trn, const SiteDam& dam, const Where& where)
   for (const BurntDam& burnt : trn.dams)
     if (burnt.name == dam.name && burnt.crest.size() == dam.shape.line.size()) return burnt;
   throw InputError(where, "is active, and the terrain was made without it",
-                   "make the terrain again with this site file, or set active = false");
+                   "make the terrain again, with this site file");
 }
 
 }  // namespace
