@@ -39,6 +39,29 @@ void pair_cells(RunPairs& pairs, std::span<const RunMember> site,
   pairs.n_pairs = static_cast<int>(number.size());
 }
 
+// Where some runs have no pair, each case keeps its share of the whole; a case without any loses it.
+void keep_case_shares(RunPairs::Side& side, std::span<const RunMember> runs, double n_paired) {
+  side.factor.assign(runs.size(), 1);
+  if (n_paired == static_cast<double>(runs.size())) return;
+  struct Count {
+    double all = 0, paired = 0;
+  };
+  std::map<std::string, Count> cases;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    Count& of = cases[runs[r].info.case_name];
+    ++of.all;
+    of.paired += side.of_run[r] >= 0;
+  }
+  double sum = 0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (side.of_run[r] < 0) continue;
+    const Count& of = cases[runs[r].info.case_name];
+    side.factor[r] = of.all / of.paired;
+    sum += side.factor[r] * runs[r].run_weight;
+  }
+  for (double& factor : side.factor) factor *= n_paired / sum;
+}
+
 int pair_of(const RunPairs::Side& side, const BlockWeight& block) {
   const auto run = static_cast<std::size_t>(block.run);
   if (side.of_run[run] < 0 || side.of_block.empty()) return side.of_run[run];
@@ -63,6 +86,8 @@ RunPairs pairs_of(std::span<const RunMember> site, std::span<const RunMember> va
         number.try_emplace(cluster, static_cast<int>(number.size())).first->second;
   }
   pairs.n_pairs = static_cast<int>(number.size());
+  keep_case_shares(pairs.site, site, pairs.n_runs);
+  keep_case_shares(pairs.variant, variant, pairs.n_runs);
   if (of_site.kind == Clusters::Kind::release_cell && of_variant.kind == of_site.kind)
     pair_cells(pairs, site, variant);
   return pairs;
@@ -77,8 +102,9 @@ PairedDifference paired_difference(const RunPairs& pairs, std::span<const BlockW
     for (const BlockWeight& block : blocks) {
       const int pair = pair_of(side, block);
       if (pair < 0) continue;
-      sum += block.weight;
-      amounts.emplace_back(pair, sign * block.weight);
+      const double amount = side.factor[static_cast<std::size_t>(block.run)] * block.weight;
+      sum += amount;
+      amounts.emplace_back(pair, sign * amount);
     }
   };
   add(pairs.site, site, -1, out.site);

@@ -24,6 +24,8 @@ struct RunPairs {
   struct Side {
     std::vector<int> of_run;                 ///< pair of a run, -1: it has none          (n_runs)
     std::vector<std::vector<int>> of_block;  ///< of release cells: pair of each block, by run
+    /// On amounts of a run: where runs have no pair, those left of a case count in their place.
+    std::vector<double> factor;  //                                                        (n_runs)
   };
   Side site, variant;
 };
@@ -36,7 +38,7 @@ struct PairedDifference {
   int n_differ = 0;              ///< pairs with another amount
   Interval interval;             ///< 95 %; NaN: fewer than least_clusters pairs, or than two differ
 };
-/// `weight` of each block is its amount.
+/// `weight` of each block is its amount, times the weight of its run.
 [[nodiscard]] PairedDifference paired_difference(const RunPairs& pairs,
                                                  std::span<const BlockWeight> site,
                                                  std::span<const BlockWeight> variant);

@@ -330,8 +330,9 @@ VerifiedFence read_verified(RunInputs& runs, const std::string& name,
     for (int block = 0; block < n_blocks(run); ++block)
       if (std::isfinite(touched[block])) hits.back() += weight_of(run, block);
   };
-  runs.read(runs.set_of(paths, "verified." + name), "verified." + name, wanted, take,
-            RunSettings::with_other_fences);
+  RunSet set = runs.set_of(paths, "verified." + name);
+  weigh_as_classes(set, search.classes.size());
+  runs.read(set, "verified." + name, wanted, take, RunSettings::with_other_fences);
   std::vector<RunMember> members(runs.members.begin() + static_cast<std::ptrdiff_t>(before),
                                  runs.members.end());
   const std::vector<double> factor = verified_factors(members, search.classes);

@@ -44,6 +44,10 @@ std::string content_of(const std::vector<RunMember>& runs) {
 
 }  // namespace
 
+void weigh_as_classes(RunSet& set, std::size_t n_classes) {
+  if (n_classes > 1) set.weights.clear();
+}
+
 RunInputs::RunInputs(Tool& tool, RunUse use) : tool_(tool), use_(use) {
   tool.inputs("run", paths_,
               "runs of talus-dda and parts of talus-reduce (HDF5), in any order, or their folder");
@@ -89,7 +93,7 @@ const RunSet& RunInputs::runs() {
 
 std::vector<RunSet> RunInputs::of_classes(const std::vector<HazardClass>& classes) {
   RunSet all = runs();
-  all.weights.clear();
+  weigh_as_classes(all, classes.size());
   if (classes.size() < 2) return {all};
   std::map<std::string, int> missing;
   for (const std::string& path : paths_)

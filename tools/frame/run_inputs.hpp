@@ -40,6 +40,10 @@ struct RunSet {
   double max_failed_share = std::nan("");  ///< nan: as the first run says
 };
 
+/// Cases that are classes of hazard (`n_classes` of two or more) count by the frequencies of these,
+/// not by their weights. Of one class, or none, cases are weighed.
+void weigh_as_classes(RunSet& set, std::size_t n_classes);
+
 /// How the settings of a set of runs compare with those of the sets before it (SettingsCheck).
 enum class RunSettings {
   of_their_own,       ///< other cases, or runs to compare with
@@ -60,7 +64,7 @@ class RunInputs {
   /// Those that the command line names first.
   [[nodiscard]] const RunSet& runs();
   /// Those of each class of hazard, which are of the case of its name where there are several; all
-  /// without classes. Cases are not weighed: classes have frequencies.
+  /// without classes, or with one.
   [[nodiscard]] std::vector<RunSet> of_classes(const std::vector<HazardClass>& classes);
 
   /// Checks that all runs of files and parts belong together (run_set.hpp), then hands them over

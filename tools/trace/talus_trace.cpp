@@ -168,7 +168,7 @@ Compared compared_with(RunInputs& runs, const Traced& traced, const Options& o) 
   out.sums.objects = sums.objects;
   out.sums.sources = sums.sources;
   RunSet set = runs.set_of(o.compared, "compare");
-  set.weights.clear();  // as of_classes()
+  weigh_as_classes(set, traced.classes.size());
   const std::vector<RunMember> variant = runs.members;
   const auto n = static_cast<int>(variant.size());
   static_cast<void>(
@@ -211,7 +211,7 @@ Json compared_json(const Compared& compared, const Traced& traced, const Site& s
   const auto amounts = [object](const TraceSums& of, bool energy) {
     std::vector<BlockWeight> out;
     for (const TraceHit& hit : hits_of(of, object))
-      out.push_back({hit.run, hit.block, energy ? hit.energy / 1e3 : 1});
+      out.push_back({hit.run, hit.block, hit.run_weight * (energy ? hit.energy / 1e3 : 1)});
     return out;
   };
   const auto difference = [&](bool energy) {

@@ -115,7 +115,7 @@ Rate rate_of(const HazardRuns& runs, std::span<const BlockWeight> hit) {
 }
 
 bool adds_up(const HazardRuns& runs) {
-  return runs.kind.kind != FrequencyKind::of_failure && (runs.kind.of_rocks || counts_runs(runs));
+  return runs.kind.kind != FrequencyKind::of_failure;
 }
 
 std::vector<BlockWeight> rate_amounts(const HazardRuns& runs, std::span<const EventRow> rows,
@@ -123,10 +123,13 @@ std::vector<BlockWeight> rate_amounts(const HazardRuns& runs, std::span<const Ev
   const double rate = runs.kind.frequency.value;
   std::vector<BlockWeight> amounts;
   for (const EventRow& row : rows) {  // of one run one behind the other
-    const double amount = rate * value(row.intensity);
-    if (runs.kind.of_rocks)
-      amounts.push_back({row.run, row.block, amount * row.weight * runs.n / runs.basis.over.whole});
-    else if (amounts.empty() || amounts.back().run != row.run)
+    double amount = rate * runs.n * value(row.intensity);
+    if (runs.kind.of_rocks) {
+      amounts.push_back({row.run, row.block, amount * row.weight / runs.basis.over.whole});
+      continue;
+    }
+    amount *= runs.basis.clusters.run_weight[row.run] / runs.basis.runs.whole;
+    if (amounts.empty() || amounts.back().run != row.run)
       amounts.push_back({row.run, row.block, amount});
     else
       amounts.back().weight = std::max(amounts.back().weight, amount);

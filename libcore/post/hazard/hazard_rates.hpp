@@ -47,9 +47,8 @@ struct HazardRuns {
 
 /// What each event among these rows adds to the rate of its class, times the runs of the class, so
 /// that post/paired.hpp compares rates [1/a]: `value` of its intensity, as a factor, 1 for the rate
-/// itself. It must not fall with the intensity. `rows` of one place, sorted; `kind` and `basis`
-/// must be of equally weighted runs or of rocks, and not of a mass that fails once: see
-/// adds_up().
+/// itself. It must not fall with the intensity. `rows` of one place, sorted; `runs` must begin with
+/// member 0, and not be of a mass that fails once: see adds_up().
 [[nodiscard]] std::vector<BlockWeight> rate_amounts(
     const HazardRuns& runs, std::span<const EventRow> rows,
     const std::function<double(float intensity)>& value);

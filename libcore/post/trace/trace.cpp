@@ -35,6 +35,7 @@ void complete(TraceHit& hit, const TraceSums& sums, const RunFile& run) {
   hit.source = source_of(sums.sources, run.blocks.rest[b].position);
   hit.weight = weight_of(run, hit.block);
   hit.volume = run.blocks.volume[b];
+  hit.run_weight = run.run_weight;
 }
 
 bool is_same(const RecordObject& a, const RecordObject& b) {
@@ -168,16 +169,16 @@ void add_run(TraceSums& sums, const RunFile& run, double rest_speed, bool by_cel
     const double weight = weight_of(run, b);
     ++source.n;
     source.weight += weight;
-    source.volume += run.blocks.volume[i];
+    source.volume += run.run_weight * run.blocks.volume[i];
     ++sums.n_released;
-    sums.volume_released += run.blocks.volume[i];
+    sums.volume_released += run.run_weight * run.blocks.volume[i];
     if (fate_of(run, b, rest_speed) != Fate::deposited) continue;
     const Vec2 end = frame_block(run, n_frames(run.frames) - 1, b).position.head<2>();
     if ((end - run.blocks.rest[i].position.head<2>()).norm() <= 0.1) continue;
     std::size_t last = sums.objects.size();  // an object counts once
     for (const auto& [box, o] : boxes)
       if (o != last && holds(box, end) && gap_to(objects[o], end) <= 0) {
-        sums.deposited[o] += run.blocks.volume[i];
+        sums.deposited[o] += run.run_weight * run.blocks.volume[i];
         last = o;
       }
   }
@@ -285,21 +286,22 @@ ObjectTrace object_trace(const TraceSums& sums, int object, const ShareBasis& ba
   const std::span<const TraceHit> hits = hits_of(sums, object);
   std::vector<BlockWeight> blocks;
   std::vector<WeightedValue> heights;
-  double weight = 0, volume = 0;
+  double weight = 0, volume = 0, hits_weighed = 0;
   out.first_arrival = hits.empty() ? no_value : std::numeric_limits<double>::infinity();
   for (const TraceHit& hit : hits) {
     if (blocks.empty() || blocks.back().run != hit.run) ++out.n_runs_hit;
     blocks.push_back({hit.run, hit.block, hit.weight});
     weight += hit.weight;
-    volume += hit.volume;
+    volume += hit.run_weight * hit.volume;
+    hits_weighed += hit.run_weight;
     out.first_arrival = std::min(out.first_arrival, hit.time);
     if (!std::isnan(hit.top_height)) heights.push_back({hit.top_height, hit.weight});
   }
   const double n = sums.n_runs;
   out.n_hits = static_cast<int>(hits.size());
-  out.run_share = out.n_runs_hit / n;
+  out.run_share = share_of_runs(basis, blocks);
   out.run_share_interval = run_share_interval(basis, blocks);
-  out.hits_a_run = out.n_hits / n;
+  out.hits_a_run = hits_weighed / n;
   out.weight_share = std::min(1.0, weight / basis.over.whole);
   out.weight_share_interval = share_interval(basis, blocks, out.weight_share);
   out.volume_share = volume / sums.volume_released;

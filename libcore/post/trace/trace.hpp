@@ -27,6 +27,7 @@ struct TraceHit {
   std::int32_t run = 0, object = 0, block = 0;
   std::uint32_t source = 0;  ///< cell of the grid of sources
   double weight = 1, volume = 0;
+  double run_weight = 1;  ///< of its run alone
   double time = 0;            ///< of the first touch [s]
   double energy = 0;          ///< with rotation, at the first touch [J]
   double largest_energy = 0;  ///< while over the object [J]
@@ -40,6 +41,7 @@ struct TraceSource {
   double n_none = 0;  ///< blocks that hit no object
 };
 
+/// Volumes are weighed by the weights of their runs; numbers are counted.
 struct TraceSums {
   PassageGrid sources;                ///< grid of source cells
   std::vector<RecordObject> objects;  ///< as asked for
@@ -96,9 +98,9 @@ struct TracePercentiles {
 
 struct ObjectTrace {
   int n_hits = 0, n_runs_hit = 0;
-  double run_share = 0;  ///< share of the runs with any hit
+  double run_share = 0;  ///< share of the runs with any hit, by their weights
   Interval run_share_interval;
-  double hits_a_run = 0, weight_share = 0, volume_share = 0;
+  double hits_a_run = 0, weight_share = 0, volume_share = 0;  ///< runs by their weights
   Interval weight_share_interval;
   TracePercentiles energy;                       ///< with rotation, at the first touch [kJ]
   double top_height_p95 = 0, first_arrival = 0;  ///< [m], [s]

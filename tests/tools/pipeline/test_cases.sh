@@ -4,6 +4,12 @@
 command -v python3 >/dev/null || skip "needs python3"
 site slope
 sed -i -e 's/^duration_s = .*/duration_s = 3\nfriction_scatter_deg = 2/' slope/site.toml
+cat >>slope/site.toml <<'TOML'
+[object.foot]
+polygon = [[500090, 5200230], [500150, 5200230], [500150, 5200246], [500090, 5200246]]
+[hazard.class.all]
+frequency_per_a = 0.01
+TOML
 far='[variant.far]\nground.slope.friction_deg = 15\nweight'
 near='[variant.near]\nground.slope.friction_deg = 70\nmaterial.rock.friction_deg = 70\nweight'
 variants slope "$far = 1\n$near = 1"
@@ -86,6 +92,34 @@ far, near = r['cases']
 assert r['n_events'] == 2 and abs(r['event_probability'] - .25) < 1e-12, r['event_probability']
 assert abs(r['moved']['share_moved_1_m'] - .25 * far['moved']['share_moved_1_m']) < 1e-12
 assert (far['weight'], near['weight']) == (.25, .75)
+PY
+
+# So do hits, frequencies and hazard maps of the one class, which has all cases.
+made slope "$@" trace hazard
+if grep -q pooled err; then fail "weighed cases are said to be pooled: $(cat err)"; fi
+for case in far near; do
+  expect 0 talus-trace slope/site.toml slope/out/runs/$case --trn slope/out/bed.tif -o $case.gpkg --json $case.json --no-db
+  expect 0 talus-hazard slope/site.toml slope/out/runs/$case --trn slope/out/bed.tif -o hazard_$case --no-db
+done
+PATH=/usr/bin:$PATH python3 - <<'PY' || fail "objects and hazard maps do not weigh the cases"
+import json
+def foot(name): return json.load(open(name + '.json'))['objects'][0]
+all_, far, near = foot('slope/out/trace'), foot('far'), foot('near')
+assert far['hits_a_run'] > 0 == near['hits_a_run'], (far['hits_a_run'], near['hits_a_run'])
+for key in 'hits_a_run', 'run_share', 'block_share', 'volume_share', 'deposited_m3_a_run':
+    assert abs(all_[key] - .25 * far[key]) < 1e-12, (key, all_[key], far[key])
+assert abs(all_['frequency_per_a'][0] - .25 * .01 * far['run_share']) < 1e-12, all_['frequency_per_a']
+try:
+    from osgeo import gdal
+except ImportError:
+    raise SystemExit(0)
+def bands(folder, name):
+    data = gdal.Open(f'{folder}/{name}.tif').ReadAsArray()
+    data[data == -9999] = 0  # nothing came
+    return data
+for name in 'event_exceed', 'passage_frequency':
+    all_, far, near = (bands(f, name)[0] for f in ('slope/out/hazard', 'hazard_far', 'hazard_near'))
+    assert far.max() > 0 and abs(all_ - .25 * far - .75 * near).max() < 1e-6, name
 PY
 
 # The two bounds of a slide: a percentile of each.

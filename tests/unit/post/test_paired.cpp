@@ -53,6 +53,29 @@ TEST(Paired, RunsThatOneSideLacksDoNotCount) {
                              .interval.low));
 }
 
+// Cases of weights 1 and 3, each of two runs: weights of runs 0.5 and 1.5. A hit in each run of the
+// heavy case is 0.75 x 2 / 2 = 0.75 hits a run, also where one of its runs has no pair.
+TEST(Paired, CasesKeepTheirShareWhereARunHasNoPair) {
+  std::vector<RunMember> site = runs_of(4), variant = runs_of(4);
+  for (auto* runs : {&site, &variant})
+    for (int r = 0; r < 4; ++r) {
+      RunMember& run = (*runs)[static_cast<std::size_t>(r)];
+      run.info.case_name = r < 2 ? "light" : "heavy";
+      run.info.seed = r % 2;
+      run.run_weight = run.weight = r < 2 ? 0.5 : 1.5;
+    }
+  const std::vector<BlockWeight> hits{{2, 0, 1.5}, {3, 0, 1.5}};
+  EXPECT_DOUBLE_EQ(paired_difference(pairs_of(site, variant), hits, {}).site, 0.75);
+  variant.pop_back();  // its weights are then those of three runs
+  for (RunMember& run : variant)
+    run.run_weight = run.weight = run.info.case_name == "light" ? 0.375 : 2.25;
+  const RunPairs pairs = pairs_of(site, variant);
+  EXPECT_EQ(pairs.n_runs, 3);
+  const PairedDifference d = paired_difference(pairs, hits, std::vector<BlockWeight>{{2, 0, 2.25}});
+  EXPECT_NEAR(d.site, 0.75, 1e-12);
+  EXPECT_NEAR(d.variant, 0.75, 1e-12);
+}
+
 // Rocks of twelve release cells in two runs: the cells are the pairs, and one may have gone.
 TEST(Paired, PairsReleaseCellsOverAllRuns) {
   std::vector<RunMember> site = runs_of(2), variant = runs_of(2);

@@ -78,6 +78,30 @@ TEST(Trace, OfTwoSourcesThreeToOneHasSharesThreeToOne) {
   EXPECT_DOUBLE_EQ(trace.deposited_a_run, 4);  // all four came to rest at x = 55
 }
 
+// A run of weight 1.5 whose three blocks hit, one of 0.5 whose one block does, of four each: by hand
+// (1.5 x 3 + 0.5 x 1) / 2 = 2.5 hits a run, 2.5 / 4 of the blocks and of the volume.
+TEST(Trace, RunsCountByTheirWeights) {
+  const std::vector<RecordObject> objects{area("house", 50, 0, 60, 100)};
+  const std::vector<Vec2> sources(4, Vec2(5, 20));
+  std::vector<RunFile> runs{run_of(sources, {{0}, {0}, {0}, {}}, objects),
+                            run_of(sources, {{}, {}, {}, {0}}, objects)};
+  runs[0].run_weight = 1.5;
+  runs[1].run_weight = 0.5;
+  TraceSums sums = sums_of(runs, objects);
+  const ShareBasis basis = share_basis(clusters_of_runs({6, 2}, 4, {}, {1.5, 0.5}));
+  ObjectTrace trace = object_trace(sums, 0, basis, source_links(sums));
+  EXPECT_DOUBLE_EQ(trace.hits_a_run, 2.5);
+  EXPECT_DOUBLE_EQ(trace.weight_share, 0.625);
+  EXPECT_DOUBLE_EQ(trace.volume_share, 0.625);
+  EXPECT_DOUBLE_EQ(trace.deposited_a_run, 4);
+  EXPECT_DOUBLE_EQ(trace.run_share, 1);
+  runs[1].object_hits.clear();
+  sums = sums_of(runs, objects);
+  trace = object_trace(sums, 0, basis, source_links(sums));
+  EXPECT_EQ(trace.n_runs_hit, 1);
+  EXPECT_DOUBLE_EQ(trace.run_share, 0.75);
+}
+
 TEST(Trace, AddsUpToWhatWasReleased) {
   const std::vector<RecordObject> objects{area("a", 50, 0, 60, 50), area("b", 70, 0, 80, 50)};
   const std::vector<Vec2> sources{{5, 5}, {5, 5}, {25, 45}, {25, 45}, {25, 45}};
