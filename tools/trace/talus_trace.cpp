@@ -162,7 +162,8 @@ struct Compared {
 };
 
 // The runs of --compare, which are of the same seeds.
-Compared compared_with(RunInputs& runs, const Traced& traced, const Options& o) {
+Compared compared_with(RunInputs& runs, const Traced& traced, const Options& o,
+                       const std::vector<HazardClass>& classes) {
   const TraceSums& sums = traced.sums;
   Compared out;
   out.sums.objects = sums.objects;
@@ -178,8 +179,8 @@ Compared compared_with(RunInputs& runs, const Traced& traced, const Options& o) 
   if (out.pairs.n_runs == 0)
     throw InputError({o.compared[0]}, "has no run of the same seed as " + where_of(variant[0]),
                      "compute both with the same RUNS and SEED");
-  if (traced.classes.size() != 1 || !adds_up(traced.classes[0])) return out;
-  HazardRuns kind = hazard_runs(traced.classes[0].kind, runs.members, n, runs.last_failed_share());
+  if (classes.size() != 1 || !adds_up(traced.classes[0])) return out;
+  HazardRuns kind = hazard_runs(classes[0], runs.members, n, runs.last_failed_share());
   kind.first = 0;  // as out.sums counts its runs
   if (adds_up(kind) && kind.n == out.pairs.n_runs && traced.classes[0].n == out.pairs.n_runs)
     out.kind = std::move(kind);
@@ -420,7 +421,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   }
   const RunFaults faults = faults_of(runs.members, runs.left_out);
   if (!o.compared.empty()) {
-    const Compared compared = compared_with(runs, traced, o);
+    const Compared compared = compared_with(runs, traced, o, classes);
     for (int i = 0; i < static_cast<int>(list.size()); ++i)
       list[static_cast<std::size_t>(i)]["compared"] =
           compared_json(compared, traced, site, recipe, i);

@@ -50,6 +50,21 @@ for v, s in zip(variant, site):
 assert variant[0]['compared']['risk_per_a']['interval'][1] < 0
 PY
 
+# Rocks with frequencies of their own, 0.02 a year each: one of three passes the house in 20 runs,
+# or in 12 of 20, so 0.06 x 20 / 60 = 0.02 and 0.012 a year.
+mkdir rocks fewer
+run-probe rocks 20 blocks=3 objects=watched seeds=1 weight=0.02 independent=1
+run-probe fewer 20 blocks=3 objects=watched still_runs=8 seed=1 seeds=1 weight=0.02 independent=1
+printf '[hazard.class.all]\n[rockfall.cliff]\nfrequency_per_a = 0.06\n' | cat rocks/site.toml - >rocks.toml
+expect 0 talus-trace rocks.toml fewer/run_*.h5 --compare rocks/run_*.h5 --trn rocks/slope.tif -o rocks.gpkg --json rocks.json
+python3 - <<'PY' || fail 'frequencies of rocks that have their own are not compared'
+import json
+o = json.load(open('rocks.json'))['objects'][0]
+rate = o['compared']['frequency_per_a']
+assert abs(rate['site'] - 0.02) < 1e-12 and abs(rate['variant'] - 0.012) < 1e-12, rate
+assert abs(rate['difference'] + 0.008) < 1e-12 and abs(o['frequency_per_a'][0] - 0.012) < 1e-12, rate
+PY
+
 mkdir other
 run-probe other 3 blocks=3 objects=watched seed=2 seeds=100
 expect 1 talus-trace site/site.toml variant/run_*.h5 --compare other/run_*.h5 --trn site/slope.tif -o x.gpkg
