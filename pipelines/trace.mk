@@ -5,8 +5,10 @@ $(eval $(call remember,trace,$(TRACE_FLAGS)))
 trace_files := $(addprefix $(OUT)/,$(trace_products))
 trace: $(trace_files) ## runs -> which source hits which object
 $(eval $(call together,$(trace_files)))
+# The site as it is may have other frequencies and other people at its objects.
+trace_of_base := $(wildcard $(BASE:%=%/stages/trace.txt))
 $(OUT)/trace.gpkg: $(OUT)/runs/ensemble.json $(BASE:%=%/runs/ensemble.json) \
-  $(STAGES)/trace.txt $(STAGES)/trace.flags $(STAGES)/trace.files
+  $(STAGES)/trace.txt $(STAGES)/trace.flags $(STAGES)/trace.files $(trace_of_base)
 	$(call say,trace: runs -> objects and their sources)
 	@rm -f $(addprefix $(OUT)/,$(trace_patterns))
 	$(Q)$(BIN)talus-trace $(site) $(OUT)/runs --trn $(ground_of_runs) -o $(OUT)/trace.gpkg \

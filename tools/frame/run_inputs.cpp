@@ -290,7 +290,7 @@ MapPlaces RunInputs::places() const {
                        .trees = false};
   MapPlaces out;
   std::set<std::string> known;
-  for (std::size_t i = 0; i < members.size() && known.size() < most_sets; ++i)
+  for (std::size_t i = 0; i < n_first_ && known.size() < most_sets; ++i)
     if (known.insert(members[i].info.blocks_hash).second) add_places(out, read_member(i, parts));
   return out;
 }

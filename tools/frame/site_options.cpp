@@ -66,15 +66,9 @@ const Site& SiteOptions::load() {
   read_quantities(tool_, site);
   keep_files(site);
   check_variants(site);
+  if (has_variant()) before_variants_ = site;
   for (const std::string& name : variants_) apply_variant(site, name);
-  for (const std::string& word : overrides_) {
-    const std::size_t equals = end_of_key(site, word);
-    if (equals == std::string::npos)
-      throw UsageError({"", 0, "--set"}, "\"" + word + "\" is not section.key=value",
-                       "e.g. --set source.depth_m=12");
-    from_command_line(
-        [&] { override_value(site, word.substr(0, equals), word.substr(equals + 1)); });
-  }
+  take_overrides(site);
   keep_files(site);
   if (!site.info.layers.empty() || !site.uncertainty.file.empty())
     throw UsageError({"", 0, "--set"},
@@ -88,6 +82,28 @@ const Site& SiteOptions::load() {
   if (!inputs_.empty()) tool_.read_by_content(inputs_);
   site_ = std::make_unique<Site>(std::move(site));
   return *site_;
+}
+
+const Site& SiteOptions::as_it_is() {
+  const Site& site = load();
+  if (!has_variant()) return site;
+  if (!as_it_is_) {
+    as_it_is_ = std::make_unique<Site>(before_variants_);
+    take_overrides(*as_it_is_);
+    as_it_is_->inputs = inputs_;
+  }
+  return *as_it_is_;
+}
+
+void SiteOptions::take_overrides(Site& site) const {
+  for (const std::string& word : overrides_) {
+    const std::size_t equals = end_of_key(site, word);
+    if (equals == std::string::npos)
+      throw UsageError({"", 0, "--set"}, "\"" + word + "\" is not section.key=value",
+                       "e.g. --set source.depth_m=12");
+    from_command_line(
+        [&] { override_value(site, word.substr(0, equals), word.substr(equals + 1)); });
+  }
 }
 
 std::vector<std::string> SiteOptions::words() const {

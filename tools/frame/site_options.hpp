@@ -32,6 +32,8 @@ class SiteOptions {
   /// Throws InputError (read_site, check_variants, check_uncertainty, apply_draws), UsageError
   /// (--set).
   const Site& load();
+  /// The same without --variant: the site that a measure is compared with.
+  const Site& as_it_is();
   [[nodiscard]] const std::string& file() const { return file_; }
   /// The site file and its variants, for a tool that is started.
   [[nodiscard]] std::vector<std::string> words() const;
@@ -41,6 +43,7 @@ class SiteOptions {
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
  private:
+  void take_overrides(Site& site) const;
   static void read_quantities(Tool& tool, Site& site);
   void keep_files(const Site& site) const;
   [[nodiscard]] std::string with_additions() const;
@@ -48,7 +51,8 @@ class SiteOptions {
   Tool& tool_;
   std::string file_, inputs_;
   std::vector<std::string> overrides_, variants_, additions_, names_{"site", "set", "variant"};
-  std::unique_ptr<Site> site_;
+  std::unique_ptr<Site> site_, as_it_is_;
+  Site before_variants_;
   std::optional<DrawScope> draws_;
 };
 

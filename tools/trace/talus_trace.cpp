@@ -156,18 +156,41 @@ Traced trace(Tool& tool, const Site& site, RunInputs& runs, const Options& o,
 // --- compared with the site as it is -----------------------------------------------------------
 
 struct Compared {
+  const Site& site;  // its exposure is that of its own objects, as are its frequency and its recipe
+  Recipe recipe;
   TraceSums sums;
   RunPairs pairs;
   std::optional<HazardRuns> kind;  // the one class, where its rates can be compared
 };
 
-// The runs of --compare, which are of the same seeds.
-Compared compared_with(RunInputs& runs, const Traced& traced, const Options& o,
-                       const std::vector<HazardClass>& classes) {
+const ObjectSettings* object_named(const Site& site, const std::string& name) {
+  const auto at = std::find_if(site.objects.begin(), site.objects.end(),
+                               [&name](const ObjectSettings& of) { return of.name == name; });
+  return at == site.objects.end() ? nullptr : &*at;
+}
+
+// The objects of a measure as the site has them, which may have been elsewhere; one that it lacks
+// as the measure has it.
+std::vector<RecordObject> objects_as_they_are(Tool& tool, const Site& site, const Trn& trn,
+                                              std::vector<RecordObject> objects) {
+  for (const RecordObject& known : site_objects(tool, site, trn))
+    for (RecordObject& object : objects)
+      if (object.name == known.name) object = known;
+  return objects;
+}
+
+// The runs of --compare, which are of the same seeds, by the site without --variant.
+Compared compared_with(Tool& tool, RunInputs& runs, const Traced& traced, const Options& o,
+                       const Site& measure, const Site& site) {
   const TraceSums& sums = traced.sums;
-  Compared out;
+  Compared out{site, read_recipe(tool, site), {}, {}, {}};
   out.sums.objects = sums.objects;
   out.sums.sources = sums.sources;
+  const std::vector<std::string> evaluated = {"object", "hazard"};
+  const std::string state = section_state(site, evaluated);
+  if (state != section_state(measure, evaluated))
+    out.sums.objects = objects_as_they_are(tool, site, runs.trn(), sums.objects);
+  tool.content_read("site_compared", state);
   RunSet set = runs.set_of(o.compared, "compare");
   weigh_as_classes(set, traced.classes.size());
   const std::vector<RunMember> variant = runs.members;
@@ -179,7 +202,9 @@ Compared compared_with(RunInputs& runs, const Traced& traced, const Options& o,
   if (out.pairs.n_runs == 0)
     throw InputError({o.compared[0]}, "has no run of the same seed as " + where_of(variant[0]),
                      "compute both with the same RUNS and SEED");
-  if (classes.size() != 1 || !adds_up(traced.classes[0])) return out;
+  const std::vector<HazardClass> classes = hazard_classes(site);
+  if (classes.size() != 1 || hazard_classes(measure).size() != 1 || !adds_up(traced.classes[0]))
+    return out;
   HazardRuns kind = hazard_runs(classes[0], runs.members, n, runs.last_failed_share());
   kind.first = 0;  // as out.sums counts its runs
   if (adds_up(kind) && kind.n == out.pairs.n_runs && traced.classes[0].n == out.pairs.n_runs)
@@ -207,7 +232,7 @@ std::vector<EventRow> event_rows_at(const TraceSums& sums, const Recipe& recipe,
   return rows;
 }
 
-Json compared_json(const Compared& compared, const Traced& traced, const Site& site,
+Json compared_json(const Compared& compared, const Traced& traced, const Site& measure,
                    const Recipe& recipe, int object) {
   const auto amounts = [object](const TraceSums& of, bool energy) {
     std::vector<BlockWeight> out;
@@ -224,17 +249,22 @@ Json compared_json(const Compared& compared, const Traced& traced, const Site& s
               {"hits_a_run", difference(false)},
               {"energy_a_run_kj", difference(true)}};
   if (!compared.kind) return out;
-  const auto rates = [&](const std::function<double(float)>& value) {
+  using Value = std::function<double(float)>;
+  const auto rates = [&](const Value& of_site, const Value& of_measure) {
     return json_of(paired_difference(
         compared.pairs,
-        rate_amounts(*compared.kind, event_rows_at(compared.sums, recipe, object), value),
-        rate_amounts(traced.classes[0], event_rows_at(traced.sums, recipe, object), value)));
+        rate_amounts(*compared.kind, event_rows_at(compared.sums, compared.recipe, object),
+                     of_site),
+        rate_amounts(traced.classes[0], event_rows_at(traced.sums, recipe, object), of_measure)));
   };
-  out["frequency_per_a"] = rates([](float) { return 1.0; });
-  if (is_of_risk(recipe))
-    out["risk_per_a"] = rates([&](float intensity) {
-      return death_by(recipe, site.objects[static_cast<std::size_t>(object)], intensity);
-    });
+  const Value once = [](float) { return 1.0; };
+  out["frequency_per_a"] = rates(once, once);
+  const ObjectSettings& now = measure.objects[static_cast<std::size_t>(object)];
+  const ObjectSettings* before = object_named(compared.site, now.name);
+  if (before && is_of_risk(recipe) && is_of_risk(compared.recipe))
+    out["risk_per_a"] =
+        rates([&](float intensity) { return death_by(compared.recipe, *before, intensity); },
+              [&](float intensity) { return death_by(recipe, now, intensity); });
   return out;
 }
 
@@ -374,12 +404,16 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   const Trn& trn = runs.trn();
   runs.warn_of_ends();
   const std::string remark = runs.remark();
+  const std::vector<RunMember> members = runs.members, left_out = runs.left_out;
+  std::optional<Compared> compared;
+  if (!o.compared.empty())
+    compared.emplace(compared_with(tool, runs, traced, o, site, site_options.as_it_is()));
   const std::vector<SourceLink> links = source_links(sums);
-  const ShareBasis basis = share_basis(clusters_of(runs.members), runs.failed_share());
+  const ShareBasis basis = share_basis(clusters_of(members), runs.failed_share());
   std::vector<TracedObject> objects;
   Json list = Json::array();
   std::string summary;
-  const bool rocks_alone = !runs.members.empty() && runs.members.front().info.independent;
+  const bool rocks_alone = !members.empty() && members.front().info.independent;
   for (int i = 0; i < static_cast<int>(sums.objects.size()); ++i) {
     TracedObject object{object_trace(sums, i, basis, links), no_value, no_value, no_value, {}};
     if (!classes.empty()) put_rate(traced, site, recipe, i, object);
@@ -391,13 +425,14 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
                 "many, with the largest energy over these cells");
     list.push_back(object_json(of, object, recipe, !classes.empty()));
     list.back()["sources"] = sources_json(traced, i, links, trn.origin);
+    if (compared) list.back()["compared"] = compared_json(*compared, traced, site, recipe, i);
     summary += (i > 0 ? "\n" : "") +
                summary_of(of.name, object, recipe, !classes.empty(), sums.n_runs, rocks_alone);
     objects.push_back(std::move(object));
   }
-  MapTags tags = tags_of(runs.members, runs.left_out);
+  MapTags tags = tags_of(members, left_out);
   std::vector<std::string> ids;
-  for (const RunMember& member : runs.members) ids.push_back(member.info.run_id);
+  for (const RunMember& member : members) ids.push_back(member.info.run_id);
   tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", run_set_id(std::move(ids))}});
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   if (is_of_risk(recipe)) {
@@ -419,13 +454,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
                 source_style(sums.objects[static_cast<std::size_t>(i)].name, remark), tags);
     }
   }
-  const RunFaults faults = faults_of(runs.members, runs.left_out);
-  if (!o.compared.empty()) {
-    const Compared compared = compared_with(runs, traced, o, classes);
-    for (int i = 0; i < static_cast<int>(list.size()); ++i)
-      list[static_cast<std::size_t>(i)]["compared"] =
-          compared_json(compared, traced, site, recipe, i);
-  }
+  const RunFaults faults = faults_of(members, left_out);
   Json result = {{"run_id", tool.run_id()},
                  {"tags", Json::object()},
                  {"sections", section_state(site, {"object", "hazard"})},

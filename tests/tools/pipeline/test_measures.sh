@@ -55,6 +55,8 @@ def foot(folder): return json.load(open(f'slope/out/{folder}trace.json'))['objec
 site, near, bare, seldom = (foot(f) for f in ('', 'variant/near/', 'variant/bare/', 'variant/seldom/'))
 assert seldom['hits_a_run'] == site['hits_a_run'] and seldom['compared']['hits_a_run']['difference'] == 0
 assert abs(seldom['frequency_per_a'][0] - site['frequency_per_a'][0] / 10) < 1e-9
+seldom_less = seldom['compared']['frequency_per_a']['difference']
+assert abs(seldom_less + 0.9 * site['frequency_per_a'][0]) < 1e-9, seldom_less
 assert site['hits_a_run'] > 0
 for of in near, bare:
     hits = of['compared']['hits_a_run']

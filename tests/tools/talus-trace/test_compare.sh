@@ -50,6 +50,33 @@ for v, s in zip(variant, site):
 assert variant[0]['compared']['risk_per_a']['interval'][1] < 0
 PY
 
+# A measure that changes how often, or who is there: the other side is the site without --variant.
+# By hand: all 20 runs hit, 0.02 a year before and 0.002 with the slope scaled; deaths of the one
+# most at risk 0.5 x 0.6 x 0.02 before and 0.05 x 0.6 x 0.02 with the house closed.
+cat people.toml - >measures.toml <<'TOML'
+[variant.scaled]
+hazard.class.V1.frequency_per_a = 0.002
+[variant.closed]
+object.house.presence = 0.05
+TOML
+for name in scaled closed; do
+  expect 0 talus-trace measures.toml --variant $name site/run_*.h5 --compare site/run_*.h5 --trn site/slope.tif -o $name.gpkg --json $name.json
+done
+python3 - <<'PY' || fail 'the site is compared as if it were the measure'
+import json, math
+def house(name): return next(o for o in json.load(open(name + '.json'))['objects'] if o['name'] == 'house')
+scaled, closed = house('scaled'), house('closed')
+for of in scaled, closed: assert of['compared']['hits_a_run']['difference'] == 0
+rate = scaled['compared']['frequency_per_a']
+assert abs(rate['site'] - 0.02) < 1e-12 and abs(rate['difference'] + 0.018) < 1e-12, rate
+assert abs(scaled['frequency_per_a'][0] - 0.002) < 1e-12
+risk, rate = closed['compared']['risk_per_a'], closed['compared']['frequency_per_a']
+assert rate['difference'] == 0 and abs(risk['site'] - 0.006) < 1e-4 and abs(risk['variant'] - 0.0006) < 1e-5, risk
+assert abs(risk['difference'] + 0.0054) < 1e-4, risk
+run_ids = {json.load(open(name + '.json'))['run_id'] for name in ('trace', 'alone')}
+assert len(run_ids) == 2, 'another comparison has the same run_id'
+PY
+
 # Rocks with frequencies of their own, 0.02 a year each: one of three passes the house in 20 runs,
 # or in 12 of 20, so 0.06 x 20 / 60 = 0.02 and 0.012 a year.
 mkdir rocks fewer
