@@ -807,6 +807,32 @@ void check_new_section(const Site& site, const VariantSettings& variant,
                     : did_you_mean(change.name, known) + "; or say where it is, and it is added");
 }
 
+// The frequency of a class is that of all its sources together: it does not say how often rocks come
+// from those that are left.
+void check_what_is_left(const Site& site, const VariantSettings& variant) {
+  const auto is_source = [&site](const std::string& path) {
+    return path.starts_with("rockfall.") || (path.starts_with("blocks.") && moves_alone(site));
+  };
+  const auto taken = std::find_if(variant.without.begin(), variant.without.end(), is_source);
+  if (taken == variant.without.end()) return;
+  for (const HazardClassSettings& of : site.hazard_classes) {
+    const bool has_frequency = !std::isnan(of.frequency_per_a) || !std::isnan(of.events) ||
+                               !std::isnan(of.failure_probability);
+    const bool is_changed = std::any_of(
+        variant.changes.begin(), variant.changes.end(), [&of](const VariantSettings::Change& c) {
+          return c.group == "hazard.class" && c.name == of.name;
+        });
+    if (!has_frequency || is_changed) continue;
+    throw InputError(where_of(site, "variant." + variant.name + ".without"),
+                     "[variant." + variant.name + "] is without " + *taken +
+                         ", and the frequency of [hazard.class." + of.name +
+                         "] is that of all sources together: it would all come from the others",
+                     "take it out of the class and give each [rockfall.*] its frequency_per_a; or "
+                     "change it in [variant." +
+                         variant.name + "] too");
+  }
+}
+
 }  // namespace
 
 void apply_variant(Site& site, const std::string& name) {
@@ -838,6 +864,7 @@ void apply_variant(Site& site, const std::string& name) {
     throw InputError({site.file, variant.line},
                      "[variant." + name + "] has a weight and other sections than the site",
                      "write the sections on the site, not active where they have that key");
+  check_what_is_left(site, variant);
   fill_from_soils(site);
   check_names(site);
 }

@@ -136,3 +136,31 @@ TEST(Variants, WhatCannotBeComparedIsRefusedWithAWayOut) {
   expect("uncertainty.rock_masses = 7\n", "would draw other rocks");
   expect("terrain.dem = 'b.tif'\n", "accepted");
 }
+
+// One rock a year from two sources: without one of them the whole year would be the other's.
+TEST(Variants, WithoutASourceNeedsFrequenciesOfTheSources) {
+  const auto said = [](const std::string& frequencies, const std::string& frequency_of_class,
+                       const std::string& lines) {
+    std::string text = "[ground.slope]\nfriction_deg = 32\n";
+    for (const char* name : {"a", "b"})
+      text += std::string("[rockfall.") + name +
+              "]\nshape = 'box'\nsize_m = [1, 1, 1]\nposition_m = [[1, 2]]\n" + frequencies;
+    text += "[hazard.class.rocks]\n" + frequency_of_class +
+            "[variant.scaled]\nwithout = ['rockfall.a']\n" + lines;
+    try {
+      check_variants(parse_site(text, "s/site.toml"));
+    } catch (const InputError& error) {
+      return std::string(error.what()) + " | " + error.hint();
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(said("", "frequency_per_a = 1\n", ""),
+            "s/site.toml:14: [variant.scaled] is without rockfall.a, and "
+            "the frequency of [hazard.class.rocks] is that of all sources together: it would all "
+            "come from the others | take it out of the class and give each [rockfall.*] its "
+            "frequency_per_a; or change it in [variant.scaled] too");
+  EXPECT_NE(said("", "events = 3\nobserved_a = 9\n", "").find("all sources"), std::string::npos);
+  EXPECT_EQ(said("frequency_per_a = 0.5\n", "", ""), "accepted");
+  EXPECT_EQ(said("", "frequency_per_a = 1\n", "hazard.class.rocks.frequency_per_a = 0.5\n"),
+            "accepted");
+}
