@@ -12,6 +12,8 @@
 namespace talus {
 namespace {
 
+constexpr double rounding = 1e-9;  // of sums of amounts: less is no difference
+
 using RunKey = std::pair<std::string, std::int64_t>;  // case, seed
 
 std::map<RunKey, int> by_seed(std::span<const RunMember> runs) {
@@ -96,37 +98,45 @@ RunPairs pairs_of(std::span<const RunMember> site, std::span<const RunMember> va
 PairedDifference paired_difference(const RunPairs& pairs, std::span<const BlockWeight> site,
                                    std::span<const BlockWeight> variant) {
   PairedDifference out;
-  std::vector<std::pair<int, double>> amounts;  // of a pair, with the sign of its side
-  const auto add = [&](const RunPairs::Side& side, std::span<const BlockWeight> blocks, double sign,
-                       double& sum) {
+  struct Amount {
+    int pair;
+    bool is_of_variant;
+    double value;
+    auto operator<=>(const Amount&) const = default;
+  };
+  std::vector<Amount> amounts;
+  const auto add = [&](const RunPairs::Side& side, std::span<const BlockWeight> blocks,
+                       bool is_of_variant, double& sum) {
     for (const BlockWeight& block : blocks) {
       const int pair = pair_of(side, block);
       if (pair < 0) continue;
       const double amount = side.factor[static_cast<std::size_t>(block.run)] * block.weight;
       sum += amount;
-      amounts.emplace_back(pair, sign * amount);
+      amounts.push_back({pair, is_of_variant, amount});
     }
   };
-  add(pairs.site, site, -1, out.site);
-  add(pairs.variant, variant, 1, out.variant);
+  add(pairs.site, site, false, out.site);
+  add(pairs.variant, variant, true, out.variant);
   std::sort(amounts.begin(), amounts.end());
   std::vector<double> difference;  // of pairs with any amount
-  for (std::size_t i = 0; i < amounts.size(); ++i) {
-    if (i == 0 || amounts[i].first != amounts[i - 1].first) difference.push_back(0);
-    difference.back() += amounts[i].second;
+  for (std::size_t i = 0; i < amounts.size();) {
+    double of_site = 0, of_variant = 0;
+    for (const int pair = amounts[i].pair; i < amounts.size() && amounts[i].pair == pair; ++i)
+      (amounts[i].is_of_variant ? of_variant : of_site) += amounts[i].value;
+    const double d = of_variant - of_site;
+    const bool differs = std::abs(d) > rounding * (std::abs(of_site) + std::abs(of_variant));
+    difference.push_back(differs ? d : 0);
+    out.n_differ += differs;
   }
   const double n_runs = pairs.n_runs, n = pairs.n_pairs;
-  const double mean = (out.variant - out.site) / n;
-  double squares = (n - static_cast<double>(difference.size())) * mean * mean;
-  for (const double d : difference) {
-    squares += (d - mean) * (d - mean);
-    out.n_differ += d != 0;
-  }
   out.site /= n_runs;
   out.variant /= n_runs;
-  out.value = out.variant - out.site;
+  out.value = out.n_differ > 0 ? out.variant - out.site : 0;
   out.interval = {no_value, no_value};
   if (pairs.n_pairs < least_clusters || out.n_differ < 2) return out;
+  const double mean = out.value * n_runs / n;
+  double squares = (n - static_cast<double>(difference.size())) * mean * mean;
+  for (const double d : difference) squares += (d - mean) * (d - mean);
   const double half =
       student_quantile(out.n_differ - 1, 0.975) * std::sqrt(squares / (n - 1) * n) / n_runs;
   out.interval = {out.value - half, out.value + half};

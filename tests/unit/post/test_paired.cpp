@@ -53,6 +53,32 @@ TEST(Paired, RunsThatOneSideLacksDoNotCount) {
                              .interval.low));
 }
 
+// Sums of the same amounts in another order differ in their last digits, and by that alone.
+TEST(Paired, RoundingIsNoDifference) {
+  const RunPairs pairs = pairs_of(runs_of(12), runs_of(12));
+  std::vector<BlockWeight> site, variant;
+  for (int r = 0; r < 12; ++r)
+    for (const double part : {0.1, 0.7 + r, 0.3}) {
+      site.push_back({r, 0, part});
+      variant.insert(variant.begin(), {r, 0, part * (1 + 4e-16)});
+    }
+  PairedDifference d = paired_difference(pairs, site, variant);
+  EXPECT_NE(d.variant, d.site);
+  EXPECT_EQ(d.value, 0);
+  EXPECT_EQ(d.n_differ, 0);
+  EXPECT_TRUE(std::isnan(d.interval.low));
+  variant.push_back({3, 1, 6});
+  d = paired_difference(pairs, site, variant);
+  EXPECT_NEAR(d.value, 0.5, 1e-12);
+  EXPECT_EQ(d.n_differ, 1);  // which says nothing of its scatter
+  EXPECT_TRUE(std::isnan(d.interval.low));
+  variant.push_back({7, 1, 6});
+  d = paired_difference(pairs, site, variant);
+  EXPECT_EQ(d.n_differ, 2);
+  // by hand: 6, 6 and ten 0 have the mean 1 and the variance (2 x 25 + 10) / 11; one degree
+  EXPECT_NEAR(d.interval.high - 1, 12.7062047 * std::sqrt(60.0 / 11 / 12), 1e-5);
+}
+
 // Cases of weights 1 and 3, each of two runs: weights of runs 0.5 and 1.5. A hit in each run of the
 // heavy case is 0.75 x 2 / 2 = 0.75 hits a run, also where one of its runs has no pair.
 TEST(Paired, CasesKeepTheirShareWhereARunHasNoPair) {
