@@ -96,7 +96,8 @@ RunPairs pairs_of(std::span<const RunMember> site, std::span<const RunMember> va
 }
 
 PairedDifference paired_difference(const RunPairs& pairs, std::span<const BlockWeight> site,
-                                   std::span<const BlockWeight> variant) {
+                                   std::span<const BlockWeight> variant,
+                                   const AmountCurve& curve) {
   PairedDifference out;
   struct Amount {
     int pair;
@@ -117,24 +118,26 @@ PairedDifference paired_difference(const RunPairs& pairs, std::span<const BlockW
   };
   add(pairs.site, site, false, out.site);
   add(pairs.variant, variant, true, out.variant);
+  const double n_runs = pairs.n_runs, n = pairs.n_pairs;
+  const double slope_of_site = curve.slope(out.site / n_runs),
+               slope_of_variant = curve.slope(out.variant / n_runs);
   std::sort(amounts.begin(), amounts.end());
   std::vector<double> difference;  // of pairs with any amount
   for (std::size_t i = 0; i < amounts.size();) {
     double of_site = 0, of_variant = 0;
     for (const int pair = amounts[i].pair; i < amounts.size() && amounts[i].pair == pair; ++i)
       (amounts[i].is_of_variant ? of_variant : of_site) += amounts[i].value;
-    const double d = of_variant - of_site;
-    const bool differs = std::abs(d) > rounding * (std::abs(of_site) + std::abs(of_variant));
-    difference.push_back(differs ? d : 0);
-    out.n_differ += differs;
+    out.n_differ += std::abs(of_variant - of_site) >
+                    rounding * (std::abs(of_site) + std::abs(of_variant));
+    difference.push_back(slope_of_variant * of_variant - slope_of_site * of_site);
   }
-  const double n_runs = pairs.n_runs, n = pairs.n_pairs;
-  out.site /= n_runs;
-  out.variant /= n_runs;
+  out.site = curve.value(out.site / n_runs);
+  out.variant = curve.value(out.variant / n_runs);
   out.value = out.n_differ > 0 ? out.variant - out.site : 0;
   out.interval = {no_value, no_value};
   if (pairs.n_pairs < least_clusters || out.n_differ < 2) return out;
-  const double mean = out.value * n_runs / n;
+  double mean = 0;
+  for (const double d : difference) mean += d / n;
   double squares = (n - static_cast<double>(difference.size())) * mean * mean;
   for (const double d : difference) squares += (d - mean) * (d - mean);
   const double half =

@@ -38,9 +38,16 @@ struct PairedDifference {
   int n_differ = 0;              ///< pairs with another amount
   Interval interval;             ///< 95 %; NaN: fewer than least_clusters pairs, or than two differ
 };
-/// `weight` of each block is its amount, times the weight of its run.
+/// What follows from an amount a run, and its slope there.
+struct AmountCurve {
+  double (*value)(double amount) = [](double amount) { return amount; };
+  double (*slope)(double amount) = [](double) { return 1.0; };
+};
+/// `weight` of each block is its amount, times the weight of its run. With a curve all values are
+/// those that follow from the amounts, and the interval is that of its tangents on both sides.
 [[nodiscard]] PairedDifference paired_difference(const RunPairs& pairs,
                                                  std::span<const BlockWeight> site,
-                                                 std::span<const BlockWeight> variant);
+                                                 std::span<const BlockWeight> variant,
+                                                 const AmountCurve& curve = {});
 
 }  // namespace talus

@@ -250,21 +250,23 @@ Json compared_json(const Compared& compared, const Traced& traced, const Site& m
               {"energy_a_run_kj", difference(true)}};
   if (!compared.kind) return out;
   using Value = std::function<double(float)>;
-  const auto rates = [&](const Value& of_site, const Value& of_measure) {
+  const auto rates = [&](const Value& of_site, const Value& of_measure,
+                         const AmountCurve& curve) {
     return json_of(paired_difference(
         compared.pairs,
         rate_amounts(*compared.kind, event_rows_at(compared.sums, compared.recipe, object),
                      of_site),
-        rate_amounts(traced.classes[0], event_rows_at(traced.sums, recipe, object), of_measure)));
+        rate_amounts(traced.classes[0], event_rows_at(traced.sums, recipe, object), of_measure),
+        curve));
   };
   const Value once = [](float) { return 1.0; };
-  out["frequency_per_a"] = rates(once, once);
+  out["frequency_per_a"] = rates(once, once, {});
   const ObjectSettings& now = measure.objects[static_cast<std::size_t>(object)];
   const ObjectSettings* before = object_named(compared.site, now.name);
   if (before && is_of_risk(recipe) && is_of_risk(compared.recipe))
     out["risk_per_a"] =
         rates([&](float intensity) { return death_by(compared.recipe, *before, intensity); },
-              [&](float intensity) { return death_by(recipe, now, intensity); });
+              [&](float intensity) { return death_by(recipe, now, intensity); }, risk_curve);
   return out;
 }
 

@@ -98,8 +98,8 @@ ObjectRisk risk_of(const Recipe& recipe, const ObjectSettings& object,
     deaths_of_one.high += more * rates[i].high;
   }
   ObjectRisk out;
-  out.individual = {-std::expm1(-deaths_of_one.value), -std::expm1(-deaths_of_one.low),
-                    -std::expm1(-deaths_of_one.high)};
+  out.individual = {individual_risk(deaths_of_one.value), individual_risk(deaths_of_one.low),
+                    individual_risk(deaths_of_one.high)};
   out.deaths = object.persons_per_day * deaths_of_one.value;
   out.kind = class_of_risk(recipe, out.individual.value);
   out.is_certain = !std::isnan(out.individual.low + out.individual.high) &&
@@ -107,6 +107,8 @@ ObjectRisk risk_of(const Recipe& recipe, const ObjectSettings& object,
                    class_of_risk(recipe, out.individual.high) == out.kind;
   return out;
 }
+
+double individual_risk(double deaths_of_one) { return -std::expm1(-deaths_of_one); }
 
 double death_by(const Recipe& recipe, const ObjectSettings& object, float intensity) {
   std::size_t i = 0;

@@ -15,6 +15,7 @@
 
 #include "post/hazard/frequency.hpp"
 #include "post/hazard/recipe.hpp"
+#include "post/paired.hpp"
 
 namespace talus {
 
@@ -35,6 +36,12 @@ struct ObjectRisk {
 /// `rates`: of HazardRates::above() the breaks of the recipe.                 (n_breaks + 1)
 [[nodiscard]] ObjectRisk risk_of(const Recipe& recipe, const ObjectSettings& object,
                                  std::span<const Rate> rates);
+
+/// The annual risk of who would die so often a year if they never did; the same as a curve, for
+/// differences of risks.
+[[nodiscard]] double individual_risk(double deaths_of_one);
+inline constexpr AmountCurve risk_curve = {
+    individual_risk, [](double deaths_of_one) { return 1 - individual_risk(deaths_of_one); }};
 
 /// Probability that an event of an intensity kills the one most at risk [-].
 [[nodiscard]] double death_by(const Recipe& recipe, const ObjectSettings& object, float intensity);

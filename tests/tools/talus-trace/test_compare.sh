@@ -43,10 +43,9 @@ import json, math
 variant, site = (json.load(open(name + '.json'))['objects'] for name in ('people', 'site_people'))
 for v, s in zip(variant, site):
     rate, risk = v['compared']['frequency_per_a'], v['compared']['risk_per_a']
-    deaths = lambda o: -math.log1p(-o['risk']['individual_per_a'][0])
-    for d, of in (rate, lambda o: o['frequency_per_a'][0]), (risk, deaths):
+    for d, of in (rate, lambda o: o['frequency_per_a'][0]), (risk, lambda o: o['risk']['individual_per_a'][0]):
         assert abs(d['site'] - of(s)) < 1e-12 and abs(d['variant'] - of(v)) < 1e-12, (d, of(s), of(v))
-    assert abs(risk['difference'] - 0.5 * 0.6 * rate['difference']) < 1e-12, (risk, rate)
+        assert abs(d['difference'] - (of(v) - of(s))) < 1e-12, (d, of(s), of(v))
 assert variant[0]['compared']['risk_per_a']['interval'][1] < 0
 PY
 
@@ -71,8 +70,10 @@ rate = scaled['compared']['frequency_per_a']
 assert abs(rate['site'] - 0.02) < 1e-12 and abs(rate['difference'] + 0.018) < 1e-12, rate
 assert abs(scaled['frequency_per_a'][0] - 0.002) < 1e-12
 risk, rate = closed['compared']['risk_per_a'], closed['compared']['frequency_per_a']
-assert rate['difference'] == 0 and abs(risk['site'] - 0.006) < 1e-4 and abs(risk['variant'] - 0.0006) < 1e-5, risk
-assert abs(risk['difference'] + 0.0054) < 1e-4, risk
+assert rate['difference'] == 0, rate
+before, now = 1 - math.exp(-0.006), 1 - math.exp(-0.0006)
+assert abs(risk['site'] - before) < 1e-12 and abs(risk['variant'] - now) < 1e-12, risk
+assert abs(risk['difference'] - (now - before)) < 1e-12, risk
 run_ids = {json.load(open(name + '.json'))['run_id'] for name in ('trace', 'alone')}
 assert len(run_ids) == 2, 'another comparison has the same run_id'
 PY

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/random.hpp"
+#include "post/hazard/risk.hpp"
 #include "post/paired.hpp"
 #include "sampling/normal.hpp"
 
@@ -77,6 +78,33 @@ TEST(Paired, RoundingIsNoDifference) {
   EXPECT_EQ(d.n_differ, 2);
   // by hand: 6, 6 and ten 0 have the mean 1 and the variance (2 x 25 + 10) / 11; one degree
   EXPECT_NEAR(d.interval.high - 1, 12.7062047 * std::sqrt(60.0 / 11 / 12), 1e-5);
+}
+
+// Risks 1 - exp(-x) of x = 0.6 and 0.2: twelve pairs, in each site 0.6 (1.2 in two of them and 0 in
+// two), of which six lose all. The interval is that of e^-0.2 v - e^-0.6 s over the pairs.
+TEST(Paired, OfACurveIsTheDifferenceOfWhatIsPrinted) {
+  const RunPairs pairs = pairs_of(runs_of(12), runs_of(12));
+  const std::vector<double> before = {1.2, 1.2, 0, 0, .6, .6, .6, .6, .6, .6, .6, .6},
+                            now = {0, 0, 0, 0, 0, 0, 0, 0, .6, .6, .6, .6};
+  std::vector<BlockWeight> site, variant;
+  double mean = 0, squares = 0;
+  const auto tangent = [&](int r) {
+    return std::exp(-0.2) * now[r] - std::exp(-0.6) * before[r];
+  };
+  for (int r = 0; r < 12; ++r) {
+    site.push_back({r, 0, before[r]});
+    variant.push_back({r, 0, now[r]});
+    mean += tangent(r) / 12;
+  }
+  for (int r = 0; r < 12; ++r) squares += std::pow(tangent(r) - mean, 2);
+  const PairedDifference d = paired_difference(pairs, site, variant, risk_curve);
+  EXPECT_NEAR(d.site, 1 - std::exp(-0.6), 1e-12);
+  EXPECT_NEAR(d.variant, 1 - std::exp(-0.2), 1e-12);
+  EXPECT_NEAR(d.value, d.variant - d.site, 1e-12);
+  EXPECT_EQ(d.n_differ, 6);
+  const double half = 2.5705818 * std::sqrt(squares / 11 / 12);  // five degrees of freedom
+  EXPECT_NEAR(d.interval.low, d.value - half, 1e-6);
+  EXPECT_NEAR(d.interval.high, d.value + half, 1e-6);
 }
 
 // Cases of weights 1 and 3, each of two runs: weights of runs 0.5 and 1.5. A hit in each run of the
