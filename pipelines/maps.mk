@@ -1,7 +1,7 @@
 # Runs -> hazard maps (GeoTIFF with style and page).
 # in: MAPS_FLAGS (e.g. --cell-size-m 10)
 # out: $(OUT)/maps/*.tif, .qml, .png, .pdf; of variants with a weight also $(OUT)/maps/NAME/*; of a
-#     measure maps/compare.tif: site as it is minus the measure
+#     measure maps/compare.tif: the measure minus the site as it is
 $(eval $(call remember,maps,$(MAPS_FLAGS)))
 map_files := $(addprefix $(OUT)/,$(map_products))
 maps: $(map_files) ## runs -> velocity, energy, height, reach

@@ -60,6 +60,8 @@ MadeWith made_with(const std::string& config, const std::string& more) {
   std::istringstream lines(config);
   std::string section;
   for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(measure_comment))
+      out.measures.push_back(line.substr(std::string(measure_comment).size()));
     if (line.empty() || line[0] == '#') continue;
     if (line[0] == '[') {
       section = line.substr(1, line.size() - 2);

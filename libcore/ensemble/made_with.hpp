@@ -17,7 +17,8 @@ namespace talus {
 /// Settings by name: "ground.g.cor", "--independent", "file forest.wood" with its digest.
 struct MadeWith {
   std::map<std::string, EffectiveValue> values;
-  std::vector<std::string> grounds;  ///< sections, in order: where two overlap the later applies
+  std::vector<std::string> grounds;   ///< sections, in order: where two overlap the later applies
+  std::vector<std::string> measures;  ///< variants of the site that were applied, in order
 };
 /// `config`: of print_config(). `more`: of RunInfo::made_with, or empty.
 [[nodiscard]] MadeWith made_with(const std::string& config, const std::string& more);

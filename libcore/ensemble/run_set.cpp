@@ -79,7 +79,10 @@ RunMember member_of(const std::string& file, const RunFile& run) {
   member.n_blocks = n_blocks(run);
   member.run_weight = run.run_weight;
   member.settings = settings_digest(run.info);
-  member.draws_for_all = draws_for_all(made_with(run.info.config, ""));
+  const MadeWith made = made_with(run.info.config, "");
+  member.draws_for_all = draws_for_all(made);
+  for (const std::string& name : made.measures)
+    member.measure += (member.measure.empty() ? "" : " + ") + name;
   for (std::string* words : {&member.info.config, &member.info.made_with, &member.info.plan})
     std::string().swap(*words);
   for (int block = 0; block < member.n_blocks; ++block) member.weight += weight_of(run, block);

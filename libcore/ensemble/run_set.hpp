@@ -30,6 +30,7 @@ struct RunMember {
   std::string part;                               ///< file of the part that holds it; "": none
   double run_weight = 1;                          ///< statistical weight, 1 on average [-]
   std::string settings;                           ///< settings_digest()
+  std::string measure;                            ///< variants that it is of; "": the site as it is
   bool draws_for_all = false;  ///< something was drawn for all blocks of the run (made_with.hpp)
   // of blocks that moved alone, by add_release_cells()
   std::vector<int> release_cell;     ///< of the terrain, by its number                 (n_blocks)

@@ -36,6 +36,7 @@ std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMe
   if (!runs.empty()) {
     tags.emplace_back("SITE", runs[0].info.site);
     tags.emplace_back("VERSION", runs[0].info.version);
+    if (!runs[0].measure.empty()) tags.emplace_back("MEASURE", runs[0].measure);
   }
   if (!runs.empty()) tags.emplace_back("INTERVALS_OVER", text(clusters_of(runs)));
   tags.emplace_back("N_MOVING_AT_END", std::to_string(sum_of(runs, &RunMember::n_moving)));

@@ -424,6 +424,7 @@ struct Site {
   std::string quantities_file;  ///< that quantities were taken from, as UncertaintySettings::file
   std::string inputs;       ///< file of talus-import to read the site's layers from; empty: none
   std::string alternative;  ///< variant with a weight that was applied; empty: none
+  std::vector<std::string> measures;  ///< variants without one that were applied, in order
   std::map<std::string, std::string> layer_digests;  ///< "fence.valley" -> of its features there
   SiteInfo info;
   TerrainSettings terrain;
@@ -489,7 +490,9 @@ struct EffectiveValue {
 };
 [[nodiscard]] std::vector<EffectiveValue> effective_values(const Site& site);
 
-/// The effective values as TOML, each with a comment that says where it came from.
+/// The effective values as TOML, each with a comment that says where it came from; before them the
+/// measures, a comment each that begins with `measure_comment`.
+inline constexpr const char* measure_comment = "# measure: ";
 [[nodiscard]] std::string print_config(const Site& site);
 
 /// Place of a key, for messages of later checks; the file alone when it is not in the file.

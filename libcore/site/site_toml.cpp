@@ -849,6 +849,8 @@ void apply_variant(Site& site, const std::string& name) {
                            " both have a weight, and are alternatives of one another",
                        "give one of them");
     site.alternative = name;
+  } else {
+    site.measures.push_back(name);
   }
   bool has_others = !variant.without.empty();
   for (const std::string& path : variant.without) take_out(site, variant, path);

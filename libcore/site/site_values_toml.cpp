@@ -124,6 +124,7 @@ std::vector<EffectiveValue> effective_values(const Site& site) {
 
 std::string print_config(const Site& site) {
   std::string out, section;
+  for (const std::string& name : site.measures) out += measure_comment + name + "\n";
   for (const EffectiveValue& entry : effective_values(site)) {
     if (entry.section != section) out += (section.empty() ? "[" : "\n[") + entry.section + "]\n";
     section = entry.section;

@@ -95,7 +95,11 @@ void write_change(Tool& tool, RunInputs& inputs, const std::string& path, const 
                   const MapTags& tags, const std::string& remark) {
   const MapLayer layer = change_layer(runs.ground_with, runs.ground_without, runs.grid.cell_size);
   write_map(tool, map_frame(inputs, runs.grid, {"png,pdf"}, layer.cell), path, layer,
-            change_style(layer, remark), tags);
+            change_style(layer,
+                         {"Change of the deposit by the fences",
+                          "Thickness with the fences minus without [m]"},
+                         remark),
+            tags);
 }
 
 void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inputs) {

@@ -261,6 +261,7 @@ void RunInputs::read(const RunSet& set, const std::string& role, const RunParts&
     RunMember whole = member_of(members[i].file, run);
     whole.part = std::move(members[i].part);
     whole.settings = std::move(members[i].settings);
+    whole.measure = std::move(members[i].measure);
     whole.draws_for_all = members[i].draws_for_all;
     add_release_cells(whole, run, trn());
     members[i] = std::move(whole);

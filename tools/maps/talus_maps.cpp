@@ -59,7 +59,7 @@ void declare(Tool& tool, Options& o) {
       .check(talus::number_between(1e-4, 0.5));
   tool.inputs(
       "--compare", o.compared,
-      "runs, parts or their folder to compare with: compare.tif holds what these have more");
+      "runs, parts or their folder to compare with: compare.tif holds what the others have more");
   tool.footer("Example:\n  talus-maps runs --trn slope.tif -o maps --pages png");
 }
 
@@ -199,7 +199,7 @@ const std::vector<std::uint32_t>& touched_cells(const std::vector<MapLayer>& lay
       ->cell;
 }
 
-// Difference of the runs of --compare from the first ones. Both are held at once.
+// Difference of the first runs from those of --compare. Both are held at once.
 MapLayer comparison_of(talus::RunInputs& runs, const Gathered& a, const Options& o) {
   const std::size_t n = runs.members.size();
   Gathered b = gather(runs, runs.set_of(o.compared, "compare"), "runs_compared", o);
@@ -211,15 +211,27 @@ MapLayer comparison_of(talus::RunInputs& runs, const Gathered& a, const Options&
   const talus::CellRows cells_a = talus::group_by_cell(a.rows, a.rows_of_cell.size()),
                         cells_b = talus::group_by_cell(std::move(b.rows), b.rows_of_cell.size());
   const std::span members(runs.members);
-  talus::RunPairs pairs = talus::pairs_of(members.first(n), members.subspan(n));
+  talus::RunPairs pairs = talus::pairs_of(members.subspan(n), members.first(n));
   const auto n_pairs = static_cast<std::size_t>(pairs.n_runs);
   if (n_pairs != n || n_pairs != members.size() - n) pairs = {};
-  return talus::comparison_layer({cells_a, a.basis}, {cells_b, b.basis}, pairs);
+  return talus::comparison_layer({cells_b, b.basis}, {cells_a, a.basis}, pairs);
+}
+
+// "net4 minus the site as it is"; runs of one measure cannot be told apart by its name.
+talus::ChangeWords comparison_words(const talus::RunMember& run, const talus::RunMember& compared) {
+  const auto name = [](const talus::RunMember& of) {
+    return of.measure.empty() ? "the site as it is" : of.measure;
+  };
+  const std::string minus = run.measure == compared.measure
+                                ? "these runs minus those compared with"
+                                : name(run) + " minus " + name(compared);
+  return {"Change of the probability of reach", minus + ", share of the blocks"};
 }
 
 // Tags of a map of differences: those of the runs that are compared too.
 talus::MapTags comparison_tags(const talus::RunInputs& runs, std::size_t n_first,
-                               talus::MapTags tags) {
+                               talus::MapTags tags, const std::string& difference) {
+  tags.emplace_back("DIFFERENCE", difference);
   const std::vector<talus::RunMember> compared(
       runs.members.begin() + static_cast<std::ptrdiff_t>(n_first), runs.members.end());
   for (const auto& [name, value] : talus::tags_of(compared))
@@ -297,9 +309,12 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   WrittenMaps written = write_layers(tool, o, frame, layers, remark, tags);
   if (comparison) {
     const std::string path = file_of_layer(o, "compare");
-    talus::write_map(tool, frame, path, *comparison,
-                     talus::change_style(*comparison, remark, {0.01, 0.02, 0.05, 0.1, 0.2, 0.5}),
-                     comparison_tags(runs, members.size(), tags));
+    const talus::ChangeWords words =
+        comparison_words(members[0], runs.members[members.size()]);
+    talus::write_map(
+        tool, frame, path, *comparison,
+        talus::change_style(*comparison, words, remark, {0.01, 0.02, 0.05, 0.1, 0.2, 0.5}),
+        comparison_tags(runs, members.size(), tags, words.legend));
     written.files.push_back({{"file", path}, {"shown_band", comparison->bands[0].name}});
   }
   if (written.shows_maximum && n_rows > 0)

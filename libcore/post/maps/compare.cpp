@@ -64,9 +64,14 @@ Estimate reach_of(const Side& side, std::span<const BlockWeight> blocks) {
 Difference reach_difference(const Side& a, std::span<const MapRow> rows_a, const Side& b,
                             std::span<const MapRow> rows_b, const RunPairs& pairs) {
   const std::vector<BlockWeight> blocks_a = blocks_of(rows_a), blocks_b = blocks_of(rows_b);
-  Difference out = difference(reach_of(a, blocks_a), reach_of(b, blocks_b));
   const double whole = a.ensemble.basis.over.whole;
-  if (pairs.n_runs == 0 || std::abs(b.ensemble.basis.over.whole - whole) > 1e-9 * whole) return out;
+  Estimate of_b = reach_of(b, blocks_b);
+  if (pairs.n_runs > 0) {
+    const double left = b.ensemble.basis.over.whole / whole;
+    of_b = {left * of_b.value, left * of_b.low, left * of_b.high};
+  }
+  Difference out = difference(reach_of(a, blocks_a), of_b);
+  if (pairs.n_runs == 0) return out;
   const PairedDifference paired = paired_difference(pairs, blocks_a, blocks_b);
   if (paired.n_differ < least_clusters || std::isnan(paired.interval.low)) return out;
   const double scale = pairs.n_runs / whole;  // of an amount a run to a share
@@ -132,14 +137,14 @@ MapLayer comparison_layer(const ComparedRuns& a, const ComparedRuns& b, const Ru
                  std::back_inserter(layer.cell));
   add_bands(
       layer, "reach_probability_difference", "1",
-      "weight of the blocks that crossed the cell / weight of all released blocks: that of the "
-      "runs compared with minus that of the others");
+      "weight of the blocks that crossed the cell / weight of all released blocks: that of these "
+      "runs minus that of the runs compared with");
   for (const Compared& quantity : quantities)
     for (const Level& level : levels)
       add_bands(layer, std::string(quantity.name) + "_" + level.name + "_difference", quantity.unit,
                 std::string(level.name) + " of " + quantity.name +
-                    " over the blocks that crossed the cell: that of the runs compared with minus "
-                    "that of the others");
+                    " over the blocks that crossed the cell: that of these runs minus that of the "
+                    "runs compared with");
   Side side_a(a), side_b(b);
   for (std::size_t i = 0; i < layer.cell.size(); ++i) {
     const auto rows_a = side_a.rows_at(layer.cell[i]), rows_b = side_b.rows_at(layer.cell[i]);

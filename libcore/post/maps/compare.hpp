@@ -30,7 +30,8 @@ struct Estimate {
 
 /// `b` minus `a` over the cells that either touched: reach_probability_difference, and of speed,
 /// energy and height of the top the differences of p50 and p95, each with _lo and _hi.
-/// `pairs`: all runs of `a` and `b`, or none.
+/// `pairs`: all runs of `a` and `b`, or none. Of pairs both shares are of what `a` released: rocks
+/// that `b` does not release, or less often, reach nothing there.
 [[nodiscard]] MapLayer comparison_layer(const ComparedRuns& a, const ComparedRuns& b,
                                         const RunPairs& pairs = {});
 

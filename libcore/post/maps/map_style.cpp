@@ -72,16 +72,13 @@ std::string intensity(const std::string& unit, double upper) {
 
 }  // namespace
 
-RasterStyle change_style(const MapLayer& layer, const std::string& remark,
-                         const std::vector<double>& breaks) {
+RasterStyle change_style(const MapLayer& layer, const ChangeWords& words,
+                         const std::string& remark, const std::vector<double>& breaks) {
   const MapBand& band = layer.bands[0];
   RasterStyle style{1, band.name + " [" + band.unit + "]",
                     change_classes(breaks, band.unit == "1" ? "" : " " + band.unit), remark};
-  const bool is_of_fences = layer.name == "fence_change";
-  style.heading =
-      is_of_fences ? "Change of the deposit by the fences" : "Change of the probability of reach";
-  style.legend = is_of_fences ? "Thickness with the fences minus without [m]"
-                              : "Runs compared with minus the others, share of the blocks";
+  style.heading = words.heading;
+  style.legend = words.legend;
   return style;
 }
 

@@ -15,10 +15,15 @@ namespace talus {
 /// style's own (e.g. that runs failed).
 [[nodiscard]] RasterStyle map_style(const MapLayer& layer, const std::string& remark = {});
 
+/// Words on a picture of a change: what changed, and what was taken from what.
+struct ChangeWords {
+  std::string heading, legend;
+};
 /// The style of a layer of differences (post/fence/fence_change.hpp, post/maps/compare.hpp): its
 /// first band, blue for less and red for more, in classes up to `breaks`; changes below the first
 /// of them are transparent.
-[[nodiscard]] RasterStyle change_style(const MapLayer& layer, const std::string& remark = {},
+[[nodiscard]] RasterStyle change_style(const MapLayer& layer, const ChangeWords& words,
+                                       const std::string& remark = {},
                                        const std::vector<double>& breaks = {0.05, 0.25, 0.5, 1, 2,
                                                                             4});
 

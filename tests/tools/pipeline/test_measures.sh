@@ -75,7 +75,9 @@ grep -v -i "run_id\|run_set" slope/own/fence.json >own.json
 grep -v -i "run_id\|run_set" slope/out/variant/strong/fence.json >shared.json
 cmp own.json shared.json || fail "the runs of the site without fences give other results"
 rm -r slope/own
-gdalinfo slope/out/variant/near/maps/compare.tif | grep -q reach_probability_difference || fail "no map of differences"
+gdalinfo slope/out/variant/bare/maps/compare.tif >info
+grep -q reach_probability_difference info && grep -q 'MEASURE=bare$' info || fail "no map of differences"
+grep -q 'DIFFERENCE=bare minus the site as it is' info || fail "the map of differences names no measure"
 
 # again: nothing; another key of one measure: that one alone
 n_runs() { talus-runs --db "slope/out/$1/runs.sqlite" list | grep -c 'talus-dda ' || true; }

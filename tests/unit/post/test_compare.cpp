@@ -84,6 +84,28 @@ TEST(ComparisonLayer, OfACellThatOneSideNeverReached) {
   EXPECT_TRUE(std::isnan(layer.bands[band_of(layer, "velocity_p50_difference")].value[0]));
 }
 
+// Two sources of one rock each a run, of which the measure takes one out; that of the other crosses
+// the cell as before. By hand the difference is 1/2 - 1/2 of the rocks that the site releases.
+TEST(ComparisonLayer, OfRocksThatAreTakenOutLeavesTheOthers) {
+  constexpr int n = 20;
+  std::vector<RunMember> members(n);
+  std::vector<std::vector<MapRow>> rows(n);
+  for (int r = 0; r < n; ++r) {
+    members[r].info.seed = r + 1;
+    members[r].info.seed_draws = true;
+    members[r].n_blocks = 1;
+    members[r].weight = 1;
+    MapRow row;
+    row.cell = 7;
+    rows[r].push_back(row);
+  }
+  const CellRows a = group_by_cell(rows, 20), b = group_by_cell(rows, 20);
+  const ShareBasis two = share_basis(clusters_of_runs(std::vector<double>(n, 2), 2)),
+                   one = share_basis(clusters_of_runs(std::vector<double>(n, 1), 1));
+  const MapLayer layer = comparison_layer({a, two}, {b, one}, pairs_of(members, members));
+  EXPECT_NEAR(layer.bands[0].value[0], 0, 1e-7);
+}
+
 // Runs of the same seeds: what both share is not in the interval of reach, which is that of the
 // mean of the differences: -1 in 20 of 200 pairs.
 TEST(ComparisonLayer, OfPairsIsStudents) {

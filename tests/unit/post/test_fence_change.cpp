@@ -66,12 +66,13 @@ TEST(FenceChange, TakesNoPassageAsSpeedZero) {
 // Each side of the colours holds the values of its label; no change is transparent.
 TEST(ChangeStyle, TellsLessFromMore) {
   MapLayer layer = change_layer({}, {}, 4);
-  const RasterStyle style = change_style(layer);
+  const RasterStyle style = change_style(layer, {"Change", "with minus without"});
   EXPECT_EQ(colour_of(style, 0)[3], 0);
   EXPECT_EQ(colour_of(style, 0.04)[3], 0);
   EXPECT_EQ(colour_of(style, -0.04)[3], 0);
   EXPECT_GT(colour_of(style, -3)[2], colour_of(style, -3)[0]);  // blue
   EXPECT_GT(colour_of(style, 3)[0], colour_of(style, 3)[2]);    // red
+  EXPECT_EQ(style.legend, "with minus without");
   EXPECT_EQ(style.classes.front().label, "less by more than 4 m");
   EXPECT_EQ(style.classes.back().label, "more by more than 4 m");
 }
