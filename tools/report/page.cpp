@@ -379,10 +379,22 @@ Json observed_of(const ReportData& data) {
   return calibrate;
 }
 
+// What stands against blocks, with its verdict: fences that are active, dams and galleries.
+Json structures_of(const Json& fence) {
+  Json rows = Json::array();
+  for (const Json& one : list_or_none(value_at(fence, {"fences"})))
+    if (value_at(one, {"standing"}) == Json(true))
+      rows.push_back({{"name", value_at(one, {"name"})},
+                      {"verdict", value_at(one, {"design", "whole", "verdict"})}});
+  for (const Json& one : list_or_none(value_at(fence, {"dams"})))
+    rows.push_back({{"name", value_at(one, {"name"})}, {"verdict", value_at(one, {"verdict"})}});
+  return rows;
+}
+
 Json measure_row(const std::string& variant, double cost, const Json& fence, const Json& hazard) {
   return {{"variant", variant},
           {"cost", number_or_null(cost)},
-          {"fences", list_or_none(value_at(fence, {"fences"}))},
+          {"structures", structures_of(fence)},
           {"classes", list_or_none(value_at(hazard, {"classes"}))}};
 }
 
