@@ -586,7 +586,8 @@ Json settings_of(const Site& site, bool defaults) {
 void add_assumptions(const ReportData& data, Json& out) {
   out["runs_to_add"] = data.runs_to_add;
   out["failure_plane"] = failure_plane(data.blocks);
-  out["soils"] = out["placed"] = Json::array();
+  out["soils"] = Json::array();
+  out["placed"] = Json::array();
   for (const GroundSettings& ground : data.site.grounds)
     if (const Soil* soil = soil_named(ground.soil))
       out["soils"].push_back({{"key", "ground." + ground.name},
