@@ -441,6 +441,35 @@ Json measured_objects(const ReportData& data) {
   return objects;
 }
 
+// Of a page of a measure its name, its cost and what it changes at each object; null on others.
+Json own_measure(const ReportData& data) {
+  if (data.site.measures.empty()) return {};
+  std::string names;
+  double cost = no_value;
+  for (const VariantSettings& variant : data.site.variants)
+    for (const std::string& name : data.site.measures) {
+      if (variant.name != name) continue;
+      names += (names.empty() ? "" : " + ") + name;
+      if (!std::isnan(variant.cost)) cost = variant.cost + (std::isnan(cost) ? 0 : cost);
+    }
+  Json objects = Json::array();
+  for (const Json& object : list_or_none(value_at(data.trace, {"objects"}))) {
+    Json rows = Json::array();
+    for (const auto& [key, words] : {std::pair{"hits_a_run", "measures.hits"},
+                                     {"energy_a_run_kj", "measures.energy"},
+                                     {"frequency_per_a", "measures.frequency"},
+                                     {"risk_per_a", "measures.individual_risk"}}) {
+      Json row = value_at(object, {"compared", key});
+      if (!row.is_object()) continue;
+      row["what"] = data.texts.of(words);
+      rows.push_back(std::move(row));
+    }
+    if (!rows.empty())
+      objects.push_back({{"object", value_at(object, {"name"})}, {"rows", std::move(rows)}});
+  }
+  return {{"names", names}, {"cost", number_or_null(cost)}, {"objects", std::move(objects)}};
+}
+
 bool any_by_cells(const Json& trace) {
   const Json objects = list_or_none(value_at(trace, {"objects"}));
   return std::any_of(objects.begin(), objects.end(),
@@ -722,6 +751,7 @@ Json data_of(const ReportData& data, const PageFiles& files) {
       {"stability", data.stability},
       {"measures", measures_of(data)},
       {"measured_objects", measured_objects(data)},
+      {"own_measure", own_measure(data)},
       {"places", data.places},
       {"searches", searches_of(data)},
       {"objects_by_cells", any_by_cells(data.trace)},
