@@ -41,7 +41,8 @@ void pair_cells(RunPairs& pairs, std::span<const RunMember> site,
   pairs.n_pairs = static_cast<int>(number.size());
 }
 
-// Where some runs have no pair, each case keeps its share of the whole; a case without any loses it.
+// Where some runs have no pair, each case keeps its share of the whole; a case without any loses
+// it.
 void keep_case_shares(RunPairs::Side& side, std::span<const RunMember> runs, double n_paired) {
   side.factor.assign(runs.size(), 1);
   if (n_paired == static_cast<double>(runs.size())) return;
@@ -96,8 +97,7 @@ RunPairs pairs_of(std::span<const RunMember> site, std::span<const RunMember> va
 }
 
 PairedDifference paired_difference(const RunPairs& pairs, std::span<const BlockWeight> site,
-                                   std::span<const BlockWeight> variant,
-                                   const AmountCurve& curve) {
+                                   std::span<const BlockWeight> variant, const AmountCurve& curve) {
   PairedDifference out;
   struct Amount {
     int pair;
@@ -127,8 +127,8 @@ PairedDifference paired_difference(const RunPairs& pairs, std::span<const BlockW
     double of_site = 0, of_variant = 0;
     for (const int pair = amounts[i].pair; i < amounts.size() && amounts[i].pair == pair; ++i)
       (amounts[i].is_of_variant ? of_variant : of_site) += amounts[i].value;
-    out.n_differ += std::abs(of_variant - of_site) >
-                    rounding * (std::abs(of_site) + std::abs(of_variant));
+    out.n_differ +=
+        std::abs(of_variant - of_site) > rounding * (std::abs(of_site) + std::abs(of_variant));
     difference.push_back(slope_of_variant * of_variant - slope_of_site * of_site);
   }
   out.site = curve.value(out.site / n_runs);

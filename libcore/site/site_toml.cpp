@@ -807,8 +807,8 @@ void check_new_section(const Site& site, const VariantSettings& variant,
                     : did_you_mean(change.name, known) + "; or say where it is, and it is added");
 }
 
-// The frequency of a class is that of all its sources together: it does not say how often rocks come
-// from those that are left.
+// The frequency of a class is that of all its sources together: it does not say how often rocks
+// come from those that are left.
 void check_what_is_left(const Site& site, const VariantSettings& variant) {
   const auto is_source = [&site](const std::string& path) {
     return path.starts_with("rockfall.") || (path.starts_with("blocks.") && moves_alone(site));
@@ -818,10 +818,10 @@ void check_what_is_left(const Site& site, const VariantSettings& variant) {
   for (const HazardClassSettings& of : site.hazard_classes) {
     const bool has_frequency = !std::isnan(of.frequency_per_a) || !std::isnan(of.events) ||
                                !std::isnan(of.failure_probability);
-    const bool is_changed = std::any_of(
-        variant.changes.begin(), variant.changes.end(), [&of](const VariantSettings::Change& c) {
-          return c.group == "hazard.class" && c.name == of.name;
-        });
+    const bool is_changed = std::any_of(variant.changes.begin(), variant.changes.end(),
+                                        [&of](const VariantSettings::Change& c) {
+                                          return c.group == "hazard.class" && c.name == of.name;
+                                        });
     if (!has_frequency || is_changed) continue;
     throw InputError(where_of(site, "variant." + variant.name + ".without"),
                      "[variant." + variant.name + "] is without " + *taken +

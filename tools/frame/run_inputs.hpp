@@ -83,8 +83,8 @@ class RunInputs {
   /// Reads all members once more, in the same order; those of parts without their passages.
   void read_again(const RunParts& parts, const std::function<void(RunFile&, int)>& take);
 
-  /// Places for maps of the runs named by RUN.h5...: sources, fences and objects of the first run of
-  /// each block set, of a hundred sets at most.
+  /// Places for maps of the runs named by RUN.h5...: sources, fences and objects of the first run
+  /// of each block set, of a hundred sets at most.
   [[nodiscard]] MapPlaces places() const;
 
   /// Those among the files read so far.

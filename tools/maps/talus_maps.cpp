@@ -309,8 +309,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   WrittenMaps written = write_layers(tool, o, frame, layers, remark, tags);
   if (comparison) {
     const std::string path = file_of_layer(o, "compare");
-    const talus::ChangeWords words =
-        comparison_words(members[0], runs.members[members.size()]);
+    const talus::ChangeWords words = comparison_words(members[0], runs.members[members.size()]);
     talus::write_map(
         tool, frame, path, *comparison,
         talus::change_style(*comparison, words, remark, {0.01, 0.02, 0.05, 0.1, 0.2, 0.5}),

@@ -250,8 +250,7 @@ Json compared_json(const Compared& compared, const Traced& traced, const Site& m
               {"energy_a_run_kj", difference(true)}};
   if (!compared.kind) return out;
   using Value = std::function<double(float)>;
-  const auto rates = [&](const Value& of_site, const Value& of_measure,
-                         const AmountCurve& curve) {
+  const auto rates = [&](const Value& of_site, const Value& of_measure, const AmountCurve& curve) {
     return json_of(paired_difference(
         compared.pairs,
         rate_amounts(*compared.kind, event_rows_at(compared.sums, compared.recipe, object),

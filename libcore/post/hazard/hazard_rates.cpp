@@ -114,9 +114,7 @@ Rate rate_of(const HazardRuns& runs, std::span<const BlockWeight> hit) {
   return rate_of_share(runs.kind, share_of(runs, hit));
 }
 
-bool adds_up(const HazardRuns& runs) {
-  return runs.kind.kind != FrequencyKind::of_failure;
-}
+bool adds_up(const HazardRuns& runs) { return runs.kind.kind != FrequencyKind::of_failure; }
 
 std::vector<BlockWeight> rate_amounts(const HazardRuns& runs, std::span<const EventRow> rows,
                                       const std::function<double(float)>& value) {

@@ -72,8 +72,8 @@ std::string intensity(const std::string& unit, double upper) {
 
 }  // namespace
 
-RasterStyle change_style(const MapLayer& layer, const ChangeWords& words,
-                         const std::string& remark, const std::vector<double>& breaks) {
+RasterStyle change_style(const MapLayer& layer, const ChangeWords& words, const std::string& remark,
+                         const std::vector<double>& breaks) {
   const MapBand& band = layer.bands[0];
   RasterStyle style{1, band.name + " [" + band.unit + "]",
                     change_classes(breaks, band.unit == "1" ? "" : " " + band.unit), remark};

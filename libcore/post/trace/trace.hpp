@@ -27,7 +27,7 @@ struct TraceHit {
   std::int32_t run = 0, object = 0, block = 0;
   std::uint32_t source = 0;  ///< cell of the grid of sources
   double weight = 1, volume = 0;
-  double run_weight = 1;  ///< of its run alone
+  double run_weight = 1;      ///< of its run alone
   double time = 0;            ///< of the first touch [s]
   double energy = 0;          ///< with rotation, at the first touch [J]
   double largest_energy = 0;  ///< while over the object [J]

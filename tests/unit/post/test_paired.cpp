@@ -88,9 +88,7 @@ TEST(Paired, OfACurveIsTheDifferenceOfWhatIsPrinted) {
                             now = {0, 0, 0, 0, 0, 0, 0, 0, .6, .6, .6, .6};
   std::vector<BlockWeight> site, variant;
   double mean = 0, squares = 0;
-  const auto tangent = [&](int r) {
-    return std::exp(-0.2) * now[r] - std::exp(-0.6) * before[r];
-  };
+  const auto tangent = [&](int r) { return std::exp(-0.2) * now[r] - std::exp(-0.6) * before[r]; };
   for (int r = 0; r < 12; ++r) {
     site.push_back({r, 0, before[r]});
     variant.push_back({r, 0, now[r]});

@@ -78,8 +78,8 @@ TEST(Trace, OfTwoSourcesThreeToOneHasSharesThreeToOne) {
   EXPECT_DOUBLE_EQ(trace.deposited_a_run, 4);  // all four came to rest at x = 55
 }
 
-// A run of weight 1.5 whose three blocks hit, one of 0.5 whose one block does, of four each: by hand
-// (1.5 x 3 + 0.5 x 1) / 2 = 2.5 hits a run, 2.5 / 4 of the blocks and of the volume.
+// A run of weight 1.5 whose three blocks hit, one of 0.5 whose one block does, of four each: by
+// hand (1.5 x 3 + 0.5 x 1) / 2 = 2.5 hits a run, 2.5 / 4 of the blocks and of the volume.
 TEST(Trace, RunsCountByTheirWeights) {
   const std::vector<RecordObject> objects{area("house", 50, 0, 60, 100)};
   const std::vector<Vec2> sources(4, Vec2(5, 20));
