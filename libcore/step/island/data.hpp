@@ -293,6 +293,7 @@ struct SubstepRetries {
   int eased = 0;       ///< contacts are softer, because it did not converge
   int deep_cuts = 0;   ///< because a block would end deep in something
   int hits = 0;        ///< substeps that ended with one
+  double planned = 0;  ///< of a mass: the substep that the end of a yielding body cut short [s]
 };
 
 /// The island at hand: nothing of it outlives its step.

@@ -191,6 +191,7 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
   w.tries.deep_cuts = w.tries.eased = w.tries.hits = 0;
   const double dt = (t_end - state.time) / static_cast<double>(state.stride);
   w.tries.last_h = dt;
+  w.tries.planned = 0;
   w.tries.longest = no_normal_limit;
   double t = state.time, ahead = t_end - t;
   const bool was_mass = is_any_in_mass(w.members, state);

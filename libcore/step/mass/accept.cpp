@@ -166,6 +166,7 @@ struct MassAcceptance : MassEnd {
   std::vector<Segment>& segments;
   DeepWork& deep;
   StepReport& report;
+  double planned;  // length of the step before the break of a yielding body cut it short [s]
 
   [[nodiscard]] double thickness_of(int b) const { return members.of(b).thickness; }
 
@@ -181,23 +182,24 @@ struct MassAcceptance : MassEnd {
   }
 
   // The memory that the exact step would have of the contact, had it pressed so: it continues with
-  // the same force, and the overlap that it does not need presses nothing.
+  // the same force, and the overlap that it does not need presses nothing. In a step that a break
+  // cut short most of an impulse stops approaches, however short it is: over its own length it
+  // would be a force of any size, with which the next step would begin.
   void remember(size_t r, const PressedRow& row, double gap_end) {
     const MassContact& contact = w.contacts[r];
     if (contact.is_hit) return;
-    const double h = free.h;
-    const double stiffness =
-        static_cast<double>(w.system.rows[r].damping) / (members.of(contact.a).recovery_time * h);
+    const double stiffness = static_cast<double>(w.system.rows[r].damping) /
+                             (members.of(contact.a).recovery_time * planned);
     std::vector<ContactMemory>& memories = state.memory[contact.a];
     make_room(memories);
     ContactMemory& memory = memories.emplace_back();
     memory.key = contact.key;
     memory.normal = row.normal;
-    memory.normal_force = row.p_n / h;
+    memory.normal_force = row.p_n / planned;
     memory.stiffness = stiffness;
     memory.offset = std::max(0.0, -gap_end - memory.normal_force / stiffness);
     memory.gap_end = gap_end + memory.offset;
-    memory.shear = row.along_face() / (-h * scene.settings.shear_ratio * stiffness);
+    memory.shear = row.along_face() / (-planned * scene.settings.shear_ratio * stiffness);
     const bool slip = slips(w.system.rows[r], row);
     memory.state = static_cast<std::uint8_t>(slip ? ContactState::slip : ContactState::stick);
   }
@@ -263,8 +265,8 @@ struct MassAcceptance : MassEnd {
     const MassChange& change = w.changes[k];
     const Motion motion = end_of_member(k);
     add_segment(b, false, free.t, free.h, s.start, motion, segments);
-    set_support(scene, b, change.by_ground / (members.numbers[k].mass * free.h), state);
-    if (change.pressed && !change.was_hit)
+    set_support(scene, b, change.by_ground / (members.numbers[k].mass * planned), state);
+    if (change.pressed && !change.was_hit && planned == free.h)
       set_rates(scene, b, members.numbers[k], s, motion, state);
     else
       forget_rates(scene, b, state);
@@ -308,9 +310,9 @@ void find_mass_changes(const Scene& scene, const State& state, const PairSearch&
 }
 
 void accept_mass(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
-                 const MassScratch& w, State& state, std::vector<Segment>& segments, DeepWork& deep,
-                 StepReport& report) {
-  MassAcceptance{{scene, members, free, w}, state, segments, deep, report}.run();
+                 const MassScratch& w, double planned, State& state, std::vector<Segment>& segments,
+                 DeepWork& deep, StepReport& report) {
+  MassAcceptance{{scene, members, free, w}, state, segments, deep, report, planned}.run();
 }
 
 }  // namespace talus

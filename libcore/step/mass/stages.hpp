@@ -90,9 +90,9 @@ void list_presses(const IslandMembers& members, double h, const MassScratch& w,
 // --- 5 accept_mass (step/mass/accept.cpp)
 /// Fills motion, memory, yielding bodies and ledger of the state, the segments, and the report.
 /// The memory is that of the exact step, which can continue from it, as this step can from that
-/// one's.
+/// one's. `planned`: length of the step before the break of a yielding body cut it short [s].
 void accept_mass(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
-                 const MassScratch& w, State& state, std::vector<Segment>& segments, DeepWork& deep,
-                 StepReport& report);
+                 const MassScratch& w, double planned, State& state, std::vector<Segment>& segments,
+                 DeepWork& deep, StepReport& report);
 
 }  // namespace talus

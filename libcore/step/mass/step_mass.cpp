@@ -80,6 +80,7 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
   IslandScratch& island = work.island;
   MassScratch& w = work.mass;
   island.system.outsider = -1;
+  double planned = std::max(h, island.tries.planned);
   for (int cuts = 0;; ++cuts) {
     const MassShare& share = state.mass[island.members.moving.front()];
     set_recovery_time(scene, h, island.members);
@@ -96,6 +97,7 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
     if (is_long_step(scene, h) && w.error > scene.settings.accuracy) {
       ++report.cuts[static_cast<std::size_t>(SubstepCut::inaccurate)];
       h /= 2;
+      planned = std::max(h, island.tries.planned);
       continue;
     }
     if (wakes_any(scene, h, state, work)) {
@@ -107,9 +109,11 @@ bool make_mass_substep(const Scene& scene, double t, double h, bool is_tried, St
     if (used_up < h && cuts < law::most_repetitions) {
       ++report.cuts[static_cast<std::size_t>(SubstepCut::yielding_used_up)];
       h = used_up;
+      island.tries.planned = planned;
       continue;
     }
-    accept_mass(scene, island.members, island.free, w, state, work.segments, work.deep, report);
+    accept_mass(scene, island.members, island.free, w, planned, state, work.segments, work.deep,
+                report);
     note_solution(scene, island.members, h, w, state, report);
     return true;
   }

@@ -548,6 +548,46 @@ TEST(MassStep, PushesAFenceAsTheExactStepDoes) {
   }
 }
 
+// The break of a panel may cut a step short anywhere, close to its begin or its end too. The
+// impulses of such a substep stop what approaches: over its length they would be forces of any
+// size.
+TEST(MassStep, ABreakCloseToTheEndOfAStepThrowsNoBlock) {
+  const auto meet = [](double capacity) {
+    Lattice lattice;
+    lattice.along = lattice.across = 6;
+    lattice.high = 2;
+    lattice.velocity = Vec3(6, 0, 0);
+    const SlopeFrame frame = slope_frame(0, 0);
+    Scene scene = scene_of(plane_trn(frame, 4, 100), ground_of(10),
+                           cubes_of(lattice, frame, Vec3(-7, -3, 0)), with_masses(true));
+    StandingFence fence;
+    fence.posts = {Vec3(0.5, -10, 0), Vec3(0.5, 10, 0)};
+    fence.depth = {0.5};
+    fence.height = 6;
+    fence.capacity = capacity;
+    fence.deflection = 3;
+    add_fence(scene, fence);
+    return run(scene, 0.4);
+  };
+  const auto time_of_break = [](const Course& course) {
+    return met_by(course.state.yielding, 0, 0).broken_at;
+  };
+  double low = 2e5, high = 1e6;
+  const double step = 2 * 0.005, end = std::ceil(time_of_break(meet(low)) / step) * step;
+  ASSERT_GT(time_of_break(meet(high)), end);
+  while (high - low > 1e-7 * high) {
+    const double middle = (low + high) / 2;
+    (time_of_break(meet(middle)) < end ? low : high) = middle;
+  }
+  for (const double capacity : {low, high}) {
+    const Course course = meet(capacity);
+    EXPECT_NEAR(time_of_break(course), end, 1e-6);
+    EXPECT_GT(course.steps_in_mass, 50);
+    EXPECT_LT(course.largest_gain, 1e-3 * course.lost) << capacity;
+    EXPECT_LT(std::abs(course.imbalance), 5e-3) << capacity;
+  }
+}
+
 // A layer of blocks runs through a row of stems, which it breaks.
 TEST(MassStep, BreaksStemsAsTheExactStepDoes) {
   double lost[2];
