@@ -391,22 +391,31 @@ Json structures_of(const Json& fence) {
   return rows;
 }
 
-Json measure_row(const std::string& variant, double cost, const Json& fence, const Json& hazard) {
+// "1 of 12 runs failed its numerical checks", of runs that a trace was made of; "" where none did.
+std::string remark_of_runs(const Json& trace) {
+  RunFaults faults;
+  faults.failed.resize(list_or_none(value_at(trace, {"failed_runs"})).size());
+  if (const Json n = value_at(trace, {"n_runs"}); n.is_number()) faults.n_runs = n.get<int>();
+  return headline(faults);
+}
+
+Json measure_row(const std::string& variant, double cost, const MeasureResults& of) {
   return {{"variant", variant},
+          {"remark", remark_of_runs(of.trace)},
           {"cost", number_or_null(cost)},
-          {"structures", structures_of(fence)},
-          {"classes", list_or_none(value_at(hazard, {"classes"}))}};
+          {"structures", structures_of(of.fence)},
+          {"classes", list_or_none(value_at(of.hazard, {"classes"}))}};
 }
 
 // The site as it is and its measures.
 Json measures_of(const ReportData& data) {
   Json rows = Json::array();
   if (data.measures.empty()) return rows;
-  rows.push_back(measure_row("", no_value, data.fence, data.hazard));
+  rows.push_back(measure_row("", no_value, {"", data.fence, data.hazard, data.trace}));
   for (const MeasureResults& measure : data.measures)
     for (const VariantSettings& variant : data.site.variants)
       if (variant.name == measure.name)
-        rows.push_back(measure_row(measure.name, variant.cost, measure.fence, measure.hazard));
+        rows.push_back(measure_row(measure.name, variant.cost, measure));
   return rows;
 }
 
@@ -418,9 +427,11 @@ Json measured_objects(const ReportData& data) {
       if (object.at("name") == name) return object;
     return Json();
   };
-  const auto add = [](Json& rows, const std::string& variant, Json object, const Json& energy) {
+  const auto add = [](Json& rows, const std::string& variant, const Json& trace, Json object,
+                      const Json& energy) {
     if (object.is_null()) return;
     object["variant"] = variant;
+    object["remark"] = remark_of_runs(trace);
     object["energy_a_run_kj"] = energy;
     rows.push_back(std::move(object));
   };
@@ -430,11 +441,11 @@ Json measured_objects(const ReportData& data) {
       const Json object = object_in(measure.trace, settings.name);
       const Json energy = value_at(object, {"compared", "energy_a_run_kj"});
       if (energy_of_site.is_null()) energy_of_site = value_at(energy, {"site"});
-      add(rows, measure.name, object, value_at(energy, {"variant"}));
+      add(rows, measure.name, measure.trace, object, value_at(energy, {"variant"}));
     }
     if (rows.empty()) continue;
     Json all = Json::array();
-    add(all, "", object_in(data.trace, settings.name), energy_of_site);
+    add(all, "", data.trace, object_in(data.trace, settings.name), energy_of_site);
     for (Json& row : rows) all.push_back(std::move(row));
     objects.push_back({{"object", settings.name}, {"rows", std::move(all)}});
   }

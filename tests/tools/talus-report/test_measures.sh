@@ -42,6 +42,11 @@ name = 's/out/variant/closed/fence.json'
 fence = json.load(open(name))
 fence['dams'] = [{'name': 'valley', 'kind': 'dam', 'verdict': 'does not meet', 'text': 'does not hold'}]
 json.dump(fence, open(name, 'w'))
+# and a run that failed
+name = 's/out/variant/net/trace.json'
+trace = json.load(open(name))
+trace['failed_runs'] = [{'run': 'run_3', 'reason': 'energy gained'}]
+json.dump(trace, open(name, 'w'))
 PY
 expect 0 talus-report s/site.toml --dir s/out -o s/out/report.html --no-db
 expect 0 talus-report s/site.toml --variant closed --dir s/out/variant/closed -o s/out/variant/closed/report.html --no-db
@@ -57,7 +62,8 @@ def rows(part):
 site = section('s/out/report.html', 'measures')
 table = [row for row in rows(site[:site.index('<h3>')]) if row]
 names = [row[0] for row in table]
-assert names == ['the site as it is', 'closed', 'net'], names
+failed = 'net 1 of 12 runs failed its numerical checks'
+assert [' '.join(name.split()) for name in names] == ['the site as it is', 'closed', failed], names
 assert table[0][2] == '', ('a fence that is not active', table[0])
 assert table[1][2] == 'valley: does not meet', table[1]
 assert re.fullmatch('check: .+', table[2][2]), table[2]
