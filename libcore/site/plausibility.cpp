@@ -117,6 +117,26 @@ void look_at_motion(const PlausibilityFacts& f, Doubts& doubts) {
                "duration_s = " + text(std::ceil(f.travel_duration)));
 }
 
+// Magnitudes: rocks in centimetres, fences that nobody builds, slides every month.
+void look_at_magnitudes(const PlausibilityFacts& f, Doubts& doubts) {
+  doubts.above(f.largest_rock, {1000, 1e5}, "rockfall",
+               "the largest rock has " + text(f.largest_rock, 3) +
+                   " m3; those that fall one by one have up to some hundred",
+               "check size_m (metres) and volume_m3, or cut the mass by [source] and [joints.*]");
+  doubts.above(f.frequency, {1, 100}, f.frequency_key,
+               "the whole mass goes " + text(f.frequency, 3) + " times a year",
+               "check the frequency: it counts events a year, not the years between them");
+  for (const PlausibilityFacts::Fence& fence : f.fences) {
+    doubts.above(fence.height, {12, 50}, fence.section + ".height_m",
+                 "the fence is " + metres(fence.height) + " high; they are built up to about 10 m",
+                 "check the height: it is in metres");
+    doubts.above(
+        fence.capacity, {20'000, 1e6}, fence.section + ".capacity_kj",
+        "a panel takes " + text(fence.capacity, 3) + " kJ; fences are tested up to about 10,000 kJ",
+        "check the capacity: it is in kJ");
+  }
+}
+
 // Of 10 ms and one simulated second; a step of 5 ms needs 1.7 times as much. Masses of 70, 150 and
 // 258 blocks took 0.6, 1.1 and 3.0 s; one of 873 that leans on a step of 22 m took 44 s.
 constexpr double cpu_factor = 8e-4, cpu_power = 1.49, probe_step = 0.01;
@@ -136,6 +156,7 @@ std::vector<Doubt> doubts_of(const PlausibilityFacts& facts) {
   look_at_depth(facts, doubts);
   look_at_resolution(facts, doubts);
   look_at_motion(facts, doubts);
+  look_at_magnitudes(facts, doubts);
   return doubts.list;
 }
 

@@ -36,6 +36,14 @@ struct PlausibilityFacts {
   double travel_duration = none;  ///< that points that slide from the source ask for [s]
   double moved_share = none;      ///< of the mass in the probe [-]
   double left_share = none;       ///< of the fall lines that leave the terrain [-]
+  double largest_rock = none;     ///< of those that fall one by one [m3]
+  std::string frequency_key;      ///< that says how often the mass goes as a whole
+  double frequency = none;        ///< [1/a]
+  struct Fence {
+    std::string section;
+    double height = none, capacity = none;  ///< [m], [kJ]
+  };
+  std::vector<Fence> fences;
 };
 
 /// In a fixed order, of the keys that change them. Limits: docs/tools/talus-check.md

@@ -432,6 +432,22 @@ void probe_look(Tool& tool, double duration, Look& look) {
   look.is_probed = true;
 }
 
+void set_magnitudes(const Look& look, PlausibilityFacts& facts) {
+  const Site& site = look.work.site;
+  const std::vector<double>& volumes = look.inputs.parts.blocks.volume;
+  if (moves_alone(site)) {
+    if (!volumes.empty()) facts.largest_rock = *std::max_element(volumes.begin(), volumes.end());
+  } else {
+    for (const HazardClassSettings& kind : site.hazard_classes)
+      if (!(kind.frequency_per_a <= facts.frequency) && !std::isnan(kind.frequency_per_a)) {
+        facts.frequency = kind.frequency_per_a;
+        facts.frequency_key = "hazard.class." + kind.name + ".frequency_per_a";
+      }
+  }
+  for (const FenceSettings& fence : site.fences)
+    facts.fences.push_back({"fence." + fence.name, fence.height_m, fence.capacity_kj});
+}
+
 void find_doubts(Look& look) {
   const Site& site = look.work.site;
   PlausibilityFacts facts;
@@ -462,6 +478,7 @@ void find_doubts(Look& look) {
     facts.sliding_spacing = facts.smallest_spacing;
     if (look.is_probed) facts.moved_share = look.probe.moved_share;
   }
+  set_magnitudes(look, facts);
   look.doubts = doubts_of(facts);
   if (!look.probe.fault.empty()) {
     look.doubts.push_back(doubt_on({}, "the probe broke a limit: " + look.probe.fault,

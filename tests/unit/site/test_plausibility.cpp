@@ -31,6 +31,10 @@ PlausibilityFacts sound() {
   facts.travel_duration = 40;
   facts.moved_share = 0.95;
   facts.left_share = 0;
+  facts.largest_rock = 2;
+  facts.frequency_key = "hazard.class.all.frequency_per_a";
+  facts.frequency = 0.01;
+  facts.fences = {{"fence.net", 5, 3000}};
   return facts;
 }
 
@@ -62,6 +66,8 @@ TEST(Plausibility, EachLimitHasItsDoubtAndItsKey) {
                 {&F::n_blocks, 1500, 0, "joints.spacing_m"},
                 {&F::step_at_foot, 2.5, 0, "source.failure_surface"},
                 {&F::left_share, 0.1, 0, "terrain"},
+                {&F::largest_rock, 5000, 2e5, "rockfall"},
+                {&F::frequency, 12, 1000, "hazard.class.all.frequency_per_a"},
                 {&F::moved_share, 0.5, 0, "source.failure_surface"},
                 {&F::duration, 30, 0, "solver.duration_s"}};
   for (const auto& [field, odd, absurd, key] : limits) {
@@ -80,6 +86,17 @@ TEST(Plausibility, EachLimitHasItsDoubtAndItsKey) {
                             [](const Doubt& doubt) { return doubt.state == DoubtState::refused; }))
         << key << " " << absurd;
   }
+}
+
+TEST(Plausibility, FencesThatNobodyBuildsAreDoubted) {
+  PlausibilityFacts facts = sound();
+  facts.fences = {{"fence.low", 5, 3000}, {"fence.high", 30, 8000}, {"fence.strong", 8, 3e6}};
+  const std::vector<Doubt> doubts = doubts_of(facts);
+  ASSERT_EQ(doubts.size(), 2u);
+  EXPECT_EQ(doubts[0].what, "fence.high.height_m");
+  EXPECT_EQ(doubts[0].state, DoubtState::in_doubt);
+  EXPECT_EQ(doubts[1].what, "fence.strong.capacity_kj");
+  EXPECT_EQ(doubts[1].state, DoubtState::refused);
 }
 
 // 800 m for 8 m on a slope of 60 m relief.
