@@ -175,9 +175,14 @@ void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
     return;
   }
   if (periods.empty() || rate * periods.back() < 1) return;
+  const bool is_of_cells =
+      std::all_of(sources.classes.begin(), sources.classes.end(), [](const HazardRuns& runs) {
+        return runs.basis.clusters.kind == Clusters::Kind::release_cell;
+      });
   tool.warn("places that no run reached may be reached once in " + text(1 / rate, 3) +
             " years, which is within the " + period_name(periods.back()) +
-            " years of the recipe; more runs are needed to call them free");
+            " years of the recipe; more " + (is_of_cells ? "release cells" : "runs") +
+            " are needed to call them free");
 }
 
 // The maps of all layers; their entries in the result.

@@ -39,6 +39,7 @@ nothing_left slope/out/runs/run_1.h5
 variants slope ''
 cat measures >>slope/site.toml
 
+made slope -n RUNS=2
 made slope -j2 RUNS=2
 tools_of() { talus-runs --db "slope/out/$1/runs.sqlite" list | grep -o 'talus-[a-z]*' | sort -u | tr '\n' ' '; }
 for tool in import tin trn blocks; do
