@@ -83,7 +83,7 @@ TEST(BlockScene, ObjNamesThePartsOfABlock) {
 
 // Two of the eight triangles meet at an unknown corner, and no vertex is left without a triangle.
 TEST(BlockScene, GroundIsTheKnownTriangles) {
-  Trn trn{3, 3, 2, {0, 4}, {100, 200, 0}, "", std::vector<double>(9, 7)};
+  Trn trn{3, 3, 2, {0, 4}, {100, 200, 0}, "", std::vector<double>(9, 7), {}};
   trn.elevation[0] = std::numeric_limits<double>::quiet_NaN();
   const SceneBody ground = ground_body(trn, {100, 100, 0});
   EXPECT_EQ(n_faces(ground.surfaces[0]), 6);
