@@ -29,7 +29,8 @@ endef
 $(foreach name,$(measures),$(eval $(call measure,$(name),$(before)))$(eval before := $(name)))
 $(if $(checked),$(eval $(ensembles): | $(checked)))
 # In a dry run the results of the site may not be there yet.
-$(if $(BASE),$(if $(is_dry_run),$(eval $(BASE)/runs/ensemble.json: ;)))
+ensembles_of_base := $(BASE:%=%/runs/ensemble.json) $(BASE:%=%/without/ensemble.json)
+$(if $(BASE),$(if $(is_dry_run),$(eval $(ensembles_of_base): ;)))
 # A measure that changes nothing in the runs has those of the site; talus-batch looks at them.
 taken_runs = $(if $(BASE),@if cmp -s $(STAGES)/run.txt $(BASE)/stages/run.txt && \
   [ -d $(BASE)/$1 ]; then mkdir -p $(OUT)/$1 && cp -ru --reflink=auto $(BASE)/$1/. $(OUT)/$1; fi)

@@ -9,6 +9,7 @@
 #include "record/object_hits.hpp"
 #include "record/run_file.hpp"
 #include "setup/site_scene.hpp"
+#include "site/site.hpp"
 
 namespace talus {
 
@@ -19,9 +20,10 @@ struct DdaFiles {
 
 struct DdaInputs {
   SceneParts parts;
-  std::vector<RecordLine> lines;      ///< of [fence.*], on the ground
-  std::vector<RecordObject> objects;  ///< of [object.*]
-  std::vector<ForestInfo> forests;    ///< of active [forest.*], set by check_start()
+  std::vector<RecordLine> lines;         ///< of [fence.*], on the ground
+  const DamSettings* unburnt = nullptr;  ///< an active dam that the terrain was made without
+  std::vector<RecordObject> objects;     ///< of [object.*]
+  std::vector<ForestInfo> forests;       ///< of active [forest.*], set by check_start()
   std::string crs_wkt;
   Vec3 origin = Vec3::Zero();  ///< of the TRN: everything is relative to it
   std::string trn_sha256, trn_digest;

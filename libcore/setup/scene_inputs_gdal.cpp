@@ -256,6 +256,10 @@ DdaInputs read_dda_inputs(InputLog& log, const Site& site, const DdaFiles& files
   for (const FenceSettings& fence : site.fences) add_lines(log, site, fence, inputs, lines);
   check_fences_apart(log, site, parts.trn, lines);
   for (DamLines& dam : dam_lines(log, site, parts.trn)) {
+    if (dam.uphill == 0) {
+      inputs.unburnt = dam.settings;
+      continue;
+    }
     inputs.lines.push_back(std::move(dam.crest));
     inputs.lines.push_back(std::move(dam.before));
   }

@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "setup/run_settings.hpp"
 #include "setup/scene_inputs_gdal.hpp"
+#include "setup/site_dams_gdal.hpp"
 #include "terrain/trn_flags.hpp"
 
 namespace talus {
@@ -26,6 +27,7 @@ SetUp plan_scene(const Site& site, const SetUpRequest& request, InputLog& log) {
 }
 
 void make_scene(const Site& site, const SetUpRequest& request, InputLog& log, SetUp& setup) {
+  check_burnt(site, setup.inputs.unburnt);
   warn_of_plan(log, site, setup.plan, setup.inputs);
   check_start(log, site, setup.inputs, request.files, setup.plan.block_contacts);
   log.detail(as_text(setup.plan));

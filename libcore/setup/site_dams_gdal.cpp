@@ -230,11 +230,10 @@ double crest_at(const DamShape& shape, const std::vector<double>& crest, const V
   return height;
 }
 
-const BurntDam& burnt_in(const Trn& trn, const SiteDam& dam, const Where& where) {
+const BurntDam* burnt_in(const Trn& trn, const SiteDam& dam) {
   for (const BurntDam& burnt : trn.dams)
-    if (burnt.name == dam.name && burnt.crest.size() == dam.shape.line.size()) return burnt;
-  throw InputError(where, "is active, and the terrain was made without it",
-                   "make the terrain again, with this site file");
+    if (burnt.name == dam.name && burnt.crest.size() == dam.shape.line.size()) return &burnt;
+  return nullptr;
 }
 
 }  // namespace
@@ -247,7 +246,12 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
     const Where where = where_of_dam(site, settings);
     for (const SiteDam& dam : dams_of(log, site, trn, settings)) {
       const DamShape& shape = dam.shape;
-      const BurntDam& burnt = burnt_in(trn, dam, where);
+      const BurntDam* const found = burnt_in(trn, dam);
+      if (found == nullptr) {
+        all.push_back({&settings, {}, {}, 0});
+        continue;
+      }
+      const BurntDam& burnt = *found;
       const auto edge_at = [&](double off, const std::string& name) {
         std::vector<Vec3> posts = posts_on_ground(
             trn, off == 0 ? shape.line : line_beside(shape.line, burnt.uphill * off), spacing,
@@ -271,6 +275,12 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
     }
   }
   return all;
+}
+
+void check_burnt(const Site& site, const DamSettings* unburnt) {
+  if (unburnt != nullptr)
+    throw InputError(where_of_dam(site, *unburnt), "is active, and the terrain was made without it",
+                     "make the terrain again, with this site file");
 }
 
 std::vector<RoofPiece> gallery_roofs(InputLog& log, const Site& site, const Trn& trn) {

@@ -40,11 +40,14 @@ std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn);
 struct DamLines {
   const DamSettings* settings = nullptr;
   RecordLine crest, before;
-  int uphill = 1;  ///< +1: left of both seen from their first points, -1: right
+  int uphill = 1;  ///< +1: left of both seen from their first points, -1: right; 0: see dam_lines()
 };
-/// Of all that are active. Throws InputError as dams_of() and posts_on_ground(), and for a dam that
-/// `trn` was made without.
+/// Of all that are active. One that `trn` was made without has none, and no side uphill. Throws
+/// InputError as dams_of() and posts_on_ground().
 [[nodiscard]] std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn);
+
+/// Throws InputError for a dam that the terrain was made without; null: there is none.
+void check_burnt(const Site& site, const DamSettings* unburnt);
 
 /// Roofs of the galleries that are active in the ground of `trn`. Throws InputError as dams_of().
 [[nodiscard]] std::vector<RoofPiece> gallery_roofs(InputLog& log, const Site& site, const Trn& trn);

@@ -15,6 +15,7 @@
 #include "setup/observed_inputs_gdal.hpp"
 #include "setup/run_settings.hpp"
 #include "setup/set_up_gdal.hpp"
+#include "setup/site_dams_gdal.hpp"
 #include "setup/site_places_gdal.hpp"
 #include "setup/site_scene.hpp"
 #include "setup/sliding_sets.hpp"
@@ -397,6 +398,7 @@ void look_at(Tool& tool, const Site& site, const CheckFiles& files, Look& look) 
   check_times(site);
   static_cast<void>(warn_of_settings(tool, site));
   look.inputs = read_dda_inputs(tool, site, {files.bed, files.blocks, files.settle});
+  check_burnt(site, look.inputs.unburnt);
   warn_of_soils(tool, site, look.inputs.parts.blocks);
   static_cast<void>(observed_events(tool, site, look.work.ground));  // refused before the runs
   look.is_cut = look.work.is_cut();

@@ -74,6 +74,7 @@ std::vector<DamCase> dam_cases(Tool& tool, const Site& site, const Trn& trn,
                                std::vector<FenceCase>& lines) {
   std::vector<DamCase> cases;
   const std::vector<DamLines> dams = dam_lines(tool, site, trn);
+  for (const DamLines& dam : dams) check_burnt(site, dam.uphill == 0 ? dam.settings : nullptr);
   const std::size_t first = lines.size();
   for (const RecordLine DamLines::*of : {&DamLines::before, &DamLines::crest})
     for (const DamLines& dam : dams) {

@@ -79,3 +79,8 @@ page = open('wall/out/variant/gallery/report.html').read()
 for words in 'gallery shed: 80 m long', 'energy normal to the roof', 'its strength is not checked':
     assert words in page, words
 PY
+
+# a dam that the terrain of before lacks: make makes the terrain again
+sed -i '/^\[dam.shed\]/,/^active/s/^active.*/active = true/' wall/site.toml
+made wall check
+prints 'trn: elevation model -> terrain'
