@@ -23,9 +23,9 @@ struct Dams : testing::Test {
     for (int r = 0; r < trn.n_rows; ++r)
       for (int c = 0; c < trn.n_cols; ++c) trn.elevation.push_back(gentle(120 - r));
   }
-  std::vector<DamLines> lines_of(const std::string& sections, bool is_built = true) {
+  std::vector<DamLines> lines_of(const std::string& sections) {
     const Site site = site_of(folder, sections);
-    if (is_built) static_cast<void>(build_dams(log, site, trn));
+    static_cast<void>(build_dams(log, site, trn));
     return dam_lines(log, site, trn);
   }
 };
@@ -35,8 +35,12 @@ TEST_F(Dams, AreWatchedFromWhereTheGroundRoseBeforeThem) {
   const std::string keys = "height_m = 5\nslopes_deg = [60, 34]\n";
   const std::string both = "[dam.above]\nline = [[500030, 5000035], [500110, 5000035]]\n" + keys +
                            "[dam.below]\nline = [[500030, 5000018], [500110, 5000018]]\n" + keys;
+  const Site site = site_of(folder, both);
+  const std::vector<DamLines> absent = dam_lines(log, site, trn);
+  ASSERT_EQ(absent.size(), 2U);
+  EXPECT_EQ(absent[0].uphill, 0);
   EXPECT_NE(refusal_of([&] {
-              static_cast<void>(lines_of(both, false));
+              check_burnt(site, absent[0].settings);
             }).find("dam.above: is active, and the terrain was made without it"),
             std::string::npos);
   const std::vector<DamLines> lines = lines_of(both);
