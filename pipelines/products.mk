@@ -23,7 +23,7 @@ raster_suffixes := tif png pdf qml tif.aux.xml png.aux.xml
 hazard_names := event_exceed event_frequency passage_frequency return_period_* ke_T* probability \
   intensity class class_certain
 hazard_patterns := $(foreach suffix,$(raster_suffixes),$(hazard_names:%=hazard/%.$(suffix))) \
-  hazard/hazard.gpkg hazard/filing.gpkg
+  $(foreach suffix,gpkg gpkg.aux.xml,hazard/hazard.$(suffix) hazard/filing.$(suffix))
 trace_patterns := $(raster_suffixes:%=sources/source_*.%)
 profile_products := $(addprefix profile/,profile.gpkg profile.json crossings.csv bins.csv \
   stations.csv ground.svg count.svg energy.svg speed.svg height.svg)
@@ -35,8 +35,8 @@ products := $(foreach stage,import tin trn source block stability check runout m
   places calibrate hazard trace profile search screen report,$($(stage)_products))
 
 # As patterns of the shell: a style that comes with its raster, runs with their checkpoints, the
-# registry, inputs of a stage, side files that GDAL and QGIS write beside a raster, and hidden
-# names of tools that were killed.
+# registry, inputs of a stage, side files that GDAL and QGIS write beside rasters and GeoPackages,
+# and hidden names of tools that were killed.
 run_folders := runs runs/* without without/* verify/*-* verify/*-*/*
 run_patterns := run_*[0-9].h5 run_*[0-9].h5.part run_*[0-9].h5.part.new ensemble.json .lock \
   .auto/ensemble.json
@@ -46,7 +46,7 @@ registries := sqlite sqlite-wal sqlite-shm sqlite.late-*
 made_patterns := thickness.qml $(foreach end,h5 tif tif.aux.xml,rock/*_*[0-9].$(end)) \
   $(foreach folder,$(run_folders),$(run_patterns:%=$(folder)/%)) \
   $(registries:%=runs.%) $(registries:%=shards/*-of-*.%) data.ok \
-  $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) $(hazard_patterns) $(trace_patterns) \
+  $(addsuffix .aux.xml,$(filter %.tif %.png %.gpkg,$(products))) $(hazard_patterns) $(trace_patterns) \
   $(foreach suffix,$(raster_suffixes),$(map_names:%=maps/*/%.$(suffix))) \
   fences/*/fence.json fences/*/fence.gpkg search/*-[1-9].toml search/*-10.toml \
   search/new/*.toml search/charts/fence_search_*.svg \

@@ -6,7 +6,7 @@ echo mine >slope/out/notes.txt
 echo mine >slope/out/maps/drawing.txt
 echo mine >slope/out/runs/run_of_mine.h5
 echo mine >slope/out/stages/remarks.txt
-touch slope/out/maps/velocity.tif.aux.xml slope/out/runs.sqlite-wal slope/out/.trn.part-elsewhere-77.tif
+touch slope/out/maps/velocity.tif.aux.xml slope/out/blocks.gpkg.aux.xml slope/out/runs.sqlite-wal slope/out/.trn.part-elsewhere-77.tif
 touch slope/out/runs/run_7.h5.part slope/out/runs.sqlite.late-elsewhere-77
 mkdir slope/out/.trn.part-elsewhere-77-abcdef slope/out/stages/.runs.txt.part-77-abcdef
 touch slope/out/.trn.part-elsewhere-77-abcdef/trn.tif

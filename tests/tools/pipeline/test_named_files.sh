@@ -39,7 +39,7 @@ made slope -j2 "$@"
 touch "slope/the source.dbf"
 would "$@"
 would_be "" "the same attributes"
-ogr2ogr -f "ESRI Shapefile" -a_srs EPSG:32633 -dialect SQLite -sql 'SELECT 2 AS id, geometry FROM source' other.shp source.geojson
+ogr2ogr -f "ESRI Shapefile" -a_srs EPSG:32633 -sql 'SELECT 2 AS id FROM source' other.shp source.geojson
 cp other.dbf "slope/the source.dbf"
 would "$@"
 would_be "batch blocks check fence import maps report runout " "other attributes of the source"
