@@ -46,7 +46,8 @@ registries := sqlite sqlite-wal sqlite-shm sqlite.late-*
 made_patterns := thickness.qml $(foreach end,h5 tif tif.aux.xml,rock/*_*[0-9].$(end)) \
   $(foreach folder,$(run_folders),$(run_patterns:%=$(folder)/%)) \
   $(registries:%=runs.%) $(registries:%=shards/*-of-*.%) data.ok \
-  $(addsuffix .aux.xml,$(filter %.tif %.png %.gpkg,$(products))) $(hazard_patterns) $(trace_patterns) \
+  $(addsuffix .aux.xml,$(filter %.tif %.png %.gpkg,$(products))) \
+  $(hazard_patterns) $(trace_patterns) \
   $(foreach suffix,$(raster_suffixes),$(map_names:%=maps/*/%.$(suffix))) \
   fences/*/fence.json fences/*/fence.gpkg search/*-[1-9].toml search/*-10.toml \
   search/new/*.toml search/charts/fence_search_*.svg \
