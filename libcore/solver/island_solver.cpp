@@ -29,12 +29,20 @@ struct Solve {
   bool direct = false;
   bool inherits = false;  // a row comes with a state: the first evaluation is not the law's
 
+  // Of the points of a body without contact.
+  [[nodiscard]] double free_speed_of(int body) const {
+    const auto i = static_cast<size_t>(body);
+    const Vec6& free = island.free_velocity[i];
+    return free.head<3>().norm() + island.radius[i] * free.tail<3>().norm();
+  }
+
   // Lowers the rows of pair `p` that are too stiff, and notes the tolerance that they and the
   // velocities allow: in a very short substep contacts press with little more than rounding.
   void prepare_pair(size_t p) {
     const BodyPair& pair = island.pairs[p];
     const double mass = reduced_mass(island, pair), limit = settings.stiffest * mass;
-    const double free_speed = island.free_velocity[pair.a].head<3>().norm();
+    const double free_speed =
+        std::max(free_speed_of(pair.a), pair.b < 0 ? 0 : free_speed_of(pair.b));
     for (RowGroup& group : groups_of(island, pair))
       for (int lane = 0; lane < 2; ++lane) {
         inherits |= group.state[lane] != 0;

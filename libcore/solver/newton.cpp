@@ -238,8 +238,10 @@ NewtonResult solve_holding_normals(BlockSystem<Dof>& system, std::span<ContactRo
 template <int Dof>
 NewtonResult solve_relaxing(BlockSystem<Dof>& system, std::span<ContactRow> rows, int most_steps) {
   double stiffness = 0;
-  const double free_speed = system.free_velocity.template head<3>().norm();
+  const double speed = system.free_velocity.template head<3>().norm(),
+               spin = system.free_velocity.template segment<3>(3).norm();
   for (const ContactRow& row : rows) {
+    const double free_speed = speed + spin * row.arm.norm();
     const double of_row = std::max(row.normal_damping, row.shear_damping) / system.mass(0, 0);
     stiffness = std::max(stiffness, of_row);
     system.tolerance =

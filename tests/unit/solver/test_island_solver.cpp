@@ -437,6 +437,20 @@ TEST(SolveIsland, IsNotAskedForMoreThanTheRoundingOfItsVelocities) {
   }
 }
 
+// ... nor below that of the velocity of the other body, or of its points.
+TEST(SolveIsland, IsNotAskedForMoreThanTheRoundingOfABlockThatSlidesOrSpinsOnAnother) {
+  talus::Random random(92, "rounding");
+  LawOfScene law;
+  law.stiffness_ratio = 2e4;
+  for (const int first : {0, 3})
+    for (int round = 0; round < 100; ++round) {
+      Island island = talus::scenes::stack(2, law);
+      for (int k = 0; k < 3; ++k) island.free_velocity[1][first + k] += random.uniform(-30, 30);
+      IslandWork work;
+      EXPECT_TRUE(solve_island(island, IslandSettings{.tolerance = 1e-20}, work).converged);
+    }
+}
+
 TEST(SolveIsland, NeverHidesWhatItCannotSolve) {
   LawOfScene law;
   Island island = talus::scenes::stack(4, law);
