@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/random.hpp"
 #include "post/maps/map_layers.hpp"
@@ -36,17 +37,20 @@ std::vector<std::vector<Passage>> make_runs(int n_runs, int n_blocks) {
   return runs;
 }
 
-std::vector<std::vector<MapRow>> rows_of(const std::vector<std::vector<Passage>>& runs) {
+std::vector<std::vector<MapRow>> rows_of(const std::vector<std::vector<Passage>>& runs,
+                                         int n_blocks) {
   std::vector<std::vector<MapRow>> rows;
-  for (const auto& run : runs) rows.push_back(map_rows(run, grid, {grid, 1}, {}));
+  const std::vector<double> weight(static_cast<std::size_t>(n_blocks), 1);
+  for (const auto& run : runs) rows.push_back(map_rows(run, grid, {grid, 1}, weight));
   return rows;
 }
 
 void merge(benchmark::State& state) {
-  const auto runs = make_runs(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  const int n_runs = static_cast<int>(state.range(0)), n_blocks = static_cast<int>(state.range(1));
+  const auto runs = make_runs(n_runs, n_blocks);
   std::size_t n = 0;
   for (auto _ : state) {
-    const CellRows cells = group_by_cell(rows_of(runs), grid.n_rows * grid.n_cols);
+    const CellRows cells = group_by_cell(rows_of(runs, n_blocks), grid.n_rows * grid.n_cols);
     n = cells.rows.size();
     benchmark::DoNotOptimize(cells.rows.data());
   }
@@ -56,17 +60,21 @@ void merge(benchmark::State& state) {
 BENCHMARK(merge)->Args({1000, 1})->Args({10000, 1})->Args({50, 390})->Unit(benchmark::kMillisecond);
 
 void all_layers(benchmark::State& state) {
-  const auto runs = make_runs(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
-  const CellRows cells = group_by_cell(rows_of(runs), grid.n_rows * grid.n_cols);
-  Released released;
-  released.weight.assign(runs.size(), static_cast<double>(state.range(1)));
-  released.n_blocks.assign(runs.size(), static_cast<int>(state.range(1)));
+  const int n_runs = static_cast<int>(state.range(0)), n_blocks = static_cast<int>(state.range(1));
+  const auto runs = make_runs(n_runs, n_blocks);
+  const CellRows cells = group_by_cell(rows_of(runs, n_blocks), grid.n_rows * grid.n_cols);
+  Clusters clusters;
+  clusters.weight.assign(runs.size(), n_blocks);
+  clusters.n_blocks.assign(runs.size(), n_blocks);
+  clusters.run_weight.assign(runs.size(), 1);
+  clusters.of_run.resize(runs.size());
+  std::iota(clusters.of_run.begin(), clusters.of_run.end(), 0);
+  const ShareBasis basis = share_basis(std::move(clusters));
   const DepositSums deposit;  // nothing came to rest
   const MapSettings settings;
   for (auto _ : state) {
     for (const MapLayerKind& kind : map_layers())
-      benchmark::DoNotOptimize(
-          make_layer(kind, {cells, deposit, 5, released, settings}).bands.data());
+      benchmark::DoNotOptimize(make_layer(kind, {cells, deposit, 5, basis, settings}).bands.data());
   }
   state.counters["rows_per_s"] = benchmark::Counter(static_cast<double>(cells.rows.size()),
                                                     benchmark::Counter::kIsIterationInvariantRate);
