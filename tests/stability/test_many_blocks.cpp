@@ -226,7 +226,7 @@ TEST(ManyBlocks, SharedByThreadsInTwoThreadsAndMoreHaveTheSameBits) {
 }
 
 TEST(ManyBlocks, HundredsInTwoThreadsAndMoreHaveTheSameBits) {
-  expect_bits_of_one_thread(20, 20, 0.05);
+  expect_bits_of_one_thread(12, 12, 0.05);
 }
 
 }  // namespace
