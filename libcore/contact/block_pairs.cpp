@@ -551,7 +551,7 @@ void look_at_list(const Hulls& hulls, const PlacedHulls& placed, const PairMotio
 void list_supports(const Hulls& hulls, const PairMotion& motion, const PairSettings& settings,
                    PairWork& work) {
   const int n = n_free(hulls, motion);
-  const auto bears = [&](const PairManifold& m) {
+  const auto carries = [&](const PairManifold& m) {
     const double graze = graze_height(hulls, settings, m.part_a, m.part_b);
     return std::any_of(work.points.begin() + m.point_begin, work.points.begin() + m.point_end,
                        [&](const PairPoint& p) { return p.gap <= graze; });
@@ -564,7 +564,7 @@ void list_supports(const Hulls& hulls, const PairMotion& motion, const PairSetti
   for (int m = 0; m < static_cast<int>(work.manifolds.size()); ++m) {
     if (next_shallow != work.shallow.end() && *next_shallow == m) {
       ++next_shallow;
-    } else if (bears(work.manifolds[m])) {
+    } else if (carries(work.manifolds[m])) {
       bearing.push_back(m);
       ++begin[work.manifolds[m].block_a + 1];
       if (work.manifolds[m].block_b < n) ++begin[work.manifolds[m].block_b + 1];
@@ -579,7 +579,7 @@ void list_supports(const Hulls& hulls, const PairMotion& motion, const PairSetti
 }
 
 // Does another block than `other` support `block` along `direction`?
-bool is_borne(const PairWork& work, int block, int other, const Vec3& direction) {
+bool is_supported(const PairWork& work, int block, int other, const Vec3& direction) {
   for (int k = work.support_begin[block + 1]; k < work.support_begin[block + 2]; ++k) {
     const PairManifold& m = work.manifolds[work.supports[k]];
     if (m.block_a == other || m.block_b == other) continue;
@@ -602,8 +602,8 @@ bool is_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairMotion&
       const Vec3 outward = normal_at(placed, slot);
       const Vec3 to_a = part == m.part_b ? outward : Vec3(-outward);
       if (to_a.dot(m.normal) >= same_axis_cos) continue;
-      if (is_borne(work, m.block_a, m.block_b, to_a) ||
-          (!is_fixed(hulls, motion, m.block_b) && is_borne(work, m.block_b, m.block_a, -to_a)))
+      if (is_supported(work, m.block_a, m.block_b, to_a) ||
+          (!is_fixed(hulls, motion, m.block_b) && is_supported(work, m.block_b, m.block_a, -to_a)))
         return true;
     }
   }

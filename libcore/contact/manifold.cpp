@@ -60,7 +60,7 @@ ContactKey key_of(const Hulls& hulls, const FacePair& pair, const ClipCorner& co
 }
 
 // Vertices beside the incident face that are in behind the reference face: a long body with many
-// faces may lean on it with both of its ends, which no face of its has in common. Borne by one end
+// faces may lean on it with both of its ends, which no face of its has in common. Held by one end
 // in turn with the other, it would sink in.
 void add_vertices_behind(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair,
                          const FaceFrame& frame, const std::vector<Vec2>& reference,

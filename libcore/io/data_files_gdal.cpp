@@ -39,7 +39,7 @@ std::vector<std::string> files_of(const std::string& path, unsigned kind) {
 }
 
 // Whether it says where the values are or what they mean, beside statistics.
-bool bears_on_values(const std::string& aux_file) {
+bool affects_values(const std::string& aux_file) {
   const std::string content = read_file(aux_file);
   for (const char* mark : {"<SRS", "<GeoTransform", "<NoDataValue", "<GCPList", "<Scale", "<Offset",
                            "<UnitType", "\"GEOLOCATION\"", "\"RPC\""})
@@ -47,11 +47,11 @@ bool bears_on_values(const std::string& aux_file) {
   return false;
 }
 
-bool bears_on_data(const std::string& file) {
+bool affects_data(const std::string& file) {
   const std::string name = lower(file);
   for (const char* ending : {".ovr", ".qix", ".sbn", ".sbx", ".qmd", ".qml"})
     if (name.ends_with(ending)) return false;
-  return !name.ends_with(".aux.xml") || bears_on_values(file);
+  return !name.ends_with(".aux.xml") || affects_values(file);
 }
 
 void add_folder(const std::string& path, std::set<std::string>& files) {
@@ -65,7 +65,7 @@ void add_dataset(const std::string& path, std::set<std::string>& files) {
   std::vector<std::string> found = files_of(path, GDAL_OF_RASTER);
   if (found.empty() && names_further_files(path)) found = files_of(path, GDAL_OF_VECTOR);
   for (const std::string& file : found)
-    if (fs::is_regular_file(file) && bears_on_data(file)) files.insert(file);
+    if (fs::is_regular_file(file) && affects_data(file)) files.insert(file);
   if (fs::is_regular_file(path + "-wal") && fs::file_size(path + "-wal") > 0)
     files.insert(path + "-wal");
 }

@@ -54,11 +54,11 @@ bool holds_normal_force(const BondFace& face, const PlaneFace& plane) {
     const Vec2 inward = Vec2(from.y() - to.y(), to.x() - from.x()).normalized();
     double moment = 0, all = 0;
     for (size_t k = 0; k < face.corners.size(); ++k) {
-      const double bears = face.corners[k].tension * face.corners[k].area;
+      const double strength = face.corners[k].tension * face.corners[k].area;
       // a corner outside the outline's side by rounding counts as on it
       const double distance = std::max(0.0, inward.dot(plane.at[k] - from));
-      moment += (plane.normal[k] + bears) * distance;
-      all += std::abs(plane.normal[k]) + bears;
+      moment += (plane.normal[k] + strength) * distance;
+      all += std::abs(plane.normal[k]) + strength;
     }
     if (moment < -rounding * all) return false;
   }

@@ -47,7 +47,7 @@ inline constexpr Phase last_phase = Phase::broken;
   return phase != Phase::unborn && phase != Phase::broken;
 }
 /// Whether nothing ever touches it, wherever it lies.
-[[nodiscard]] constexpr bool bears_nothing(Phase phase) {
+[[nodiscard]] constexpr bool carries_nothing(Phase phase) {
   return !exists(phase) || phase == Phase::crushed;
 }
 

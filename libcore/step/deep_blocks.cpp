@@ -26,8 +26,8 @@ void for_each_listed(const Scene& scene, const State& state, const DeepWork& w, 
   };
   for (const PairWatch& pair : state.pairs.watch) {
     const int a = scene.blocks.hulls.body[pair.part_a], b = scene.blocks.hulls.body[pair.part_b];
-    const bool is_there = !bears_nothing(phase_of(state, a)) &&
-                          (is_fixed(scene, b) || !bears_nothing(phase_of(state, b)));
+    const bool is_there = !carries_nothing(phase_of(state, a)) &&
+                          (is_fixed(scene, b) || !carries_nothing(phase_of(state, b)));
     if (is_there && (is_suspect(a) || is_suspect(b))) visit(pair, a, b);
   }
 }

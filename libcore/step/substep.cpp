@@ -46,9 +46,10 @@ int row_of(const ContactMemory& memory, std::span<const Contact> contacts) {
 void keep_force(double k_n, ContactRow& row) {
   const double share = row.last_stiffness / k_n;
   const double pressed_in = std::max(0.0, -(row.gap_start + row.offset));
-  const double bears = share > 1 ? std::clamp(row.last_force / k_n, pressed_in, share * pressed_in)
-                                 : share * pressed_in;
-  row.offset = std::max(0.0, row.offset + pressed_in - bears);
+  const double carried = share > 1
+                             ? std::clamp(row.last_force / k_n, pressed_in, share * pressed_in)
+                             : share * pressed_in;
+  row.offset = std::max(0.0, row.offset + pressed_in - carried);
   row.shear *= share;
 }
 

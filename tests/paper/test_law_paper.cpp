@@ -126,7 +126,7 @@ TEST(LawPaper, ColumnPressesWithItsWeight) {
 
 // The weight acts at once, so the bond has to carry twice the static load of the slope:
 // sin(a) - tan(20) cos(a) = 0.3 / 2.
-TEST(LawPaper, BondBearsALoadPutOnAtOnce) {
+TEST(LawPaper, BondCarriesALoadPutOnAtOnce) {
   const double expected = 20 + std::asin(0.15 * std::cos(20 * degree)) / degree;
   EXPECT_NEAR(bond_angle(law_paper(1e-2, 5e10)).value, expected, 0.1);
 }

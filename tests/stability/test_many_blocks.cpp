@@ -104,7 +104,7 @@ TEST(ManyBlocks, ImpulsesThatBalanceDisplaceNothing) {
 // Contacts of small blocks among large ones are as stiff as their loads need: a large one sinks in
 // by no more than 2 g dt^2 a contact, slides on them as one with them, and no step is repeated
 // because of stiff contacts without load, but the first two, while the loads are unknown.
-TEST(ManyBlocks, ALayerOfSmallBlocksBearsALargeOne) {
+TEST(ManyBlocks, ALayerOfSmallBlocksCarriesALargeOne) {
   for (const double dt : {1e-3, 5e-3, 1e-2}) {
     Settings settings;
     settings.dt = dt;

@@ -42,7 +42,7 @@ struct SleepScratch {
   std::vector<std::pair<int, int>> touches;  ///< of blocks asleep, in both orders
   std::vector<std::uint8_t> is_known;        ///< among `blocks`                        (n_blocks)
   std::vector<int> sleepers;                 ///< that fall asleep
-  std::vector<int> borne, beside_motion;     ///< that other blocks press; that press moving blocks
+  std::vector<int> pressed, beside_motion;   ///< that other blocks press; that press moving blocks
 };
 
 /// Which blocks meet, and the bodies that they meet. Bodies are those of Blocks::hulls.
@@ -181,11 +181,11 @@ struct MemberMotion {
 /// Free flight of a member between two hits. Until its first hit, the support of the substep before
 /// continues to act.
 struct FlyingMember {
-  Motion motion;               ///< at `clock`
-  double clock = 0;            ///< its last hit, from the start of the substep [s]
-  Vec3 borne = Vec3::Zero();   ///< acceleration by its support [m/s2]
-  double borne_until = 0;      ///< from the start of the substep [s]
-  Vec3 torque = Vec3::Zero();  ///< of loads [N m]
+  Motion motion;                ///< at `clock`
+  double clock = 0;             ///< its last hit, from the start of the substep [s]
+  Vec3 support = Vec3::Zero();  ///< acceleration by its support [m/s2]
+  double support_until = 0;     ///< from the start of the substep [s]
+  Vec3 torque = Vec3::Zero();   ///< of loads [N m]
   bool was_hit = false;
   int version = 0;       ///< number of changes of its motion
   int end_version = -1;  ///< of `end`

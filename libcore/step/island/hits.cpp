@@ -35,12 +35,12 @@ struct HitPhase {
       const BodyPair& pair = system.island.pairs[p];
       const Vec3 normal = row_of(system, r).normal();
       double gap_end = contact.gap_free;
-      const auto borne = [&](int k) -> Vec3 {
+      const auto by_support = [&](int k) -> Vec3 {
         const FlyingMember& m = hits.members[k];
-        return m.borne_until * (free.h - m.borne_until / 2) * m.borne;
+        return m.support_until * (free.h - m.support_until / 2) * m.support;
       };
-      gap_end += normal.dot(borne(pair.a));
-      if (pair.b >= 0) gap_end -= normal.dot(borne(pair.b));
+      gap_end += normal.dot(by_support(pair.a));
+      if (pair.b >= 0) gap_end -= normal.dot(by_support(pair.b));
       if (gap_end > contact.touch) continue;
       looks.look_ahead(p, 0, 0);
       last = p;
@@ -144,10 +144,10 @@ struct HitPhase {
   [[nodiscard]] double work_of_bearing(size_t k, double time, const Motion& before) const {
     const FlyingMember& flying = hits.members[k];
     Vec3 way = before.pose.position - flying.motion.pose.position;
-    if (const double until = flying.borne_until; until < time)
+    if (const double until = flying.support_until; until < time)
       way = until * (flying.motion.velocity +
-                     until / 2 * (free.substeps[k].free_acceleration + flying.borne));
-    return members.numbers[k].mass * flying.borne.dot(way);
+                     until / 2 * (free.substeps[k].free_acceleration + flying.support));
+    return members.numbers[k].mass * flying.support.dot(way);
   }
 
   // Member k is at its hit, and moves on from there.

@@ -30,26 +30,26 @@ double time_to_close(double g, double v, double gap_end, double h) {
 Vec3 point_of(const PlacedMotion& m, const Vec3& arm) { return m.position + arm; }
 Vec3 velocity_of(const PlacedMotion& m, const Vec3& arm) { return m.velocity + m.spin.cross(arm); }
 
-bool bears(const State& state, int b) {
+bool carries(const State& state, int b) {
   const std::vector<ContactMemory>& memory = state.memory[b];
   return std::any_of(memory.begin(), memory.end(),
                      [](const ContactMemory& m) { return m.normal_force > 0; });
 }
 
 // The support of member k continues until its first hit, or until it would begin to drive it.
-void set_borne(const State& state, const IslandMembers& members, const Substep& s, size_t k,
-               FlyingMember& flying) {
+void set_support_in_flight(const State& state, const IslandMembers& members, const Substep& s,
+                           size_t k, FlyingMember& flying) {
   const BlockNumbers& c = members.numbers[k];
-  flying.borne = state.support[members.block(k)];
-  if (flying.borne.isZero(0)) return;
-  const double power = flying.borne.dot(s.start.velocity),
-               rise = flying.borne.dot(flying.borne + s.free_acceleration),
+  flying.support = state.support[members.block(k)];
+  if (flying.support.isZero(0)) return;
+  const double power = flying.support.dot(s.start.velocity),
+               rise = flying.support.dot(flying.support + s.free_acceleration),
                most = support_drives * c.gravity * c.resting_speed;
-  flying.borne_until = s.h;
+  flying.support_until = s.h;
   if (power > most)
-    flying.borne_until = 0;
+    flying.support_until = 0;
   else if (rise > 0)
-    flying.borne_until = std::min(s.h, (most - power) / rise);
+    flying.support_until = std::min(s.h, (most - power) / rise);
 }
 
 }  // namespace
@@ -90,8 +90,8 @@ void ImpactSearch::begin() const {
     if (!scene.loads.empty())
       hits.members[k].torque = (s.free.angular_momentum - s.start.angular_momentum) / s.h;
     if (!members.numbers[k].stands &&
-        (bears(state, members.blocks[k]) || system.ground_pair[k] >= 0))
-      set_borne(state, members, s, k, hits.members[k]);
+        (carries(state, members.blocks[k]) || system.ground_pair[k] >= 0))
+      set_support_in_flight(state, members, s, k, hits.members[k]);
   }
   const size_t n_pairs = system.island.pairs.size();
   hits.n_looks.assign(n_pairs, 0);
@@ -117,10 +117,10 @@ Motion ImpactSearch::motion_of(size_t k, double time) const {
   if (dt <= 0) return flying.motion;
   Motion m = fly(flying.motion, members.numbers[k].inertia, s.free_acceleration, dt);
   m.angular_momentum += dt * flying.torque;
-  if (flying.was_hit || flying.borne_until == 0) return m;
-  const double borne = std::min(dt, flying.borne_until);
-  m.velocity += borne * flying.borne;
-  m.pose.position += borne * (dt - borne / 2) * flying.borne;
+  if (flying.was_hit || flying.support_until == 0) return m;
+  const double supported = std::min(dt, flying.support_until);
+  m.velocity += supported * flying.support;
+  m.pose.position += supported * (dt - supported / 2) * flying.support;
   return m;
 }
 
@@ -178,7 +178,7 @@ double ImpactSearch::hit_speed(size_t k, double time) const {
 // Whether something presses member k until its first hit: then it is not in free flight.
 bool ImpactSearch::is_pressed(size_t k) const {
   const FlyingMember& flying = hits.members[k];
-  return !flying.was_hit && !flying.borne.isZero(0);
+  return !flying.was_hit && !flying.support.isZero(0);
 }
 
 void ImpactSearch::look_ahead(size_t p, double from, double not_before) const {

@@ -312,7 +312,7 @@ namespace {
 void list_absent(const State& state, std::vector<std::uint8_t>& absent) {
   absent.clear();
   if (state.hit_loss.empty() && state.crushed.empty()) return;
-  for (const Phase phase : state.phase) absent.push_back(bears_nothing(phase) ? 1 : 0);
+  for (const Phase phase : state.phase) absent.push_back(carries_nothing(phase) ? 1 : 0);
 }
 
 }  // namespace

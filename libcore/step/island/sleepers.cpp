@@ -49,25 +49,25 @@ void add_press(int a, int b, const Vec6& on_a, const Vec6& on_b, std::vector<Pai
 // Of the blocks that have stayed in place, those that fall asleep: something supports them, and the
 // blocks that they press or are bonded to have stayed in place, too.
 void find_sleepers(const State& state, std::span<const PairPress> presses, SleepScratch& scratch) {
-  std::vector<int>&sleepers = scratch.sleepers, &borne = scratch.borne,
+  std::vector<int>&sleepers = scratch.sleepers, &pressed = scratch.pressed,
   &beside_motion = scratch.beside_motion;
-  borne.clear();
+  pressed.clear();
   beside_motion.clear();
   const auto see = [&](int b, int other) {
-    borne.push_back(b);
+    pressed.push_back(b);
     if (!sleeps(state, other) && !has_rested(state, other)) beside_motion.push_back(b);
   };
   for (const PairPress& press : presses) {
     see(press.a, press.b);
     see(press.b, press.a);
   }
-  std::sort(borne.begin(), borne.end());
+  std::sort(pressed.begin(), pressed.end());
   std::sort(beside_motion.begin(), beside_motion.end());
   const auto is_in = [](int b, const std::vector<int>& blocks) {
     return std::binary_search(blocks.begin(), blocks.end(), b);
   };
   std::erase_if(sleepers, [&](int b) {
-    return is_in(b, beside_motion) || (state.memory[b].empty() && !is_in(b, borne));
+    return is_in(b, beside_motion) || (state.memory[b].empty() && !is_in(b, pressed));
   });
   for (size_t before = 0; before != sleepers.size();) {
     before = sleepers.size();

@@ -107,7 +107,7 @@ TEST(Kinematics, AttitudesOfASetAreDrawnTheSameEachTime) {
   EXPECT_EQ(one[17].dip, other[17].dip);
 }
 
-TEST(Kinematics, WedgeThatBearsOnOnePlaneIsNoWedge) {
+TEST(Kinematics, WedgeThatSlidesOnOnePlaneIsNoWedge) {
   const double tangent = std::tan(phi);
   const Wedge both = wedge_of(plane(60, 130), plane(60, 230), tangent, tangent);
   EXPECT_TRUE(both.on_both);

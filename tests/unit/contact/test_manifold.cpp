@@ -295,7 +295,7 @@ TEST(Manifold, LargeBlockOnSmallCubeTouchesTheWholeCube) {
 
 // A rock behind a wide face has a contact at every vertex behind it, whichever of its faces it
 // lies on and whichever of the two bodies comes first.
-TEST(Manifold, EveryVertexBehindAWideFaceBears) {
+TEST(Manifold, EveryVertexBehindAWideFaceCarries) {
   Draws random(27);
   int n_beside = 0;  // not corners of the incident face
   for (int run = 0; run < 200; ++run) {

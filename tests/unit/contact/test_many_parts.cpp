@@ -5,6 +5,6 @@
 
 namespace {
 
-TEST(ManyParts, AreBorneAlongTheLeastPathOut) { EXPECT_EQ(talus::test::follow_pairs(300), 0); }
+TEST(ManyParts, AreSupportedAlongTheLeastPathOut) { EXPECT_EQ(talus::test::follow_pairs(300), 0); }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace {
 
-TEST(ManyPartsLong, TenThousandPairsAreBorneAlongTheLeastPathOut) {
+TEST(ManyPartsLong, TenThousandPairsAreSupportedAlongTheLeastPathOut) {
   EXPECT_LE(talus::test::follow_pairs(10000), 2);
 }
 

@@ -218,7 +218,7 @@ TEST(FindAxis, EdgeOfASeamKeepsAPartApartThatSeemsToOverlapByLittle) {
 
 // The edge is covered in its middle and bare at its ends: there it keeps a bar apart, and carries
 // it.
-TEST(FindAxis, EdgeCoveredInItsMiddleBearsAtItsEnds) {
+TEST(FindAxis, EdgeCoveredInItsMiddleCarriesAtItsEnds) {
   for (const double gap : {0.2, 0.005, -0.01}) {
     const Bodies bodies = bar_over_a_seam(2, 3, gap);
     AxisScratch scratch;
@@ -246,7 +246,7 @@ Bodies saddle_on_a_ridge(double rise, double steep, double sunk, double aside) {
 
 // An edge in a concave seam, or under a flat one, is in contact with both parts, however far it is
 // in: neither leaves it to the other.
-TEST(FindAxis, AnEdgeUnderASeamIsBorneByBothParts) {
+TEST(FindAxis, AnEdgeUnderASeamIsSupportedByBothParts) {
   AxisScratch scratch;
   for (const double rise : {-0.6, -0.1, 0.0})
     for (const double steep : {2.7, 8.0})

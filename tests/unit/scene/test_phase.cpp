@@ -19,7 +19,7 @@ using namespace talus::cases;
 
 struct Answers {
   Phase phase;
-  bool takes_part, does_not_move, exists, bears_nothing;
+  bool takes_part, does_not_move, exists, carries_nothing;
 };
 
 TEST(Phase, QuestionsOfEachState) {
@@ -37,7 +37,7 @@ TEST(Phase, QuestionsOfEachState) {
     EXPECT_EQ(takes_part(table[k].phase), table[k].takes_part) << k;
     EXPECT_EQ(does_not_move(table[k].phase), table[k].does_not_move) << k;
     EXPECT_EQ(exists(table[k].phase), table[k].exists) << k;
-    EXPECT_EQ(bears_nothing(table[k].phase), table[k].bears_nothing) << k;
+    EXPECT_EQ(carries_nothing(table[k].phase), table[k].carries_nothing) << k;
   }
 }
 

@@ -142,7 +142,7 @@ TEST(AngularRow, StopsADiscAndDoesNotTurnItBack) {
   EXPECT_EQ(disc.turns[0].rolling.state, ContactState::stick);
 }
 
-TEST(AngularRow, BearsNothingWhereNothingPresses) {
+TEST(AngularRow, CarriesNothingWhereNothingPresses) {
   Lone disc;
   Vec6 v = rolling(1);
   v[2] = 1;

@@ -85,7 +85,7 @@ TEST_P(PinchedSplinter, IsCrushedWhenTheMeanLoadComesToItsStrengthAtAnyStep) {
   EXPECT_EQ(scene.state.phase[0], Phase::crushed);
 }
 
-TEST_P(PinchedSplinter, BearsWhatIsBelowItsStrengthForGood) {
+TEST_P(PinchedSplinter, CarriesWhatIsBelowItsStrengthForGood) {
   Pinched scene(GetParam(), 1.05);
   scene.run_to(2);
   EXPECT_TRUE(scene.state.crushed.empty());
@@ -93,7 +93,7 @@ TEST_P(PinchedSplinter, BearsWhatIsBelowItsStrengthForGood) {
 }
 
 // A splinter that could be crushed and is not moves nothing by a bit.
-TEST(CrushedSplinter, ThatBearsItsLoadLeavesTheRunAsItWas) {
+TEST(CrushedSplinter, ThatCarriesItsLoadLeavesTheRunAsItWas) {
   Pinched strong(0.005, 1.05), plain(0.005, 1);
   plain.scene.crush_load.clear();
   plain.state = start(plain.scene);

@@ -663,7 +663,7 @@ TEST(MassStep, LeavesInPlaceWhatItDoesNotReach) {
 // --- one large among many small ------------------------------------------------------------------
 
 // A block 10,000 times as heavy as each of the 400 below it slides with them, as one.
-TEST(MassStep, ALayerOfSmallBlocksBearsALargeOne) {
+TEST(MassStep, ALayerOfSmallBlocksCarriesALargeOne) {
   const SlopeFrame frame = slope_frame(30, 25);
   std::vector<Body> bodies;
   constexpr double small = 0.2, large = 4.309;

@@ -16,7 +16,7 @@ using namespace talus;
 using namespace talus::cases;
 
 // Its vertices rest on the ground while its centroid sinks: they are not about to hit it.
-TEST(Step, BlockThatSagsIsNotHitByTheGroundThatBearsIt) {
+TEST(Step, BlockThatSagsIsNotHitByTheGroundThatCarriesIt) {
   Material soft;
   soft.young = 1e7;
   Settings settings;

@@ -115,7 +115,7 @@ double speed_behind_a_bend(double dt) {
 
 // Until the ground hits it within a step a block has the support of the step before. Left
 // to fall until then, these came out of the bend slower by 1.7, 0.6 and 0.16 % at 50, 20 and 10 ms.
-TEST(StepIsland, BlocksThatSlideRoundABendAreBorneUntilTheyAreHit) {
+TEST(StepIsland, BlocksThatSlideRoundABendAreSupportedUntilTheyAreHit) {
   const double exact = speed_behind_a_bend(1e-3);
   EXPECT_NEAR(speed_behind_a_bend(1e-2), exact, 1.3e-3 * exact);
   EXPECT_NEAR(speed_behind_a_bend(2e-2), exact, 3e-3 * exact);
@@ -248,8 +248,8 @@ TEST(StepIsland, ContactThatBecomesStifferKeepsItsForces) {
 
 // The force that presses a block out is mostly taken up by damping: where a contact becomes softer,
 // it carries its last load and not the force of its spring alone. Else blocks were thrown.
-TEST(StepIsland, ContactThatBecomesSofterBearsNoMore) {
-  const double h = 0.01, soft = 1e5, pressed_in = 1e-3, deep = 5e-2, bore = 0.2;
+TEST(StepIsland, ContactThatBecomesSofterCarriesNoMore) {
+  const double h = 0.01, soft = 1e5, pressed_in = 1e-3, deep = 5e-2, carried = 0.2;
   const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 10), ground_of(30),
                                {body_of(box(Vec3::Zero(), Vec3::Ones()))}, {});
   BlockNumbers c = numbers_of(scene, 0);
@@ -259,7 +259,7 @@ TEST(StepIsland, ContactThatBecomesSofterBearsNoMore) {
   memory.gap_end = -pressed_in;
   memory.offset = deep - pressed_in;
   memory.stiffness = 30 * soft;
-  memory.normal_force = bore * 30 * soft * pressed_in;
+  memory.normal_force = carried * 30 * soft * pressed_in;
   ContactRow row;
   row.normal = Vec3::UnitZ();
   row.gap_start = -deep;
@@ -579,7 +579,7 @@ TEST(StepIsland, WhatDeepensADeepHitIsPressedOut) {
 // It is twice the stiffness for the last force at `sag`, stays while that is enough and not thirty
 // times too much, and exceeds the need of the heaviest neighbour by doubling. A contact that slips,
 // opens, or is in an island whose forces were hard to find becomes softer. Bonds keep theirs.
-TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
+TEST(StepIsland, StiffnessFollowsWhatAContactCarries) {
   const Scene scene = tower(2, 0, 30, {});
   BlockNumbers c = numbers_of(scene, 0);
   c.least_stiffness = c.stiffness / 1e5;
@@ -744,7 +744,7 @@ Body on_an_edge(double rise) {
   return body;
 }
 
-TEST(StepIsland, ABodyOfTwoPartsIsBorneByAnEdgeUnderItsSeam) {
+TEST(StepIsland, ABodyOfTwoPartsIsSupportedByAnEdgeUnderItsSeam) {
   const Polyhedron wedge =
       polyhedron({{-4, -2, 0}, {4, -2, 0}, {0, -2, 10}, {-4, 2, 0}, {4, 2, 0}, {0, 2, 10}},
                  {{0, 1, 2}, {5, 4, 3}, {1, 0, 3, 4}, {2, 1, 4, 5}, {0, 2, 5, 3}});

@@ -56,7 +56,7 @@ TEST(BlockySlope, ThrowsBackByTheRestitutionOfTheGround) {
 }
 
 // Blocks on a blocky slope see each other, too: the upper of two is pushed by none.
-TEST(BlockySlope, BearsAStack) {
+TEST(BlockySlope, CarriesAStack) {
   const SlopeFrame flat = slope_frame(0, 0);
   std::vector<Body> bodies(3);
   for (int i = 0; i < 3; ++i)
