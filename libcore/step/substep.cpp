@@ -42,15 +42,19 @@ int row_of(const ContactMemory& memory, std::span<const Contact> contacts) {
 // Where the stiffness of a contact has changed, its springs keep their forces. Overlap beyond that
 // would throw the block; it presses nothing from now on, and again when the contact is as soft as
 // before. A contact that becomes softer carries no more than it did, since the force that presses
-// overlap out of a stiff one is mostly taken up by damping.
-void keep_force(double k_n, ContactRow& row) {
-  const double share = row.last_stiffness / k_n;
-  const double pressed_in = std::max(0.0, -(row.gap_start + row.offset));
+// overlap out of a stiff one is mostly taken up by damping. In a jam, where nothing is left out
+// that could keep the normal force, the friction that it allowed is not kept: it would throw the
+// block.
+void keep_force(const BlockNumbers& c, double k_n, ContactRow& row) {
+  const double share = row.last_stiffness / k_n, offset = row.offset;
+  const double pressed_in = std::max(0.0, -(row.gap_start + offset));
   const double carried = share > 1
                              ? std::clamp(row.last_force / k_n, pressed_in, share * pressed_in)
                              : share * pressed_in;
-  row.offset = std::max(0.0, row.offset + pressed_in - carried);
-  row.shear *= share;
+  row.offset = std::max(0.0, offset + pressed_in - carried);
+  const bool is_jammed = share > 1 && row.last_force > law::heavy * c.mass * c.gravity;
+  const double kept = pressed_in + offset - row.offset;
+  row.shear *= is_jammed ? std::clamp(pressed_in > 0 ? kept / pressed_in : 1, 1.0, share) : share;
 }
 
 // Stiffness with which a contact carries its last force at an overlap of `sag` or less. It changes
@@ -328,7 +332,7 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
       std::min(scene.settings.shear_ratio * k_n, k_n / stiffest * inverse_mass / W.tangent);
   if (const double last = row.last_stiffness;
       last > 0 && (k_n > same_law * last || last > same_law * k_n))
-    keep_force(k_n, row);
+    keep_force(c, k_n, row);
   const double x = row.gap_start + row.offset;
   row.normal_damping = k_n * h * c.recovery_time;
   row.shear_damping = k_s * h * c.recovery_time;

@@ -260,12 +260,22 @@ TEST(StepIsland, ContactThatBecomesSofterCarriesNoMore) {
   memory.offset = deep - pressed_in;
   memory.stiffness = 30 * soft;
   memory.normal_force = carried * 30 * soft * pressed_in;
-  ContactRow row;
-  row.normal = Vec3::UnitZ();
-  row.gap_start = -deep;
-  inherit(memory, 0, false, Mat3::Identity(), c, row);
-  set_law(scene, c, h, {c.inverse_mass, c.inverse_mass}, 0, row);
+  memory.shear = Vec3(1e-4, 0, 0);
+  const auto begun_with = [&](const ContactMemory& of_contact, double gap) {
+    ContactRow row;
+    row.normal = Vec3::UnitZ();
+    row.gap_start = gap;
+    inherit(of_contact, 0, false, Mat3::Identity(), c, row);
+    set_law(scene, c, h, {c.inverse_mass, c.inverse_mass}, 0, row);
+    return row;
+  };
+  const ContactRow row = begun_with(memory, -deep);
   EXPECT_NEAR(-row.bias * row.normal_damping / h, memory.normal_force, 1e-9 * soft);
+  EXPECT_NEAR(row.shear.x(), 30 * memory.shear.x(), 1e-12);
+  // in a jam no overlap is left out that could keep the force; 1,400 m of shear threw a block
+  memory.offset = 0;
+  memory.normal_force = 5 * c.mass * c.gravity;
+  EXPECT_NEAR(begun_with(memory, -pressed_in).shear.x(), memory.shear.x(), 1e-12);
 }
 
 // Between the same features a gap jumps only by the bend of a turn: a jump beyond a part of the
