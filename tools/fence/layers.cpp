@@ -89,6 +89,7 @@ std::vector<VectorStyle::Class> verdict_classes() {
           {"too few arrivals", "not judged: too few arrivals", {120, 120, 120, 255}},
           {"first touches only", "not judged: first touches only", {120, 120, 120, 255}},
           {"still moving", "not judged: blocks still move", {120, 120, 120, 255}},
+          {"from downhill", "not judged: blocks from downhill", {120, 120, 120, 255}},
           {"nothing came", "not judged: nothing came", {190, 190, 190, 255}}};
 }
 

@@ -138,6 +138,10 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
       tool.warn(lines[dam.crest].line.name + ": " + std::to_string(n) +
                 " blocks that had not passed it still moved when their run ended; give talus-dda a "
                 "longer [solver] duration_s");
+    if (const int n = dam_results.back().n_from_downhill; n > 0)
+      tool.warn(lines[dam.crest].line.name + ": " + std::to_string(n) +
+                " blocks came to its crest from the side with the lower ground, which is taken as "
+                "downhill; draw its line where the ground rises towards them");
     summary += (summary.empty() ? "" : "\n") + dam_summary(dam, dam_results.back(), runs.with);
   }
   std::vector<Fence> crests;

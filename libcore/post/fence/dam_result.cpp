@@ -22,6 +22,10 @@ std::vector<FenceArrival> not_beside(const std::vector<FenceArrival>& all) {
   return out;
 }
 
+bool is_from_uphill(const FenceArrival& a, const DamCase& dam) {
+  return a.direction == -dam.uphill;
+}
+
 // The crest and its straight continuations, which part the ground in two sides.
 RecordLine continued(const RecordLine& crest) {
   constexpr double beyond = 1e5;  // farther than terrains reach [m]
@@ -56,7 +60,7 @@ std::vector<FenceArrival> passages(const FenceRun& run, const DamCase& dam) {
   const Sides sides(dam);
   std::vector<FenceArrival> out;
   for (const FenceArrival& a : passed_for_good(run.at_fence[dam.crest]))
-    if (a.direction == -dam.uphill && (!a.beside || sides.is_downhill(run.end[a.block])))
+    if (is_from_uphill(a, dam) && (!a.beside || sides.is_downhill(run.end[a.block])))
       out.push_back(a);
   return out;
 }
@@ -68,6 +72,15 @@ std::vector<FenceArrival> over_the_crest(const FenceRunGroup& group, const DamCa
       a.run = r;
       out.push_back(a);
     }
+  return out;
+}
+
+bool came(const FenceArrival& a, const DamCase& dam) { return !a.beside && is_from_uphill(a, dam); }
+
+std::vector<FenceArrival> came_to(const FenceRunGroup& group, const DamCase& dam) {
+  std::vector<FenceArrival> out;
+  for (const FenceArrival& a : arrivals_at(group, dam.arrival))
+    if (came(a, dam)) out.push_back(a);
   return out;
 }
 
@@ -113,11 +126,29 @@ int n_moving(const FenceRunGroup& group, const DamCase& dam) {
   return sum;
 }
 
+int n_from_downhill(const FenceRunGroup& group, const DamCase& dam) {
+  int sum = 0;
+  for (const FenceRun& run : group.runs)
+    for (const FenceArrival& a : run.at_fence[dam.crest].crossings)
+      sum += !a.beside && !is_from_uphill(a, dam);
+  return sum;
+}
+
+std::string downhill_text(const DamResult& r) {
+  return "not judged: blocks came to its crest from the side taken as downhill: " +
+         std::to_string(r.n_from_downhill);
+}
+
 std::string moving_text(const DamResult& r) {
   return "blocks that had not passed it still moved at the end: " + std::to_string(r.n_moving);
 }
 
 void describe_gallery(DamResult& r) {
+  if (r.n_from_downhill > 0) {
+    r.verdict = DesignVerdict::from_downhill;
+    r.text = downhill_text(r);
+    return;
+  }
   const std::string passed =
       std::to_string(r.passing.n) + " passed over it; its strength is not checked";
   if (r.arriving.n == 0 && r.n_loads == 0) {
@@ -144,6 +175,9 @@ void judge(const DamCase& dam, DamResult& r) {
   } else if (r.energy_use > 1) {
     r.verdict = DesignVerdict::does_not_meet;
     r.text = "does not hold: the energy is " + energy + capacity;
+  } else if (r.n_from_downhill > 0) {
+    r.verdict = DesignVerdict::from_downhill;
+    r.text = downhill_text(r);
   } else if (r.n_moving > 0) {
     r.verdict = DesignVerdict::still_moving;
     r.text = "not judged: " + moving_text(r);
@@ -169,7 +203,7 @@ void set_verdicts(FenceRunGroup& group, const DamCase& dam) {
     RunAtFence &before = run.at_fence[dam.arrival], &crest = run.at_fence[dam.crest];
     for (BlockVerdict& v : before.verdicts) {
       v.verdict = Verdict::not_reached;
-      if (v.arrival >= 0 && !before.arrivals[v.arrival].beside) v.verdict = Verdict::stopped;
+      if (v.arrival >= 0 && came(before.arrivals[v.arrival], dam)) v.verdict = Verdict::stopped;
     }
     for (const FenceArrival& a : passages(run, dam))
       before.verdicts[a.block].verdict =
@@ -179,9 +213,10 @@ void set_verdicts(FenceRunGroup& group, const DamCase& dam) {
 
 DamResult dam_result(const DamCase& dam, const FenceRunGroup& group) {
   DamResult r;
-  r.arriving = summarise(not_beside(arrivals_at(group, dam.arrival)), group.clusters);
+  r.arriving = summarise(came_to(group, dam), group.clusters);
   r.passing = summarise(over_the_crest(group, dam), group.clusters);
   r.n_moving = n_moving(group, dam);
+  r.n_from_downhill = n_from_downhill(group, dam);
   if (dam.is_gallery) {
     add_loads(group, dam, r);
     describe_gallery(r);

@@ -37,7 +37,8 @@ struct DamResult {
   FencePartSummary arriving;  ///< at the line before the uphill face
   FencePartSummary passing;   ///< over the crest
   int n_moving = 0;  ///< blocks that had neither passed it nor come to rest when their run ended
-  double energy_use = 0;  ///< 95th percentile of the energy over the capacity [-]; NaN: unknown
+  int n_from_downhill = 0;  ///< blocks that came to the crest first from the other side
+  double energy_use = 0;    ///< 95th percentile of the energy over the capacity [-]; NaN: unknown
   DesignVerdict verdict = DesignVerdict::nothing_came;  ///< meets: it holds
   std::string text;                                     ///< the verdict in words
   int n_loads = 0, n_hits = 0;       ///< blocks that hit the roof, and how often they did
@@ -49,9 +50,9 @@ struct DamResult {
 /// beside an end and ended on the other side, else not reached.
 void set_verdicts(FenceRunGroup& group, const DamCase& dam);
 
-/// It holds when no block passed over the crest, none of the others moves any more, and the 95th
-/// percentile of the energy of those that came is no more than the capacity. No factor and no
-/// freeboard of a code is in it. A gallery is not judged.
+/// It holds when no block passed over the crest or came to it from downhill, none of the others
+/// moves any more, and the 95th percentile of the energy of those that came is no more than the
+/// capacity. No factor and no freeboard of a code is in it. A gallery is not judged.
 [[nodiscard]] DamResult dam_result(const DamCase& dam, const FenceRunGroup& group);
 
 /// "dam road: 280 blocks of 10 runs: 251 stopped, 29 not reached; 251 came, largest energy ..."

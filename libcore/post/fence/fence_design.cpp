@@ -244,7 +244,7 @@ DesignCode design_code(const CsvTable& table) {
 const char* text(DesignVerdict verdict) {
   constexpr std::array names = {
       "meets",        "does not meet",      "energy not checked", "too few arrivals",
-      "nothing came", "first touches only", "still moving"};
+      "nothing came", "first touches only", "still moving",       "from downhill"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
@@ -266,6 +266,7 @@ std::string text(const DesignResult& r) {
       return "not judged: first touches of a standing fence are not design values; by them it " +
              needs(r);
     case DesignVerdict::still_moving:
+    case DesignVerdict::from_downhill:
       break;  // of dams alone
   }
   return "";

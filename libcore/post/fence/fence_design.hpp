@@ -60,6 +60,7 @@ enum class DesignVerdict {
   nothing_came,
   first_touches,  ///< all holds, but for touches of a built fence: not design values
   still_moving,   ///< all holds, of a dam, but blocks that had not passed it moved at the end
+  from_downhill,  ///< all holds, of a dam, but blocks came to its crest from the other side
 };
 [[nodiscard]] const char* text(DesignVerdict verdict);
 

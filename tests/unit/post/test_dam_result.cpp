@@ -74,3 +74,20 @@ TEST(DamResult, NothingIsSaidWhileBlocksThatHaveNotPassedMove) {
   EXPECT_EQ(r.n_moving, 1);
   EXPECT_EQ(r.verdict, DesignVerdict::still_moving);
 }
+
+TEST(DamResult, NothingIsSaidWhereBlocksComeToTheCrestFromDownhill) {
+  Hollow hollow;
+  RunAtFence& before = hollow.group.runs[0].at_fence[0];
+  const int up = hollow.add(false, 1, {20, 9});
+  // it goes on over the line before the uphill face
+  before.arrivals = hollow.group.runs[0].at_fence[1].crossings;
+  before.verdicts[0].arrival = 0;
+  EXPECT_EQ(hollow.verdict_of(up), Verdict::not_reached);
+  DamResult r = dam_result(hollow.dam, hollow.group);
+  EXPECT_EQ(r.arriving.n, 0);
+  EXPECT_EQ(r.n_from_downhill, 1);
+  EXPECT_EQ(r.verdict, DesignVerdict::from_downhill);
+  hollow.add(false, -1, {20, -9});
+  r = dam_result(hollow.dam, hollow.group);
+  EXPECT_EQ(r.verdict, DesignVerdict::does_not_meet);
+}
