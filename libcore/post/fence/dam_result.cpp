@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/grouped_text.hpp"
 #include "base/numbers.hpp"
@@ -60,7 +61,7 @@ std::vector<FenceArrival> passages(const FenceRun& run, const DamCase& dam) {
   const Sides sides(dam);
   std::vector<FenceArrival> out;
   for (const FenceArrival& a : passed_for_good(run.at_fence[dam.crest]))
-    if (is_from_uphill(a, dam) && (!a.beside || sides.is_downhill(run.end[a.block])))
+    if (is_from_uphill(a, dam) && (!a.beside || sides.is_downhill(run.end[a.block].head<2>())))
       out.push_back(a);
   return out;
 }
@@ -75,12 +76,36 @@ std::vector<FenceArrival> over_the_crest(const FenceRunGroup& group, const DamCa
   return out;
 }
 
-bool came(const FenceArrival& a, const DamCase& dam) { return !a.beside && is_from_uphill(a, dam); }
+// Height of the roof across from a place; beside its ends it has none.
+double roof_at(const DamCase& gallery, const Vec2& at) {
+  const std::vector<Vec3>& edge = gallery.line.points;
+  double nearest = std::numeric_limits<double>::infinity(), height = no_value;
+  for (std::size_t i = 0; i + 1 < edge.size(); ++i) {
+    const Vec2 a = edge[i].head<2>(), along = edge[i + 1].head<2>() - a;
+    const double share = (at - a).dot(along) / along.squaredNorm(), on = std::clamp(share, 0., 1.);
+    const double off = (at - a - on * along).norm();
+    if (!(off < nearest)) continue;
+    nearest = off;
+    const bool beside = (i == 0 && share < 0) || (i + 2 == edge.size() && share > 1);
+    height = beside ? no_value : edge[i].z() + on * (edge[i + 1].z() - edge[i].z());
+  }
+  return height;
+}
+
+// Rock that crossed the uphill edge of a gallery and fell back, or that lies against its uphill
+// wall, below the roof, did not come to it.
+bool came(const FenceArrival& a, const FenceRun& run, const DamCase& dam) {
+  if (a.beside || !is_from_uphill(a, dam)) return false;
+  if (!dam.is_gallery) return true;
+  const Vec3& end = run.end[a.block];
+  return a.passed_for_good &&
+         (Sides(dam).is_downhill(end.head<2>()) || !(end.z() < roof_at(dam, end.head<2>())));
+}
 
 std::vector<FenceArrival> came_to(const FenceRunGroup& group, const DamCase& dam) {
   std::vector<FenceArrival> out;
   for (const FenceArrival& a : arrivals_at(group, dam.arrival))
-    if (came(a, dam)) out.push_back(a);
+    if (came(a, group.runs[a.run], dam)) out.push_back(a);
   return out;
 }
 
@@ -203,7 +228,8 @@ void set_verdicts(FenceRunGroup& group, const DamCase& dam) {
     RunAtFence &before = run.at_fence[dam.arrival], &crest = run.at_fence[dam.crest];
     for (BlockVerdict& v : before.verdicts) {
       v.verdict = Verdict::not_reached;
-      if (v.arrival >= 0 && came(before.arrivals[v.arrival], dam)) v.verdict = Verdict::stopped;
+      if (v.arrival >= 0 && came(before.arrivals[v.arrival], run, dam))
+        v.verdict = Verdict::stopped;
     }
     for (const FenceArrival& a : passages(run, dam))
       before.verdicts[a.block].verdict =

@@ -46,8 +46,8 @@ struct DamResult {
 };
 
 /// Of each block, in place of the verdicts at the dam's first line: stopped where it came to the
-/// dam and did not pass its crest, overtopped where it did, bypassed where it came from uphill
-/// beside an end and ended on the other side, else not reached.
+/// dam, or onto the roof of the gallery, and did not pass its crest, overtopped where it did,
+/// bypassed where it came from uphill beside an end and ended on the other side, else not reached.
 void set_verdicts(FenceRunGroup& group, const DamCase& dam);
 
 /// It holds when no block passed over the crest or came to it from downhill, none of the others

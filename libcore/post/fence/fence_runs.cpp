@@ -114,7 +114,7 @@ FenceRun run_at_fences(const RunFile& run, int index, const std::vector<FenceCas
   double mass = 0, volume = 0;
   for (int b = 0; b < n_blocks(run); ++b) {
     out.weight.push_back(weight_of(run, b));
-    out.end.emplace_back(last_pose(run, b).position.head<2>());
+    out.end.emplace_back(last_pose(run, b).position);
     out.moves.push_back(fate_of(run, b, settings.rest_speed) == Fate::moving);
     mass += run.blocks.mass[b];
     volume += run.blocks.volume[b];

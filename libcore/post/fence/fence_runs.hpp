@@ -62,7 +62,7 @@ struct FenceRun {
   double run_weight = 1;             ///< weight among the runs [-]
   bool independent = false;          ///< its rocks fell one by one, each on a fence of its own
   std::vector<char> moves;           ///< at the end                                 (n_blocks)
-  std::vector<Vec2> end;             ///< where each block is then, local [m]        (n_blocks)
+  std::vector<Vec3> end;             ///< where each block is then, local [m]        (n_blocks)
   std::vector<int> world;            ///< whose fence each block met (worlds_of)     (n_blocks)
   double density = 0;                ///< of all its rock [kg/m3]
   double block_size = 0;             ///< mean of the cube roots of the volumes [m]

@@ -27,7 +27,7 @@ struct Hollow {
   int add(bool beside, int direction, const Vec2& end, bool moves = false) {
     FenceRun& run = group.runs[0];
     const int block = static_cast<int>(run.end.size());
-    run.end.push_back(end);
+    run.end.emplace_back(end.x(), end.y(), 0);
     run.moves.push_back(moves);
     run.weight.push_back(1);
     run.volume.push_back(1);
@@ -90,4 +90,30 @@ TEST(DamResult, NothingIsSaidWhereBlocksComeToTheCrestFromDownhill) {
   hollow.add(false, -1, {20, -9});
   r = dam_result(hollow.dam, hollow.group);
   EXPECT_EQ(r.verdict, DesignVerdict::does_not_meet);
+}
+
+// A roof 4 m wide on a straight wall, its edges at y = 4 and 0; rock lies on the ground 5 m below.
+TEST(DamResult, RockAgainstTheUphillWallOfAGalleryDidNotComeToIt) {
+  Hollow hollow;
+  hollow.dam.is_gallery = true;
+  hollow.dam.line = record_line("gallery.road", {{0, 0, 5}, {40, 0, 5}});
+  FenceRun& run = hollow.group.runs[0];
+  const auto at_edge = [&](const Vec3& end, bool for_good) {
+    const int block = hollow.add(true, 1, {0, 0});
+    run.end[block] = end;
+    FenceArrival a;
+    a.block = block;
+    a.direction = -1;
+    a.passed_for_good = for_good;
+    run.at_fence[0].verdicts[block].arrival = static_cast<int>(run.at_fence[0].arrivals.size());
+    run.at_fence[0].arrivals.push_back(a);
+    return block;
+  };
+  const int fell_back = at_edge({20, 4.4, 0}, false), leans = at_edge({20, 3.9, 4.2}, true),
+            rests = at_edge({20, 2, 5.4}, true), off_its_end = at_edge({41, 2, 0}, true);
+  EXPECT_EQ(hollow.verdict_of(fell_back), Verdict::not_reached);
+  EXPECT_EQ(hollow.verdict_of(leans), Verdict::not_reached);
+  EXPECT_EQ(hollow.verdict_of(rests), Verdict::stopped);
+  EXPECT_EQ(hollow.verdict_of(off_its_end), Verdict::stopped);
+  EXPECT_EQ(dam_result(hollow.dam, hollow.group).arriving.n, 2);
 }
