@@ -123,6 +123,7 @@ PairedDifference paired_difference(const RunPairs& pairs, std::span<const BlockW
                slope_of_variant = curve.slope(out.variant / n_runs);
   std::sort(amounts.begin(), amounts.end());
   std::vector<double> difference;  // of pairs with any amount
+  double largest = 0;              // of their amounts
   for (std::size_t i = 0; i < amounts.size();) {
     double of_site = 0, of_variant = 0;
     for (const int pair = amounts[i].pair; i < amounts.size() && amounts[i].pair == pair; ++i)
@@ -130,6 +131,7 @@ PairedDifference paired_difference(const RunPairs& pairs, std::span<const BlockW
     out.n_differ +=
         std::abs(of_variant - of_site) > rounding * (std::abs(of_site) + std::abs(of_variant));
     difference.push_back(slope_of_variant * of_variant - slope_of_site * of_site);
+    largest = std::fmax(largest, slope_of_variant * of_variant + slope_of_site * of_site);
   }
   out.site = curve.value(out.site / n_runs);
   out.variant = curve.value(out.variant / n_runs);
@@ -140,6 +142,8 @@ PairedDifference paired_difference(const RunPairs& pairs, std::span<const BlockW
   for (const double d : difference) mean += d / n;
   double squares = (n - static_cast<double>(difference.size())) * mean * mean;
   for (const double d : difference) squares += (d - mean) * (d - mean);
+  // differences that are all alike say nothing of their scatter
+  if (squares <= n * rounding * rounding * largest * largest) return out;
   const double half =
       student_quantile(out.n_differ - 1, 0.975) * std::sqrt(squares / (n - 1) * n) / n_runs;
   out.interval = {out.value - half, out.value + half};

@@ -36,7 +36,8 @@ struct PairedDifference {
   double site = 0, variant = 0;  ///< amount a run
   double value = 0;              ///< variant - site
   int n_differ = 0;              ///< pairs with another amount
-  Interval interval;             ///< 95 %; NaN: fewer than least_clusters pairs, or than two differ
+  Interval interval;  ///< 95 %; NaN: fewer than least_clusters pairs, or than two differ,
+                      ///< or all by the same
 };
 /// What follows from an amount a run, and its slope there.
 struct AmountCurve {

@@ -80,6 +80,22 @@ TEST(Paired, RoundingIsNoDifference) {
   EXPECT_NEAR(d.interval.high - 1, 12.7062047 * std::sqrt(60.0 / 11 / 12), 1e-5);
 }
 
+TEST(Paired, DifferencesThatAreAllAlikeGiveNoInterval) {
+  const RunPairs pairs = pairs_of(runs_of(11), runs_of(11));
+  std::vector<BlockWeight> site, variant;
+  for (int r = 0; r < 11; ++r) {
+    site.push_back({r, 0, 22.1 + r});
+    variant.push_back({r, 0, 0.1 + r});
+  }
+  PairedDifference d = paired_difference(pairs, site, variant);
+  EXPECT_NEAR(d.value, -22, 1e-12);
+  EXPECT_EQ(d.n_differ, 11);
+  EXPECT_TRUE(std::isnan(d.interval.low) && std::isnan(d.interval.high));
+  variant[4].weight += 1;
+  d = paired_difference(pairs, site, variant);
+  EXPECT_GT(d.interval.high - d.interval.low, 0.1);
+}
+
 // Risks 1 - exp(-x) of x = 0.6 and 0.2: twelve pairs, in each site 0.6 (1.2 in two of them and 0 in
 // two), of which six lose all. The interval is that of e^-0.2 v - e^-0.6 s over the pairs.
 TEST(Paired, OfACurveIsTheDifferenceOfWhatIsPrinted) {
