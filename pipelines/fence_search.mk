@@ -27,7 +27,8 @@ $(OUT)/search/screen.json: $(OUT)/runs/ensemble.json $(STAGES)/search.txt $(STAG
 	@mkdir -p $(OUT)/search
 	$(Q)$(search_tool) -o $(OUT)/search/screen.gpkg --json $@ --proposals $(OUT)/search/new
 	@cd $(OUT)/search && for old in *-*.toml; do [ -f new/$$old ] || rm -f $$old; done && \
-	  for new in new/*.toml; do cmp -s $$new $${new#new/} || cp $$new .; done && rm -r new
+	  for new in new/*.toml; do [ ! -f $$new ] || cmp -s $$new $${new#new/} || cp $$new .; done && \
+	  rm -r new
 	$(call made,talus-fence-search)
 proposals = $(patsubst $(OUT)/search/%.toml,%,$(wildcard $(OUT)/search/*-*.toml))
 verify_all = $(if $(filter 0,$(VERIFY_RUNS)),,$(foreach name,$(proposals),$(Q)$(call \

@@ -28,5 +28,11 @@ made s -j2 fence-search
 if cmp -s before.toml s/out/search/house-1.toml; then
   [ -z "$(find s/out/verify -name "*.h5" -newer mark)" ] || fail "the same fence stands in new runs"
 fi
+
+# where no fence is enough there is no proposal, and the one before goes
+sed -i 's/^protect/max_length_m = 5\nprotect/' s/site.toml
+made s -j2 fence-search VERIFY_RUNS=0
+prints 'house: house is hit in 10 of 10 runs; no fence of this kind'
+[ ! -e s/out/search/house-1.toml ] && [ ! -e s/out/search/new ] || fail "left: $(find s/out/search)"
 made s clean
 [ ! -e s/out ] || fail "left: $(find s/out)"
