@@ -292,6 +292,9 @@ void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
     search.runs.density = rock.mass / rock.volume;
     search.runs.mean_block_size = rock.sizes / static_cast<double>(rock.n);
     if (!classes.empty()) search.classes = rates;
+    for (const BlockOnObject& block : search.runs.on_object)
+      search.hits_a_run += runs.members[block.of.run].run_weight;
+    search.hits_a_run /= search.runs.n_runs;
     set_sides(search.lines, runs.trn());
   }
 }
@@ -306,7 +309,7 @@ VerifiedFence read_verified(RunInputs& runs, const std::string& name,
     seeds.insert(runs.members[r].info.seed);
   }
   const std::size_t before = runs.members.size();
-  std::vector<double> hits;  // on the object, by run
+  std::vector<double> n_hits, weight;  // on the object, by run
   const auto take = [&](RunFile& run, int index) {
     const RunMember& member = runs.members[static_cast<std::size_t>(index)];
     const std::string file = where_of(member);
@@ -326,9 +329,13 @@ VerifiedFence read_verified(RunInputs& runs, const std::string& name,
                          "run talus-dda with --add of the proposal's file, and law \"talus\"");
     }
     const std::vector<double> touched = touches_of(run, object_in(run, search.object, file));
-    hits.push_back(0);
-    for (int block = 0; block < n_blocks(run); ++block)
-      if (std::isfinite(touched[block])) hits.back() += weight_of(run, block);
+    n_hits.push_back(0);
+    weight.push_back(0);
+    for (int block = 0; block < n_blocks(run); ++block) {
+      if (!std::isfinite(touched[block])) continue;
+      ++n_hits.back();
+      weight.back() += weight_of(run, block);
+    }
   };
   RunSet set = runs.set_of(paths, "verified." + name);
   weigh_as_classes(set, search.classes.size());
@@ -342,8 +349,9 @@ VerifiedFence read_verified(RunInputs& runs, const std::string& name,
   for (int r = 0; r < out.n_runs; ++r) {
     members[r].weight *= factor[r];
     members[r].run_weight *= factor[r];
-    out.hits_a_run += factor[r] * hits[r] / out.n_runs;
-    if (hits[r] > 0) hit.push_back({r, 0, hits[r]});
+    out.hits_a_run += members[r].run_weight * n_hits[r] / out.n_runs;
+    out.weight_a_run += factor[r] * weight[r] / out.n_runs;
+    if (weight[r] > 0) hit.push_back({r, 0, weight[r]});
   }
   const ShareBasis basis = share_basis(clusters_of(members), runs.last_failed_share());
   out.residual = share_of_runs(basis, hit);

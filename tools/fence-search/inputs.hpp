@@ -23,6 +23,7 @@ struct SearchCase {
   double step = 0;  ///< of the candidates [m]
   std::vector<SearchLine> lines;
   SearchRuns runs;
+  double hits_a_run = 0;                       ///< of the object, runs by their weights
   std::vector<HazardRuns> classes;             ///< frequencies; empty: none
   std::vector<std::vector<double>> on_object;  ///< time of the first touch, by run and block [s]
 };
@@ -41,9 +42,10 @@ void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
 /// Hits of an object behind a built fence.
 struct VerifiedFence {
   int n_runs = 0;
-  double residual = 0;  ///< share of runs with a block on the object
-  Interval interval;    ///< 95 %
-  double hits_a_run = 0;
+  double residual = 0;      ///< share of runs with a block on the object
+  Interval interval;        ///< 95 %
+  double hits_a_run = 0;    ///< runs by their weights
+  double weight_a_run = 0;  ///< of the blocks that hit
 };
 /// Reads runs in which `fences` were built, by their names; of several classes those of class C are
 /// of case C. Throws InputError where the fences were not built there, for runs that are

@@ -41,7 +41,10 @@ int n_runs_of(const std::vector<BlockWeight>& blocks) {
   for (const BlockWeight& block : blocks) runs.insert(block.run);
   return static_cast<int>(runs.size());
 }
-double hits_a_run(const SearchRuns& runs) { return weight_on_object(runs) / runs.n_runs; }
+// Share of the hits, by their weight, that reach the object behind a built fence.
+double let_through(const VerifiedFence& verified, const SearchRuns& runs) {
+  return verified.weight_a_run * runs.n_runs / weight_on_object(runs);
+}
 
 // "60 m long, 4 m high, 500 kJ"; of two both.
 std::string size_text(const FenceOption& option) {
@@ -151,13 +154,12 @@ Json proposal_json(const SearchCase& search, const Proposal& proposal, const Vec
   json["lines"] = lines;
   json["verified"] = Json();
   if (const auto& verified = proposal.verified)
-    json["verified"] = {
-        {"n_runs", verified->n_runs},
-        {"residual_run_share", verified->residual},
-        {"residual_interval", interval_json(verified->interval)},
-        {"hits_a_run", verified->hits_a_run},
-        {"stopped_share", number_or_null(1 - verified->hits_a_run / hits_a_run(search.runs))},
-        {"comparison", comparison_of(proposal)}};
+    json["verified"] = {{"n_runs", verified->n_runs},
+                        {"residual_run_share", verified->residual},
+                        {"residual_interval", interval_json(verified->interval)},
+                        {"hits_a_run", verified->hits_a_run},
+                        {"stopped_share", number_or_null(1 - let_through(*verified, search.runs))},
+                        {"comparison", comparison_of(proposal)}};
   return json;
 }
 
@@ -349,7 +351,7 @@ Json search_json(const SearchCase& search, const SearchAnswer& answer, const Vec
                {"n_runs_hit", n_runs_of(now)},
                {"run_share", share_of_runs(runs.basis, now)},
                {"run_share_interval", interval_json(interval)},
-               {"hits_a_run", hits_a_run(runs)},
+               {"hits_a_run", search.hits_a_run},
                {"share_wanted", search.what.share},
                {"code", search.code.file},
                {"code_sha256", search.code_sha256},
@@ -454,7 +456,7 @@ std::string search_chart(const SearchCase& search, const SearchAnswer& answer) {
     predicted.y.push_back(100 * (1 - proposal.option.stopped));
     if (!proposal.verified) continue;
     verified.x.push_back(proposal.option.cost);
-    verified.y.push_back(100 * proposal.verified->hits_a_run / hits_a_run(search.runs));
+    verified.y.push_back(100 * let_through(*proposal.verified, search.runs));
   }
   for (const ChartSeries& series : {all, curve, predicted, verified})
     if (!series.x.empty()) chart.series.push_back(series);

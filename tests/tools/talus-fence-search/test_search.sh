@@ -73,6 +73,20 @@ assert abs(s['run_share'] - 0.2) < 1e-12, s['run_share']
 assert abs(s['hit_per_a'][0] - 0.01) < 1e-12 and abs(s['hits_a_run'] - 0.6) < 1e-12, s
 PY
 
+# rocks weigh as much as they fall a year; their hits are counted, as talus-trace counts them
+sed -e 's/^\[blocks.a\]/[rockfall.a]\nrocks = 2\nfrequency_per_a = 0.3/' -e '/^spin_rad_s/d' classes.toml |
+  sed '/^\[hazard.class/,/^frequency_per_a/d; s/^\[hazard\]/&\n[hazard.class.all]/' >rocks.toml
+expect 0 talus-blocks rocks.toml --trn slope.tif -o rocks.h5 -q --no-db
+expect 0 talus-dda rocks.toml --trn slope.tif --blocks rocks.h5 -o rocks_1.h5 --no-db
+expect 0 talus-trace rocks.toml rocks_1.h5 --trn slope.tif -o trace.gpkg --json trace.json --no-db
+expect 0 talus-fence-search rocks.toml rocks_1.h5 --trn slope.tif --no-db -o rocks.gpkg --json rocks.json --no-refine
+python3 - <<'PY' || fail 'hits are not counted'
+import json
+traced, = json.load(open('trace.json'))['objects']
+s = json.load(open('rocks.json'))['searches'][0]
+assert s['hits_a_run'] == traced['hits_a_run'] == 6, (s['hits_a_run'], traced['hits_a_run'])
+PY
+
 # a built fence is reported
 expect 0 search other_101.h5 other_102.h5 -o standing.gpkg
 says 'fences stood in the runs: house-1'
