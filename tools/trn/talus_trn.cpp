@@ -11,6 +11,7 @@
 #include "import/dem_gdal.hpp"
 #include "import/import_inputs_gdal.hpp"
 #include "import/tin_files_gdal.hpp"
+#include "io/burnt_dams_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/hillshade_gdal.hpp"
 #include "io/judged_heights_gdal.hpp"
@@ -524,8 +525,20 @@ Json as_json(const talus::BuiltDam& built, const Trn& trn) {
   return json;
 }
 
+// Dams would stand on the dams that a terrain file has in its ground.
+void check_has_no_dams(const talus::Site& site, const std::string& source) {
+  const bool builds = std::any_of(site.dams.begin(), site.dams.end(),
+                                  [](const talus::DamSettings& dam) { return dam.active; });
+  if (builds && !talus::is_tin_file(source) &&
+      !talus::tag_of_judged(source, talus::dams_tag).empty())
+    throw InputError({source}, "has dams in its ground, on which those of the site would be built",
+                     "give the elevation model or the contours that it was made from");
+}
+
 // After the doubts of the ground itself. Returns a sentence each.
-std::string add_dams(Tool& tool, const talus::Site& site, Trn& trn, Json& report) {
+std::string add_dams(Tool& tool, const talus::Site& site, const std::string& source, Trn& trn,
+                     Json& report) {
+  check_has_no_dams(site, source);
   std::string sentences;
   Json list = Json::array();
   for (const talus::BuiltDam& built : talus::build_dams(tool, site, trn)) {
@@ -558,7 +571,7 @@ int main(int argc, char** argv) {
     tool.content_read("terrain", talus::trn_digest(ground.trn));
     Json report = report_on(tool, o, ground);
     const std::string dams =
-        site.file().empty() ? "" : add_dams(tool, site.load(), ground.trn, report);
+        site.file().empty() ? "" : add_dams(tool, site.load(), o.source, ground.trn, report);
     talus::write_trn(tool.stage(o.out), ground.trn, {{{"RUN_ID", tool.run_id()}}, ground.accepted});
     if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), ground.trn);
     tool.report(o.report, report);

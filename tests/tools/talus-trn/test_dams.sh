@@ -53,6 +53,11 @@ PY
 expect 0 talus-trn dem.tif site.toml --set dam.road.active=false -o none.tif --cell-size-m 1
 [ "$(net none.tif)" = "0.000000000 0" ] || fail "a dam that is not built moved nodes"
 
+# none is built on a terrain that has it already; what is not built changes nothing there
+expect 1 talus-trn dam.tif site.toml -o no.tif
+says 'has dams in its ground, on which those of the site would be built'
+expect 0 talus-trn dam.tif site.toml --set dam.road.active=false -o same.tif
+
 # cells too wide for the crest: how much of it they lose
 expect 0 talus-trn dem.tif site.toml -o wide.tif --doubts wide.gpkg
 says 'dam.road.crest_width_m, x 650130, y 5200110: 2 m on cells of 5 m: the terrain lies up to 2.52 m below the crest'
