@@ -102,6 +102,17 @@ void write_change(Tool& tool, RunInputs& inputs, const std::string& path, const 
             tags);
 }
 
+void warn_of_dam(Tool& tool, const std::string& name, const DamResult& result) {
+  if (result.n_moving > 0)
+    tool.warn(name + ": " + std::to_string(result.n_moving) +
+              " blocks that had not passed it still moved when their run ended; give talus-dda a "
+              "longer [solver] duration_s");
+  if (result.n_from_downhill > 0)
+    tool.warn(name + ": " + std::to_string(result.n_from_downhill) +
+              " blocks came to its crest from the side with the lower ground, which is taken as "
+              "downhill; draw its line where the ground rises towards them");
+}
+
 void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inputs) {
   const Site& site = site_options.load();
   const FenceCode code = read_fence_code(o.code);
@@ -134,14 +145,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
     set_verdicts(runs.with, dam);
     dam_results.push_back(dam_result(dam, runs.with));
     dam_list.push_back(dam_json(dam, dam_results.back(), runs.with, lines[dam.crest].fence, basis));
-    if (const int n = dam_results.back().n_moving; n > 0)
-      tool.warn(lines[dam.crest].line.name + ": " + std::to_string(n) +
-                " blocks that had not passed it still moved when their run ended; give talus-dda a "
-                "longer [solver] duration_s");
-    if (const int n = dam_results.back().n_from_downhill; n > 0)
-      tool.warn(lines[dam.crest].line.name + ": " + std::to_string(n) +
-                " blocks came to its crest from the side with the lower ground, which is taken as "
-                "downhill; draw its line where the ground rises towards them");
+    warn_of_dam(tool, lines[dam.crest].line.name, dam_results.back());
     summary += (summary.empty() ? "" : "\n") + dam_summary(dam, dam_results.back(), runs.with);
   }
   std::vector<Fence> crests;
