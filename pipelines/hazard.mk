@@ -1,5 +1,5 @@
 # Runs and frequencies -> return periods and hazard classes (GeoTIFF, GeoPackage).
-# in: [hazard], [hazard.class.*], HAZARD_FLAGS (e.g. --cell-size-m 10)
+# in: [hazard], [hazard.class.*], HAZARD_FLAGS (e.g. --memory-mb 2000)
 # out: $(OUT)/hazard/*.tif, .qml, .png, .pdf, hazard.gpkg, filing.gpkg, $(OUT)/hazard.json
 # With several classes the runs of class C are those of [variant.C]. Without frequencies
 # classes are not made, and talus-hazard says why.

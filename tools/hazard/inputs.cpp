@@ -36,22 +36,30 @@ void take_rows_of_parts(const RunInputs& runs, std::size_t first_part, const Map
   }
 }
 
+// The passages that rows in a tile may be of.
+MapTile wider(const MapTile& tile, const HazardInputs& inputs) {
+  const std::uint64_t margin = static_cast<std::uint64_t>(inputs.beside) *
+                               (static_cast<std::uint64_t>(inputs.map.grid.n_cols) + 1);
+  const std::uint64_t first = tile.first, end = tile.end + margin;
+  return {static_cast<std::uint32_t>(first - std::min(first, margin)),
+          static_cast<std::uint32_t>(std::min<std::uint64_t>(end, MapTile{}.end))};
+}
+
 }  // namespace
 
 HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<HazardClass>& classes,
-                                const Recipe& recipe, double cell_size_m, std::uint64_t most_rows) {
+                                const Recipe& recipe, std::uint64_t most_rows) {
   HazardInputs out;
   out.sources.recipe = recipe;
   out.sources.has_frequencies = !classes.empty();
-  bool are_too_many = false;
-  const auto count = [&](const std::vector<EventRow>& rows) {
-    for (const EventRow& row : rows) ++out.rows_of_cell[row.cell];
-    out.n_rows += rows.size();
-    are_too_many = are_too_many || out.n_rows > most_rows;
-    if (are_too_many)
-      std::vector<EventRow>().swap(out.rows);
-    else
-      out.rows.insert(out.rows.end(), rows.begin(), rows.end());
+  const auto count = [&](const std::vector<MapRow>& from, const RunBlocks& blocks, int index) {
+    const RunMember& member = runs.members[static_cast<std::size_t>(index)];
+    out.beside = std::max(out.beside, cells_beside(out.map.grid, blocks, recipe, member));
+    event_rows(from, out.map.grid, blocks, recipe, member, index, [&](const EventRow& row) {
+      ++out.rows_of_cell[row.cell];
+      if (++out.n_rows <= most_rows) out.rows.push_back(row);
+    });
+    if (out.n_rows > most_rows) std::vector<EventRow>().swap(out.rows);
   };
   for (const RunSet& set : runs.of_classes(classes)) {
     const HazardClass kind = class_at(classes, out.sources.classes.size());
@@ -63,18 +71,13 @@ HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<HazardClass>&
         throw InputError({where_of(member)}, "holds no passages",
                          "set [output] passages = true and run talus-dda again");
       if (out.rows_of_cell.empty()) {
-        out.map = map_grid(run.grid, cell_size_m, "--cell-size-m");
+        out.map = map_grid(run.grid, 0, "");
         out.rows_of_cell.assign(static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols,
                                 0);
       }
-      count(event_rows(map_rows(run.passages, run.grid, out.map, run.blocks.weight), run.blocks,
-                       recipe, member, index));
+      count(map_rows(run.passages, run.grid, out.map, run.blocks.weight), run.blocks, index);
     });
-    take_rows_of_parts(
-        runs, first_part, out.map, {}, most_rows,
-        [&](const std::vector<MapRow>& rows, const RunBlocks& blocks, int run) {
-          count(event_rows(rows, blocks, recipe, runs.members[static_cast<std::size_t>(run)], run));
-        });
+    take_rows_of_parts(runs, first_part, out.map, {}, most_rows, count);
     out.sources.classes.push_back(hazard_runs(kind, runs.members, first, runs.last_failed_share()));
   }
   return out;
@@ -90,14 +93,17 @@ std::vector<MapLayer> read_hazard_layers(RunInputs& runs, HazardInputs& inputs,
   for (const MapTile& tile : tiles_of(inputs.rows_of_cell, most_rows)) {
     std::vector<EventRow> rows;
     const auto add = [&](const std::vector<MapRow>& from, const RunBlocks& blocks, int run) {
-      const std::vector<EventRow> made = event_rows(
-          from, blocks, inputs.sources.recipe, runs.members[static_cast<std::size_t>(run)], run);
-      rows.insert(rows.end(), made.begin(), made.end());
+      event_rows(from, inputs.map.grid, blocks, inputs.sources.recipe,
+                 runs.members[static_cast<std::size_t>(run)], run, [&](const EventRow& row) {
+                   if (row.cell >= tile.first && row.cell < tile.end) rows.push_back(row);
+                 });
     };
+    const MapTile around = wider(tile, inputs);
     runs.read_again(only_passages, [&](RunFile& run, int index) {
-      add(map_rows(run.passages, run.grid, inputs.map, run.blocks.weight, tile), run.blocks, index);
+      add(map_rows(run.passages, run.grid, inputs.map, run.blocks.weight, around), run.blocks,
+          index);
     });
-    take_rows_of_parts(runs, 0, inputs.map, tile, most_rows, add);
+    take_rows_of_parts(runs, 0, inputs.map, around, most_rows, add);
     sort_events(rows);
     std::vector<MapLayer> of_tile = hazard_layers(inputs.sources, rows);
     if (layers.empty())

@@ -14,15 +14,15 @@ namespace talus {
 /// All that the runs give, once they are read; rows as long as they are few enough.
 struct HazardInputs {
   HazardSources sources;
-  MapGrid map;
+  MapGrid map;                              ///< as recorded
   std::vector<std::uint32_t> rows_of_cell;  ///< of the map
   std::uint64_t n_rows = 0;
+  int beside = 0;              ///< cells between a passage and its rows, at most
   std::vector<EventRow> rows;  ///< empty when they are more than `most_rows`
 };
 [[nodiscard]] HazardInputs read_hazard_inputs(RunInputs& runs,
                                               const std::vector<HazardClass>& classes,
-                                              const Recipe& recipe, double cell_size_m,
-                                              std::uint64_t most_rows);
+                                              const Recipe& recipe, std::uint64_t most_rows);
 
 /// The layers, tile by tile where the rows are too many.
 [[nodiscard]] std::vector<MapLayer> read_hazard_layers(RunInputs& runs, HazardInputs& inputs,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include "base/memory.hpp"
 #include "base/text.hpp"
@@ -27,7 +26,6 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string folder, json;
-  double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   PageOptions pages;
   const Tool* tool = nullptr;
 
@@ -41,9 +39,6 @@ struct Options {
 
 void declare(Tool& tool, Options& o) {
   tool.output_folder("-o,--out", o.folder, "folder for the maps").required();
-  tool.option("--cell-size-m", o.cell_size_m,
-              "cell of the maps, a whole multiple of the recorded one [m]; nan: as recorded")
-      .check(number_between(0, 1e6, true));
   add_pages_option(tool, o.pages);
   tool.json_output(o.json);
   o.tool = &tool;
@@ -84,12 +79,28 @@ std::string run_words(const HazardSources& sources) {
   return out;
 }
 
+bool is_of_rocks(const HazardSources& sources) {
+  return std::any_of(sources.classes.begin(), sources.classes.end(),
+                     [](const HazardRuns& runs) { return runs.kind.of_rocks; });
+}
+
+// What a rock may hit, of which its frequency is.
+std::string width_words(const Recipe& recipe, double cell_size) {
+  if (recipe.width > cell_size)
+    return "rocks one by one: frequencies of what is " + text(recipe.width, 3) +
+           " m wide across their paths";
+  return "rocks one by one: frequencies of a cell of " + text(cell_size, 3) +
+         " m; other cells give others";
+}
+
 // Notes of every map below its picture, and in its tags.
-std::vector<std::string> notes_of(const Site& site, const HazardSources& sources) {
+std::vector<std::string> notes_of(const Site& site, const HazardSources& sources,
+                                  double cell_size) {
   std::vector<std::string> notes{site.info.name + ": " + run_words(sources) + "; talus " +
                                  build_version};
   if (!sources.has_frequencies) return notes;
   notes.push_back("frequencies: " + frequency_words(sources));
+  if (is_of_rocks(sources)) notes.push_back(width_words(sources.recipe, cell_size));
   notes.push_back(elsewhere_words(largest_rate_elsewhere(sources.classes)));
   notes.push_back(recipe_words(sources.recipe));
   return notes;
@@ -220,7 +231,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   check_exposure(site, recipe, classes);
   const Trn& trn = runs.trn();
   check_filing(site, recipe, trn.crs_wkt);
-  HazardInputs inputs = read_hazard_inputs(runs, classes, recipe, o.cell_size_m, o.most_rows());
+  HazardInputs inputs = read_hazard_inputs(runs, classes, recipe, o.most_rows());
   const std::vector<MapLayer> layers = read_hazard_layers(runs, inputs, o.most_rows());
   const HazardSources& sources = inputs.sources;
   if (inputs.n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
@@ -239,8 +250,8 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
     warn_of_elsewhere(tool, sources);
   const std::string remark = runs.remark();
   const MapTags tags = tags_of(tool, runs, sources, remark);
-  const std::vector<std::string> notes = notes_of(site, sources);
   const PassageGrid& grid = inputs.map.grid;
+  const std::vector<std::string> notes = notes_of(site, sources, grid.cell_size);
   const MapFrame frame = map_frame(runs, grid, o.pages, layers[0].cell);
   const MapLayer* const certainty = layer_named(layers, certainty_layer);
   Json result = {{"run_id", tool.run_id()},

@@ -1,10 +1,14 @@
 // libcore/post/hazard/event_rows.hpp
 // Passages as hazard classes count them.
 // in:    passages of a run by cell (post/maps/map_rows.hpp), its blocks, a recipe
+//        How often a rock hits a cell depends on the size of cells, which says nothing of a hazard.
+//        Recipes therefore give the width of what is hit: a rock hits all that is so wide and that
+//        its path crosses. A mass is as wide as it is.
 // out:   rows of 32 bytes, by cell, then run
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "ensemble/run_set.hpp"
@@ -21,12 +25,17 @@ struct EventRow {
   double weight = 1;    ///< of the block, times that of its run
 };
 
-/// Of the passages of `run`, which has the place `index` among all. Where it released more than the
-/// recipe's volume of a mass, a block that is not alone in a cell has at least the intensity of a
-/// mass; rocks that moved as if they were alone are none.
-[[nodiscard]] std::vector<EventRow> event_rows(const std::vector<MapRow>& rows,
-                                               const RunBlocks& blocks, const Recipe& recipe,
-                                               const RunMember& run, int index);
+using TakeEvent = std::function<void(const EventRow&)>;
+/// Calls take(row) for the passages of `run`, which has the place `index` among all. Where it
+/// released more than the recipe's volume of a mass, a block that is not alone in a cell has at
+/// least the intensity of a mass; rocks that moved as if they were alone are none. Where a block is
+/// an event of its own, it has a row in all cells within half of the recipe's width across its
+/// heading, weighed by the probability to hit what is so wide and centred there.
+void event_rows(const std::vector<MapRow>& rows, const PassageGrid& grid, const RunBlocks& blocks,
+                const Recipe& recipe, const RunMember& run, int index, const TakeEvent& take);
+/// How many cells beside a passage its rows may be.
+[[nodiscard]] int cells_beside(const PassageGrid& grid, const RunBlocks& blocks,
+                               const Recipe& recipe, const RunMember& run);
 
 /// By cell, run, then all else, so that the rows alone say their order.
 void sort_events(std::vector<EventRow>& rows);

@@ -81,10 +81,9 @@ HazardRuns hazard_runs(const HazardClass& kind, std::span<const RunMember> membe
   HazardRuns runs{kind, {}, first, static_cast<int>(own.size())};
   const auto first_of_several =
       std::find_if(own.begin(), own.end(), [](const RunMember& run) { return run.n_blocks > 1; });
-  for (const RunMember& run : own)
-    check_run(kind, run, first_of_several == own.end() ? run : *first_of_several);
-  runs.kind.of_rocks = kind.kind == FrequencyKind::of_weights ||
-                       (first_of_several != own.end() && first_of_several->info.independent);
+  const RunMember& first_run = first_of_several == own.end() ? own.front() : *first_of_several;
+  for (const RunMember& run : own) check_run(kind, run, first_run);
+  runs.kind.of_rocks = kind.kind == FrequencyKind::of_weights || first_run.info.independent;
   runs.basis = share_basis(clusters_of(own), failed_share);
   if (kind.kind == FrequencyKind::of_weights) {
     const double all = runs.basis.over.whole / runs.n;

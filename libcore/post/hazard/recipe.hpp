@@ -55,6 +55,7 @@ struct Recipe {
   double alone_s = 3;      ///< a block is alone with no other in the cell within so long [s]
   int mass_intensity = 0;  ///< that a cell reached by a mass has at least, from 0
   double min_area = 0;     ///< of a polygon that is filed; 0: none [m2]
+  double width = 0;        ///< of what rocks one by one may hit, across their path; 0: a cell [m]
   /// Of a recipe of risk: annual risk of the person most at risk, ascending [1/a].
   std::vector<double> risk_limits;
   /// Indices into `classes`: below the first limit, from each on                   (n_limits + 1)

@@ -17,10 +17,10 @@ class RecipeReader {
   RecipeReader(const toml::table& root, const std::string& path) : root_(root), path_(path) {}
 
   Recipe read() {
-    check_keys(
-        root_, "",
-        {"name", "edition", "source", "intensity", "return_period_a", "probability", "in_years",
-         "matrix", "numbers", "split", "beyond", "risk", "mass", "min_area_m2", "class"});
+    check_keys(root_, "",
+               {"name", "edition", "source", "intensity", "return_period_a", "probability",
+                "in_years", "matrix", "numbers", "split", "beyond", "risk", "mass", "min_area_m2",
+                "width_m", "class"});
     recipe_.name = word(root_, "name", "name");
     recipe_.edition = word(root_, "edition", "edition");
     read_intensity();
@@ -66,6 +66,11 @@ class RecipeReader {
     if (!node.is_number() || !value || !std::isfinite(*value))
       refuse(&node, item, "is not a number");
     return *value;
+  }
+  double above_zero(const char* key) const {
+    const double value = number(*root_.get(key), key);
+    if (!(value > 0)) refuse(root_.get(key), key, "is not above 0");
+    return value;
   }
   const toml::array& list(const toml::node& node, const std::string& item, std::size_t n) const {
     if (!node.is_array()) refuse(&node, item, "is not a list");
@@ -116,9 +121,8 @@ class RecipeReader {
     recipe_.side = side == "b";
     if (root_.contains("beyond")) read_beyond();
     if (root_.contains("mass")) read_mass();
-    if (!root_.contains("min_area_m2")) return;
-    recipe_.min_area = number(*root_.get("min_area_m2"), "min_area_m2");
-    if (!(recipe_.min_area > 0)) refuse(root_.get("min_area_m2"), "min_area_m2", "is not above 0");
+    if (root_.contains("min_area_m2")) recipe_.min_area = above_zero("min_area_m2");
+    if (root_.contains("width_m")) recipe_.width = above_zero("width_m");
   }
 
   // The rate of events at which one comes within `years` with the probability p is
@@ -157,7 +161,7 @@ class RecipeReader {
 
   void read_risk() {
     refuse_beside("risk", {"return_period_a", "probability", "in_years", "matrix", "numbers",
-                           "split", "beyond", "mass"});
+                           "split", "beyond", "mass", "width_m"});
     const toml::table& table = section(root_, "risk", "risk");
     check_keys(table, "risk.", {"limits_per_a", "classes"});
     if (recipe_.by == IntensityBy::translational_energy)
@@ -209,7 +213,7 @@ class RecipeReader {
   void read_sources() {
     static const std::vector<std::string> items = {"return_period_a", "probability", "matrix",
                                                    "intensity",       "risk",        "mass",
-                                                   "min_area_m2",     "class"};
+                                                   "min_area_m2",     "width_m",     "class"};
     const toml::node& node = needed(root_, "source", "source");
     if (!node.is_array() || !node.as_array()->is_array_of_tables())
       refuse(&node, "source", "is not a list of sections",

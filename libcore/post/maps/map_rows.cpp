@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
@@ -65,6 +66,11 @@ MapGrid with_room(MapGrid map) {
 }
 
 }  // namespace
+
+double cell_width_across(double heading) {
+  if (std::isnan(heading)) return 4 / std::numbers::pi;
+  return std::abs(std::cos(heading)) + std::abs(std::sin(heading));
+}
 
 MapGrid map_grid(const PassageGrid& recorded, double cell_size, const std::string& item) {
   if (std::isnan(cell_size) || cell_size == 0) return with_room({recorded, 1});

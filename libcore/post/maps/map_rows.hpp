@@ -27,6 +27,9 @@ struct MapRow {
   float heading = 0;       ///< of the centroid when it came, from x to y [rad]; NaN: it was at rest
 };
 
+/// Width of a cell seen across a heading, in cell sizes; NaN: the mean over all directions.
+[[nodiscard]] double cell_width_across(double heading);
+
 /// Cells made of `factor` x `factor` cells of `recorded`, from the same north-west corner.
 struct MapGrid {
   PassageGrid grid;

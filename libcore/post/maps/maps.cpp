@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 
 #include "base/error.hpp"
@@ -130,13 +129,6 @@ double take_blocks(std::span<const MapRow> rows, const ShareBasis& basis, const 
 }
 bool all(const MapRow&) { return true; }
 
-// Width of a cell seen across a heading, in cell sizes; the mean over all directions for a block
-// that was at rest.
-double width_across(double heading) {
-  if (std::isnan(heading)) return 4 / std::numbers::pi;
-  return std::abs(std::cos(heading)) + std::abs(std::sin(heading));
-}
-
 std::vector<MapBand> empty_reach_bands(std::size_t n) {
   return {
       band("n_pass", "1", "number of blocks of all runs that crossed the cell, each once", n, true),
@@ -202,7 +194,7 @@ MapLayer reach_layer(const CellRows& cells, double cell_size, const ShareBasis& 
     for (std::size_t k = 0; k < rows.size(); ++k) {
       w += rows[k].weight;
       w_sq += static_cast<double>(rows[k].weight) * rows[k].weight;
-      per_m += 1 / (width_across(rows[k].heading) * cell_size);
+      per_m += 1 / (cell_width_across(rows[k].heading) * cell_size);
     }
     const double share = take_blocks(rows, basis, all, blocks);
     const Interval interval = share_interval(basis, blocks, share);

@@ -32,7 +32,8 @@ value=$(gdallocationinfo -valonly -b 1 localized/probability.tif 10 10)
 [ "$(echo "$value" | cut -c1-6)" = 0.1000 ] || [ "$(echo "$value" | cut -c1-3)" = 0.1 ] || fail "probability $value"
 mkdir weighed
 run-probe weighed 10 blocks=2 weight=0.01
-site '[hazard.class.V1]' '[rockfall.cliff]' 'frequency_per_a = 0.02'
+sed 's/^width_m = 10/width_m = 5/' "$source_dir/share/hazard/switzerland_ti.toml" >narrow.toml  # one lane
+site '[hazard]' 'recipe = "narrow.toml"' '[hazard.class.V1]' '[rockfall.cliff]' 'frequency_per_a = 0.02'
 expect 0 talus-hazard bad.toml weighed/run_*.h5 --trn weighed/slope.tif -o weights
 value=$(gdallocationinfo -valonly -b 1 weights/return_period_0kJ.tif 10 10)
 [ "$(echo "$value" | cut -c1-3)" = 100 ] || fail "return period of a block of 0.01 a year: $value"

@@ -3,9 +3,12 @@
 mkdir points
 run-probe . 12 blocks=3 independent=1 objects=watched
 run-probe points 12 blocks=3 independent=1 weight=0.01 objects=watched
+# narrower than the lanes of the boxes
+sed 's/^width_m = 10/width_m = 5/' "$source_dir/share/hazard/switzerland_ti.toml" | tee points/narrow.toml >narrow.toml
+printf '\n[hazard]\nrecipe = "narrow.toml"\n' | tee -a points/site.toml >>site.toml
 cp site.toml plain.toml
-printf '\n[hazard.class.V1]\nfrequency_per_a = 0.03\n' >>site.toml
-printf '\n[hazard.class.V1]\n[rockfall.cliff]\nfrequency_per_a = 0.03\n' >>points/site.toml
+printf '[hazard.class.V1]\nfrequency_per_a = 0.03\n' >>site.toml
+printf '[hazard.class.V1]\n[rockfall.cliff]\nfrequency_per_a = 0.03\n' >>points/site.toml
 expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o class --json class.json
 expect 0 talus-hazard points/site.toml points/run_*.h5 --trn points/slope.tif -o weights --json weights.json
 # same_maps FOLDER FOLDER: all values; their tags name other runs
@@ -20,6 +23,7 @@ for word in '"event": "rock"' '"frequency_per_a": 0.03'; do
   grep -q "$word" class.json && grep -q "$word" weights.json || fail "no $word in the results"
 done
 gdalinfo class/class.tif | grep -q 'FREQUENCIES=V1: 0.03 rocks a year' || fail 'the tags do not say what is counted'
+grep -q 'rocks one by one: frequencies of what is 5 m wide across their paths' class.json || fail 'the pages do not say what is hit'
 # each of the three boxes has a lane of its own: 0.01 a year, a third of the rocks
 for of in event_frequency:0.01 passage_frequency:0.01 event_exceed:0.333; do
   value=$(gdallocationinfo -valonly -b 1 "class/${of%:*}.tif" 10 10)

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <map>
+#include <set>
 
 #include "base/read_file.hpp"
 #include "post/hazard/hazard_maps.hpp"
@@ -45,6 +48,15 @@ std::string refusal_of_site(const std::string& text) {
     return std::string(error.what()) + " | " + error.hint();
   }
   return "accepted";
+}
+
+std::vector<EventRow> events_of(const std::vector<MapRow>& rows, const PassageGrid& grid,
+                                const RunBlocks& blocks, const Recipe& recipe, const RunMember& run,
+                                int index) {
+  std::vector<EventRow> out;
+  event_rows(rows, grid, blocks, recipe, run, index,
+             [&out](const EventRow& row) { out.push_back(row); });
+  return out;
 }
 
 // A class of `n` runs of single blocks from run `first` on.
@@ -161,7 +173,7 @@ TEST(Hazard, ClassesOfNorwayAreByTheProbabilityOfReachAlone) {
   EXPECT_EQ(class_of_periods(recipe, {4999}), "above_S3");
   EXPECT_EQ(class_of_periods(recipe, {5001}), "none");
   EXPECT_EQ(intensity_words(recipe, 0), "reached");
-  EXPECT_EQ(mark_words(recipe), "v; class o");
+  EXPECT_EQ(mark_words(recipe), "v; width_m m; class o");
 }
 
 // 10 % in 50 years: -50 / ln 0.9 = 474.56 years; 0.5 %: -50 / ln 0.995 = 9975.
@@ -197,7 +209,7 @@ TEST(Hazard, ClassesByVolumeAreThoseOfTheirMatrix) {
   blocks.volume = {0.5};
   std::vector<MapRow> rows(1);
   rows[0].largest.total_energy = 9e6F;
-  EXPECT_EQ(event_rows(rows, blocks, recipe, {}, 0)[0].intensity, 0.5F);
+  EXPECT_EQ(events_of(rows, {}, blocks, recipe, {}, 0)[0].intensity, 0.5F);
 }
 
 // Half of the time there; 0.006, 0.003 and 0.001 hits a year of the three intensities:
@@ -340,17 +352,103 @@ TEST(Hazard, RaisesCellsOfAMassAndLeavesOutliersTheirEnergy) {
     rows[i].largest.total_energy = 5e3F;
   }
   RunMember run;
-  const std::vector<EventRow> made = event_rows(rows, blocks, recipe, run, 0);
+  PassageGrid grid;
+  grid.cell_size = 10;
+  grid.n_rows = grid.n_cols = 9;
+  const std::vector<EventRow> made = events_of(rows, grid, blocks, recipe, run, 0);
   EXPECT_GT(made[0].intensity, 300);
   EXPECT_GT(made[1].intensity, 300);
   EXPECT_EQ(made[2].intensity, 5);  // 7.5 s behind the first two
   EXPECT_EQ(made[3].intensity, 5);
   EXPECT_EQ(made[0].energy, 5);
   run.info.independent = true;  // none of them was there when another came
-  EXPECT_EQ(event_rows(rows, blocks, recipe, run, 0)[0].intensity, 5);
+  EXPECT_EQ(events_of(rows, grid, blocks, recipe, run, 0)[0].intensity, 5);
   run.info.independent = false;
   blocks.volume = {30, 30, 1};  // no mass
-  EXPECT_EQ(event_rows(rows, blocks, recipe, run, 0)[0].intensity, 5);
+  EXPECT_EQ(events_of(rows, grid, blocks, recipe, run, 0)[0].intensity, 5);
+}
+
+// Rows of rocks of 1 m3, as wide as a sphere, that run straight over a map of 120 x 120 m, 0.5 m
+// beside each other.
+constexpr double size_of_rock = 1.2407;  // [m]
+std::vector<MapRow> rows_of_parallel_rocks(const PassageGrid& grid, double heading) {
+  std::vector<MapRow> rows;
+  for (int rock = 0; rock <= 320; ++rock) {
+    std::set<std::uint32_t> cells;
+    for (double s = -85; s < 85; s += 0.2)
+      for (const double edge : {-0.5, 0.0, 0.5}) {
+        const double d = 0.5 * (rock - 160) + edge * size_of_rock;
+        const int col = static_cast<int>(
+            std::floor((60.1 + s * std::cos(heading) - d * std::sin(heading)) / grid.cell_size));
+        const int row = static_cast<int>(
+            std::floor((60.1 - s * std::sin(heading) - d * std::cos(heading)) / grid.cell_size));
+        if (row >= 0 && row < grid.n_rows && col >= 0 && col < grid.n_cols)
+          cells.insert(static_cast<std::uint32_t>(row * grid.n_cols + col));
+      }
+    for (const std::uint32_t cell : cells) {
+      MapRow made;
+      made.cell = cell;
+      made.block = rock;
+      made.heading = static_cast<float>(heading);
+      rows.push_back(made);
+    }
+  }
+  return rows;
+}
+
+// Two rocks a metre. As many hit what is 15 m wide, on any cells; of single cells they hit more
+// the larger the cells are.
+TEST(Hazard, HowOftenRocksHitDoesNotDependOnTheCells) {
+  Recipe recipe = swiss();
+  recipe.width = 15;
+  const double wanted = 2 * (recipe.width + size_of_rock);
+  RunMember run;
+  run.info.independent = true;
+  RunBlocks blocks;
+  blocks.volume.assign(321, 1);
+  for (const double cell_size : {1.0, 2.5, 5.0})
+    for (const double heading : {0.0, 0.35, 0.7853981633974483, 2.2, -1.5707963267948966}) {
+      PassageGrid grid;
+      grid.cell_size = cell_size;
+      grid.n_rows = grid.n_cols = static_cast<int>(120 / cell_size);
+      std::map<std::uint32_t, double> hits;
+      for (const EventRow& row :
+           events_of(rows_of_parallel_rocks(grid, heading), grid, blocks, recipe, run, 0))
+        hits[row.cell] += row.weight;
+      double sum = 0;
+      int n = 0;
+      for (const auto& [cell, n_rocks] : hits) {
+        const double row = static_cast<int>(cell) / grid.n_cols + 0.5;
+        const double col = static_cast<int>(cell) % grid.n_cols + 0.5;
+        if (std::hypot(row * cell_size - 60, col * cell_size - 60) > 40) continue;
+        EXPECT_NEAR(n_rocks, wanted, 0.05 * wanted) << cell_size << " " << heading;
+        sum += n_rocks;
+        ++n;
+      }
+      EXPECT_NEAR(sum / n, wanted, 0.02 * wanted) << cell_size << " " << heading;
+    }
+}
+
+TEST(Hazard, AMassIsAsWideAsItIsAndARockAtRestIsInItsCell) {
+  const Recipe recipe = swiss();
+  PassageGrid grid;
+  grid.cell_size = 2;
+  grid.n_rows = grid.n_cols = 9;
+  RunBlocks blocks;
+  blocks.volume = {1, 1};
+  std::vector<MapRow> rows(1);
+  rows[0].cell = 40;
+  RunMember run;
+  run.n_blocks = 2;
+  EXPECT_EQ(events_of(rows, grid, blocks, recipe, run, 0).size(), 1U);
+  run.info.independent = true;
+  std::vector<std::uint32_t> cells;
+  for (const EventRow& row : events_of(rows, grid, blocks, recipe, run, 0))
+    cells.push_back(row.cell);
+  EXPECT_EQ(cells, (std::vector<std::uint32_t>{13, 22, 31, 40, 49, 58, 67}));  // across east
+  EXPECT_GE(cells_beside(grid, blocks, recipe, run), 2);
+  rows[0].heading = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(events_of(rows, grid, blocks, recipe, run, 0).size(), 1U);
 }
 
 TEST(Hazard, OfWeightsIsTheSumOfTheBlocksFrequencies) {
