@@ -1,5 +1,6 @@
 #include "terrain/dam.hpp"
 
+#include <Eigen/Geometry>
 #include <numbers>
 
 #include "geometry/plan2d.hpp"
