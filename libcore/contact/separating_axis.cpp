@@ -579,9 +579,9 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
     const double near = axis_slack * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
     choice = edge_choice(parts, scratch, edges, best, bar, near);
   } else if (best.separation > none) {
-    const FaceAxis face =
+    const FaceAxis settled =
         settled_face(parts, scratch, best, last_face(parts, scratch, last), thickness);
-    choice = face_choice(parts, scratch, face, best, edge_bar, edges, thickness);
+    choice = face_choice(parts, scratch, settled, best, edge_bar, edges, thickness);
   } else {
     apart.axis = {};
     return apart;
