@@ -41,6 +41,7 @@ std::string dams_text(const Trn& trn) {
     list.push_back({{"name", dam.name},
                     {"uphill", dam.uphill > 0 ? "left" : "right"},
                     {"crest_m", crest},
+                    {"shape", dam.shape},
                     {"nodes", runs_of(dam.nodes)}});
   }
   return list.dump();
@@ -55,7 +56,8 @@ std::vector<BurntDam> burnt_dams(const std::string& path, const Trn& trn) {
     for (const Json& dam : list) {
       dams.push_back({dam["name"].get<std::string>(), dam["uphill"] == "left" ? 1 : -1,
                       dam["crest_m"].get<std::vector<double>>(),
-                      nodes_of(dam["nodes"].get<std::vector<int>>(), trn)});
+                      nodes_of(dam["nodes"].get<std::vector<int>>(), trn),
+                      dam["shape"].get<std::string>()});
       for (double& z : dams.back().crest) z -= trn.origin.z();
     }
   } catch (const JsonError& error) {

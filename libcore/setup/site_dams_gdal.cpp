@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "base/text.hpp"
 #include "base/units.hpp"
@@ -19,12 +20,24 @@ namespace {
 constexpr double cells_of_a_part = 2;  // fewer do not show how wide it is
 constexpr double other_height = 0.25;  // of the height, that the crest may be off it between points
 
+constexpr const char* other_terrain_hint = "make the terrain again, with this site file";
+
 Where where_of_dam(const Site& site, const DamSettings& dam) {
   return {site.file, dam.line_number, "dam." + dam.name};
 }
 
 std::string place_text(const Trn& trn, const Vec2& at) {
   return text(at.x() + trn.origin.x(), 10) + ", " + text(at.y() + trn.origin.y(), 10);
+}
+
+// All that the ground with it depends on, to the millimetre.
+std::string shape_words(const DamShape& shape, const Trn& trn) {
+  std::string words = std::string(shape.is_gallery ? "gallery" : "dam");
+  for (const double value : {shape.height, shape.crest_width, shape.tan_uphill, shape.tan_downhill,
+                             shape.ditch_depth, shape.ditch_width})
+    words += " " + text(value, 6);
+  for (const Vec2& p : shape.line) words += "; " + place_text(trn, p);
+  return words;
 }
 
 InputError error_of(const DamFault& fault, const Where& where, const DamSettings& s,
@@ -205,7 +218,8 @@ std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn) {
       check_share_no_node(site, settings, built, trn, dam_of_node);
       log.doubts(doubts_on(built, where, trn));
       log.doubts(doubts_on_side(planned.shape, where, ground));
-      BurntDam burnt{built.name, built.dam.uphill, {}, built.burn.nodes};
+      BurntDam burnt{
+          built.name, built.dam.uphill, {}, built.burn.nodes, shape_words(planned.shape, ground)};
       for (const Vec3& p : built.dam.crest) burnt.crest.push_back(p.z());
       trn.dams.push_back(std::move(burnt));
       all.push_back(std::move(built));
@@ -232,8 +246,15 @@ double crest_at(const DamShape& shape, const std::vector<double>& crest, const V
 
 const BurntDam* burnt_in(const Trn& trn, const SiteDam& dam) {
   for (const BurntDam& burnt : trn.dams)
-    if (burnt.name == dam.name && burnt.crest.size() == dam.shape.line.size()) return &burnt;
+    if (burnt.name == dam.name && burnt.shape == shape_words(dam.shape, trn)) return &burnt;
   return nullptr;
+}
+
+void check_known(const Site& site, const Trn& trn, const std::set<std::string>& active) {
+  for (const BurntDam& burnt : trn.dams)
+    if (!active.contains(burnt.name))
+      throw InputError({site.file, 0, "dam." + burnt.name},
+                       "is in the ground of the terrain, and not active here", other_terrain_hint);
 }
 
 }  // namespace
@@ -241,10 +262,12 @@ const BurntDam* burnt_in(const Trn& trn, const SiteDam& dam) {
 std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn) {
   constexpr double spacing = 10;
   std::vector<DamLines> all;
+  std::set<std::string> active;
   for (const DamSettings& settings : site.dams) {
     if (!settings.active) continue;
     const Where where = where_of_dam(site, settings);
     for (const SiteDam& dam : dams_of(log, site, trn, settings)) {
+      active.insert(dam.name);
       const DamShape& shape = dam.shape;
       const BurntDam* const found = burnt_in(trn, dam);
       if (found == nullptr) {
@@ -274,13 +297,15 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
       all.back().crest.roof_nodes = burnt.nodes;
     }
   }
+  check_known(site, trn, active);
   return all;
 }
 
 void check_burnt(const Site& site, const DamSettings* unburnt) {
   if (unburnt != nullptr)
-    throw InputError(where_of_dam(site, *unburnt), "is active, and the terrain was made without it",
-                     "make the terrain again, with this site file");
+    throw InputError(where_of_dam(site, *unburnt),
+                     "is active, and the terrain was made without it or with another shape of it",
+                     other_terrain_hint);
 }
 
 std::vector<RoofPiece> gallery_roofs(InputLog& log, const Site& site, const Trn& trn) {

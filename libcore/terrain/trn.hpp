@@ -31,6 +31,7 @@ struct BurntDam {
   int uphill = 1;             ///< +1: left of the line seen from its first point, -1: right
   std::vector<double> crest;  ///< its height at the points of the line, local z [m]
   std::vector<int> nodes;     ///< that it moved, ascending
+  std::string shape;          ///< words of its line and all that shapes it
 };
 
 struct Trn {  // clang-format off

@@ -52,6 +52,12 @@ run single --set dam.road.height_m=5
 run pair --set dam.road.height_m=5 --set dam.below.active=true
 expect 1 talus-fence site.toml --set dam.below.active=true high/run_1.h5 --trn high/bed.tif -o no.gpkg --no-db
 says 'dam.below: is active, and the terrain was made without it'
+for other in height_m=2 ditch_m=[1,3] 'line=[[500115,5000011],[500115,5000090]]'; do
+  expect 1 talus-fence site.toml --set "dam.road.$other" high/run_1.h5 --trn high/bed.tif -o no.gpkg --no-db
+  says 'dam.road: is active, and the terrain was made without it or with another shape of it'
+done
+expect 1 talus-fence site.toml --set dam.road.active=false --set dam.below.active=true high/run_1.h5 --trn high/bed.tif -o no.gpkg --no-db
+says 'dam.road: is in the ground of the terrain, and not active here'
 python3 - <<'PY' || fail "what comes and what passes"
 import csv, json
 of = {name: json.load(open(name + "/fence.json"))["dams"][0] for name in ("high", "low", "weak")}

@@ -59,8 +59,8 @@ TEST_F(Raster, ATrnReadsBackAsItWasWritten) {
 // What a dam did to the ground is read back, until other heights stand in the file.
 TEST_F(Raster, ATrnKeepsItsDams) {
   Trn written = random_trn(30, 40);
-  written.dams = {{"road.1", -1, {17.25, 1.0 / 3}, {41, 42, 43, 81, 1199}},
-                  {"two \"b\"", 1, {2}, {}}};
+  written.dams = {{"road.1", -1, {17.25, 1.0 / 3}, {41, 42, 43, 81, 1199}, "dam 5"},
+                  {"two \"b\"", 1, {2}, {}, ""}};
   talus::write_trn(path("trn.tif"), written);
   const Trn read = talus::read_trn(path("trn.tif"));
   ASSERT_EQ(read.dams.size(), 2U);
@@ -69,6 +69,7 @@ TEST_F(Raster, ATrnKeepsItsDams) {
     EXPECT_EQ(read.dams[i].uphill, written.dams[i].uphill);
     EXPECT_EQ(read.dams[i].crest, written.dams[i].crest);
     EXPECT_EQ(read.dams[i].nodes, written.dams[i].nodes);
+    EXPECT_EQ(read.dams[i].shape, written.dams[i].shape);
   }
   GDALDataset* const file =
       GDALDataset::Open(path("trn.tif").c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE);

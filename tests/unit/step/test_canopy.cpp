@@ -202,7 +202,7 @@ TEST(Canopy, DragsNothingOverADam) {
   const std::vector<Canopy> forest = {canopy_on(-50, 50)};
   Trn trn = plane_trn(slope_frame(0, 0), 1, 60);
   const Cell cell = locate(trn, 20.5, 0.5).cell;
-  trn.dams = {{"road", 1, {}, {static_cast<int>(node_index(trn, cell.row, cell.col))}}};
+  trn.dams = {{"road", 1, {}, {static_cast<int>(node_index(trn, cell.row, cell.col))}, ""}};
   EXPECT_EQ(drag_at(forest, trn, Vec3(20.5, 0.5, 5)), 0);
   EXPECT_EQ(drag_at(forest, trn, Vec3(24.5, 0.5, 5)), drag);
 }
