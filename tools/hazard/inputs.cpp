@@ -2,6 +2,7 @@
 #include "tools/hazard/inputs.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/text.hpp"
 #include "post/reduce.hpp"
@@ -17,32 +18,68 @@ const RunParts only_passages{.crossings = false,
                              .words = false,
                              .trees = false};
 
-using TakeRows = std::function<void(const std::vector<MapRow>&, const RunBlocks&, int)>;
-
-// Rows of the parts from `first_part` on, over a tile of the map.
-void take_rows_of_parts(const RunInputs& runs, std::size_t first_part, const MapGrid& map,
-                        const MapTile& tile, std::uint64_t most, const TakeRows& take) {
-  for (std::size_t p = first_part; p < runs.parts().size(); ++p) {
-    const PartInput& part = runs.parts()[p];
-    const Part& content = part.file.part;
-    for_each_strip(part.file, map.factor, tile, most, [&](const auto& by_run) {
-      for (std::size_t r = 0; r < by_run.size(); ++r)
-        if (part.member[r] >= 0 && !by_run[r].empty()) {
-          const RunBlocks& blocks =
-              content.blocks[static_cast<std::size_t>(content.blocks_of_run[r])];
-          take(map_rows(by_run[r], content.grid, map, blocks.weight, tile), blocks, part.member[r]);
-        }
-    });
-  }
+bool is_in(const MapTile& tile, std::uint32_t cell) {
+  return cell >= tile.first && cell < tile.end;
 }
 
-// The passages that rows in a tile may be of.
-MapTile wider(const MapTile& tile, const HazardInputs& inputs) {
-  const std::uint64_t margin = static_cast<std::uint64_t>(inputs.beside) *
-                               (static_cast<std::uint64_t>(inputs.map.grid.n_cols) + 1);
+// The cells of the passages that rows in a tile may be of.
+MapTile wider(const MapTile& tile, int beside, const PassageGrid& grid) {
+  const std::uint64_t margin =
+      static_cast<std::uint64_t>(beside) * (static_cast<std::uint64_t>(grid.n_cols) + 1);
   const std::uint64_t first = tile.first, end = tile.end + margin;
   return {static_cast<std::uint32_t>(first - std::min(first, margin)),
           static_cast<std::uint32_t>(std::min<std::uint64_t>(end, MapTile{}.end))};
+}
+
+// Tiles of a part within a tile of the map, each with at most `most` passages, or a single cell.
+std::vector<MapTile> tiles_of_part(const PartFile& file, const MapTile& tile, std::size_t n_cells,
+                                   std::uint64_t most) {
+  std::vector<std::uint32_t> rows_of_cell(n_cells, 0);
+  for (std::size_t i = 0; i < file.cell.size(); ++i)
+    rows_of_cell[static_cast<std::size_t>(file.cell[i])] =
+        static_cast<std::uint32_t>(file.begin[i + 1] - file.begin[i]);
+  std::vector<MapTile> tiles;
+  for (const MapTile& own : tiles_of(rows_of_cell, most)) {
+    const MapTile both = {std::max(own.first, tile.first), std::min(own.end, tile.end)};
+    if (both.first < both.end) tiles.push_back(both);
+  }
+  return tiles;
+}
+
+// Rows in a tile, of the parts from `first_part` on. A rock's passages are evaluated together: they
+// are read of the cells around as well.
+void take_rows_of_parts(const RunInputs& runs, std::size_t first_part, const MapGrid& map,
+                        const Recipe& recipe, const MapTile& tile, std::uint64_t most,
+                        const TakeEvent& take) {
+  const std::size_t n_cells = static_cast<std::size_t>(map.grid.n_rows) * map.grid.n_cols;
+  for (std::size_t p = first_part; p < runs.parts().size(); ++p) {
+    const PartInput& part = runs.parts()[p];
+    const Part& content = part.file.part;
+    const auto blocks_of = [&](std::size_t r) -> const RunBlocks& {
+      return content.blocks[static_cast<std::size_t>(content.blocks_of_run[r])];
+    };
+    const auto member_of = [&](std::size_t r) -> const RunMember& {
+      return runs.members[static_cast<std::size_t>(part.member[r])];
+    };
+    int beside = 0;
+    for (std::size_t r = 0; r < part.member.size(); ++r)
+      if (part.member[r] >= 0)
+        beside = std::max(beside, cells_beside(map.grid, blocks_of(r), recipe, member_of(r)));
+    for (const MapTile& own : tiles_of_part(part.file, tile, n_cells, most)) {
+      const MapTile around = wider(own, beside, map.grid);
+      const auto take_own = [&](const EventRow& row) {
+        if (is_in(own, row.cell)) take(row);
+      };
+      for_each_strip(
+          part.file, 1, around, std::numeric_limits<std::uint64_t>::max(),
+          [&](const std::vector<std::vector<Passage>>& by_run) {
+            for (std::size_t r = 0; r < by_run.size(); ++r)
+              if (part.member[r] >= 0 && !by_run[r].empty())
+                event_rows(map_rows(by_run[r], content.grid, map, blocks_of(r).weight, around),
+                           map.grid, blocks_of(r), recipe, member_of(r), part.member[r], take_own);
+          });
+    }
+  }
 }
 
 }  // namespace
@@ -52,14 +89,12 @@ HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<HazardClass>&
   HazardInputs out;
   out.sources.recipe = recipe;
   out.sources.has_frequencies = !classes.empty();
-  const auto count = [&](const std::vector<MapRow>& from, const RunBlocks& blocks, int index) {
-    const RunMember& member = runs.members[static_cast<std::size_t>(index)];
-    out.beside = std::max(out.beside, cells_beside(out.map.grid, blocks, recipe, member));
-    event_rows(from, out.map.grid, blocks, recipe, member, index, [&](const EventRow& row) {
-      ++out.rows_of_cell[row.cell];
-      if (++out.n_rows <= most_rows) out.rows.push_back(row);
-    });
-    if (out.n_rows > most_rows) std::vector<EventRow>().swap(out.rows);
+  const auto count = [&](const EventRow& row) {
+    ++out.rows_of_cell[row.cell];
+    if (++out.n_rows <= most_rows)
+      out.rows.push_back(row);
+    else if (!out.rows.empty())
+      std::vector<EventRow>().swap(out.rows);
   };
   for (const RunSet& set : runs.of_classes(classes)) {
     const HazardClass kind = class_at(classes, out.sources.classes.size());
@@ -75,9 +110,10 @@ HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<HazardClass>&
         out.rows_of_cell.assign(static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols,
                                 0);
       }
-      count(map_rows(run.passages, run.grid, out.map, run.blocks.weight), run.blocks, index);
+      event_rows(map_rows(run.passages, run.grid, out.map, run.blocks.weight), out.map.grid,
+                 run.blocks, recipe, member, index, count);
     });
-    take_rows_of_parts(runs, first_part, out.map, {}, most_rows, count);
+    take_rows_of_parts(runs, first_part, out.map, recipe, {}, most_rows, count);
     out.sources.classes.push_back(hazard_runs(kind, runs.members, first, runs.last_failed_share()));
   }
   return out;
@@ -89,21 +125,21 @@ std::vector<MapLayer> read_hazard_layers(RunInputs& runs, HazardInputs& inputs,
     sort_events(inputs.rows);
     return hazard_layers(inputs.sources, inputs.rows);
   }
+  const Recipe& recipe = inputs.sources.recipe;
+  const PassageGrid& grid = inputs.map.grid;
   std::vector<MapLayer> layers;
   for (const MapTile& tile : tiles_of(inputs.rows_of_cell, most_rows)) {
     std::vector<EventRow> rows;
-    const auto add = [&](const std::vector<MapRow>& from, const RunBlocks& blocks, int run) {
-      event_rows(from, inputs.map.grid, blocks, inputs.sources.recipe,
-                 runs.members[static_cast<std::size_t>(run)], run, [&](const EventRow& row) {
-                   if (row.cell >= tile.first && row.cell < tile.end) rows.push_back(row);
-                 });
+    const auto add = [&](const EventRow& row) {
+      if (is_in(tile, row.cell)) rows.push_back(row);
     };
-    const MapTile around = wider(tile, inputs);
     runs.read_again(only_passages, [&](RunFile& run, int index) {
-      add(map_rows(run.passages, run.grid, inputs.map, run.blocks.weight, around), run.blocks,
-          index);
+      const RunMember& member = runs.members[static_cast<std::size_t>(index)];
+      const MapTile around = wider(tile, cells_beside(grid, run.blocks, recipe, member), grid);
+      event_rows(map_rows(run.passages, run.grid, inputs.map, run.blocks.weight, around), grid,
+                 run.blocks, recipe, member, index, add);
     });
-    take_rows_of_parts(runs, 0, inputs.map, around, most_rows, add);
+    take_rows_of_parts(runs, 0, inputs.map, recipe, tile, most_rows, add);
     sort_events(rows);
     std::vector<MapLayer> of_tile = hazard_layers(inputs.sources, rows);
     if (layers.empty())

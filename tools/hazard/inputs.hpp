@@ -17,7 +17,6 @@ struct HazardInputs {
   MapGrid map;                              ///< as recorded
   std::vector<std::uint32_t> rows_of_cell;  ///< of the map
   std::uint64_t n_rows = 0;
-  int beside = 0;              ///< cells between a passage and its rows, at most
   std::vector<EventRow> rows;  ///< empty when they are more than `most_rows`
 };
 [[nodiscard]] HazardInputs read_hazard_inputs(RunInputs& runs,

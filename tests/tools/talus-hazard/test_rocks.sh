@@ -32,8 +32,10 @@ done
 expect 0 talus-reduce run_*.h5 --trn slope.tif -o part.h5
 expect 0 talus-hazard site.toml part.h5 --trn slope.tif -o part
 expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o tiles --memory-mb 0.004
+expect 0 talus-hazard site.toml part.h5 --trn slope.tif -o part_tiles --memory-mb 0.004
 same_maps class part
 same_maps class tiles
+same_maps class part_tiles
 expect 0 talus-reduce points/run_*.h5 --trn points/slope.tif -o points.h5
 expect 0 talus-hazard points/site.toml points.h5 --trn points/slope.tif -o points_part
 same_maps class points_part
