@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "setup/forest_inputs_gdal.hpp"
 #include "setup/run_settings.hpp"
 #include "setup/scene_inputs_gdal.hpp"
 #include "setup/site_dams_gdal.hpp"
@@ -24,6 +25,10 @@ SetUp plan_scene(const Site& site, const SetUpRequest& request, InputLog& log) {
   setup.inputs.warnings.insert(setup.inputs.warnings.begin(), odd.begin(), odd.end());
   setup.plan = plan_of(site, setup.inputs.parts, request.full_plan);
   return setup;
+}
+
+void read_files_of_scene(const Site& site, InputLog& log, const SetUp& setup) {
+  static_cast<void>(read_forests(log, site, setup.inputs.parts.trn, setup.inputs.parts.blocks));
 }
 
 void make_scene(const Site& site, const SetUpRequest& request, InputLog& log, SetUp& setup) {

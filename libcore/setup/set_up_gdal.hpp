@@ -29,6 +29,9 @@ struct SetUp {
 /// Reads the inputs and plans the scene. Throws InputError as check_times() and read_dda_inputs().
 [[nodiscard]] SetUp plan_scene(const Site& site, const SetUpRequest& request, InputLog& log);
 
+/// Reads the files that make_scene() reads, so that the log has their contents before it.
+void read_files_of_scene(const Site& site, InputLog& log, const SetUp& setup);
+
 /// Checks where the blocks start, reads the forests, cuts fragments and makes the scene. Throws
 /// InputError as check_start() and make_site_scene().
 void make_scene(const Site& site, const SetUpRequest& request, InputLog& log, SetUp& setup);

@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
     SetUp setup = plan_scene(site, o.request, tool);
     if (o.plan == "show") {
       tool.leave_out_of_run_id({"plan"});
+      read_files_of_scene(site, tool, setup);
       return tool.result({{"plan", plan_json(setup.plan)},
                           {"config", print_config(site)},
                           {"made_with", tool.made_with({"trn", "blocks"})},

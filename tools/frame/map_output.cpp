@@ -104,7 +104,9 @@ MapPage page_of(const MapFrame& frame, const RasterStyle& style, const MapTags& 
   MapPage page;
   page.size = size_of(frame.pages);
   page.title = style.heading;
-  page.subtitle = "Site " + tag(tags, "SITE") + ", " + run_words(tags);
+  const std::string measure = tag(tags, "MEASURE");
+  page.subtitle = "Site " + tag(tags, "SITE") + ", " +
+                  (measure.empty() ? "" : "measure " + measure + ", ") + run_words(tags);
   page.words = words_of(frame, tags);
   page.cells.style = style;
   page.cells.grid = frame.grid;

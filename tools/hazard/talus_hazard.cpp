@@ -86,7 +86,7 @@ bool is_of_rocks(const HazardSources& sources) {
 
 // What a rock may hit, of which its frequency is.
 std::string width_words(const Recipe& recipe, double cell_size) {
-  if (recipe.width > cell_size)
+  if (recipe.width > 0)
     return "rocks one by one: frequencies of what is " + text(recipe.width, 3) +
            " m wide across their paths";
   return "rocks one by one: frequencies of a cell of " + text(cell_size, 3) +
@@ -98,9 +98,9 @@ std::vector<std::string> notes_of(const Site& site, const HazardSources& sources
                                   double cell_size) {
   std::vector<std::string> notes{site.info.name + ": " + run_words(sources) + "; talus " +
                                  build_version};
+  if (is_of_rocks(sources)) notes.push_back(width_words(sources.recipe, cell_size));
   if (!sources.has_frequencies) return notes;
   notes.push_back("frequencies: " + frequency_words(sources));
-  if (is_of_rocks(sources)) notes.push_back(width_words(sources.recipe, cell_size));
   notes.push_back(elsewhere_words(largest_rate_elsewhere(sources.classes)));
   notes.push_back(recipe_words(sources.recipe));
   return notes;
@@ -114,6 +114,10 @@ MapTags tags_of(Tool& tool, RunInputs& runs, const HazardSources& sources,
   tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", run_set_id(std::move(ids))}});
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   if (runs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(runs.n_missing));
+  if (is_of_rocks(sources))
+    tags.emplace_back("WIDTH_HIT", sources.recipe.width > 0
+                                       ? text(sources.recipe.width, 3) + " m across the path"
+                                       : "a cell");
   if (!sources.has_frequencies) {
     tags.emplace_back("FREQUENCIES", "none are given");
     return tags;

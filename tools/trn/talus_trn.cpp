@@ -15,6 +15,7 @@
 #include "io/crs_gdal.hpp"
 #include "io/hillshade_gdal.hpp"
 #include "io/judged_heights_gdal.hpp"
+#include "io/tags_gdal.hpp"
 #include "io/trn_digest.hpp"
 #include "io/trn_file_gdal.hpp"
 #include "setup/site_dams_gdal.hpp"
@@ -529,8 +530,7 @@ Json as_json(const talus::BuiltDam& built, const Trn& trn) {
 void check_has_no_dams(const talus::Site& site, const std::string& source) {
   const bool builds = std::any_of(site.dams.begin(), site.dams.end(),
                                   [](const talus::DamSettings& dam) { return dam.active; });
-  if (builds && !talus::is_tin_file(source) &&
-      !talus::tag_of_judged(source, talus::dams_tag).empty())
+  if (builds && !talus::is_tin_file(source) && !talus::tag_of(source, talus::dams_tag).empty())
     throw InputError({source}, "has dams in its ground, on which those of the site would be built",
                      "give the elevation model or the contours that it was made from");
 }

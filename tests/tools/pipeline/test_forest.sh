@@ -1,14 +1,20 @@
-# A site with a forest: hit trees come to the layers and to the report.
+# A site with a forest in an area of a file: hit trees come to the layers and to the report.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v python3 >/dev/null || skip "needs python3"
 site wood
 sed -i 's/^duration_s = .*/duration_s = 3/' wood/site.toml
 cat >>wood/site.toml <<'END'
 [forest.below]
-polygon = [[500090, 5200200], [500150, 5200200], [500150, 5200246], [500090, 5200246]]
+polygon_file = "below.geojson"
 stems_per_ha = 800
 END
+cat >wood/below.geojson <<'END'
+{"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32633"}},
+ "features": [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates":
+  [[[500090, 5200200], [500150, 5200200], [500150, 5200246], [500090, 5200246], [500090, 5200200]]]}}]}
+END
 made wood -j2
+expect 0 make -q -C wood BIN=
 on_page wood/out/runout.gpkg
 grep -q '^forest.below.stems_per_ha = 800' wood/out/stages/run.txt || fail 'the stage run does not read it'
 python3 - wood/out <<'END' || fail 'see above'
