@@ -24,7 +24,18 @@ Rate share_of_rocks(const HazardRuns& runs, std::span<const BlockWeight> hit) {
   for (const BlockWeight& rock : hit) sum += rock.weight;
   const double share = std::min(1.0, sum / runs.basis.over.whole);
   const Interval interval = share_interval(runs.basis, hit, share);
-  return {share, interval.low, interval.high};
+  Rate rate{share, interval.low, interval.high};
+  // Of less than one rock in all nobody saw how rocks scatter.
+  if (share > 0 && share * runs.n_rocks < 1)
+    rate.high = std::max(rate.high, share_interval(runs.basis, {}, 0).high);
+  return rate;
+}
+
+void nest_bounds(std::vector<Rate>& rates) {
+  for (std::size_t i = 1; i < rates.size(); ++i)
+    rates[i].high = std::min(rates[i].high, rates[i - 1].high);
+  for (std::size_t i = rates.size() - 1; i > 0; --i)
+    rates[i - 1].low = std::max(rates[i - 1].low, rates[i].low);
 }
 
 // Whether a count of runs is all that a share of them needs: each weighs 1, and is its own unit.
@@ -85,6 +96,7 @@ HazardRuns hazard_runs(const HazardClass& kind, std::span<const RunMember> membe
   for (const RunMember& run : own) check_run(kind, run, first_run);
   runs.kind.of_rocks = kind.kind == FrequencyKind::of_weights || first_run.info.independent;
   runs.basis = share_basis(clusters_of(own), failed_share);
+  for (const RunMember& run : own) runs.n_rocks += runs.kind.of_rocks ? run.n_blocks : 0;
   if (kind.kind == FrequencyKind::of_weights) {
     const double all = runs.basis.over.whole / runs.n;
     runs.kind.frequency = {all, all, all};
@@ -181,6 +193,7 @@ std::vector<Rate> HazardRates::above(std::span<const EventRow> rows,
   std::vector<Rate> rates{rate_of_rows(rows, [](const EventRow&) { return true; })};
   for (const double limit : breaks)
     rates.push_back(rate_of_rows(rows, [limit](const EventRow& r) { return r.intensity > limit; }));
+  nest_bounds(rates);
   return rates;
 }
 
@@ -191,6 +204,7 @@ std::vector<Rate> HazardRates::shares_above(std::span<const EventRow> rows,
     take_rows(rows, [&](const EventRow& row) { return i == 0 || row.intensity > breaks[i - 1]; });
     shares.push_back(share_of(classes_[kind], hit_[kind]));
   }
+  nest_bounds(shares);
   return shares;
 }
 

@@ -27,6 +27,7 @@ struct HazardRuns {
   HazardClass kind;
   ShareBasis basis;
   int first = 0, n = 0;
+  double n_rocks = 0;  ///< released in all, where events are rocks
 };
 
 /// The runs of a class, members `first` to the last: the event that they sample, and how often it
@@ -64,6 +65,7 @@ class HazardRates {
   explicit HazardRates(std::span<const HazardRuns> classes);
 
   /// Rates of events whose intensity was above each limit; the first limit is being there at all.
+  /// Events above a limit are some of those above a lower one, and so are their bounds.
   /// `rows` of one cell, sorted.                                            (n_breaks + 1)
   [[nodiscard]] std::vector<Rate> above(std::span<const EventRow> rows,
                                         std::span<const double> breaks);

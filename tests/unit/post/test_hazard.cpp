@@ -511,6 +511,26 @@ TEST(Hazard, OfSingleRocksCountsRocksHoweverManyARunHas) {
   }
 }
 
+// Rocks with more than 30 kJ are some of those that come; and a rock that all but missed is no
+// rock.
+TEST(Hazard, BoundsOfRocksDoNotContradictEachOther) {
+  const std::vector<HazardRuns> classes{hazard_runs(
+      class_named("V1", FrequencyKind::of_events, 0.4), members_of(20, 80, 1, false), 0, 0)};
+  const double elsewhere = largest_rate_elsewhere(classes);
+  HazardRates at(classes);
+  std::vector<EventRow> rows;
+  for (int run = 0; run < 6; ++run) rows.push_back({7, run, 3 * run, 20, 20, 1});
+  const std::vector<Rate> hit = at.above(rows, std::vector<double>{30});
+  EXPECT_LT(hit[0].high, elsewhere);
+  EXPECT_EQ(hit[1].value, 0);
+  EXPECT_LE(hit[1].high, hit[0].high);
+  EXPECT_LE(hit[1].low, hit[0].low);
+  rows = {{7, 0, 0, 20, 20, 1e-6}};
+  const Rate missed = at.above(rows, {})[0];
+  EXPECT_GT(missed.value, 0);
+  EXPECT_EQ(missed.high, elsewhere);
+}
+
 TEST(Hazard, OfSingleRocksAsksOneQuestionOnce) {
   const HazardClass given = class_named("V1", FrequencyKind::of_events, 0.28),
                     asked = class_named("V1", FrequencyKind::of_weights);
