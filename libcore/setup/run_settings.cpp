@@ -71,10 +71,6 @@ std::vector<std::string> warn_of_settings(InputLog& log, const Site& site) {
       warn("ground." + ground.name + (is_rough(made) ? " is rough" : " gives way") +
            " with law talus alone: law paper knows its friction and COR");
   }
-  if (!site.quantities.empty() && site.uncertainty.sample == 0)
-    warn(std::to_string(site.quantities.size()) +
-         (site.quantities.size() == 1 ? " quantity" : " quantities") +
-         " of [uncertainty] not drawn: no --sample is given, so the values of the site file hold");
   if (solver.seed != SolverSettings{}.seed && !seed_draws(site))
     warn(
         "the seed draws nothing: start_jitter_m_s, friction_scatter_deg and cor_scatter are 0, so "

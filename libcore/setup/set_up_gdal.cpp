@@ -19,7 +19,13 @@ ScenePlan plan_of(const Site& site, const SceneParts& parts, bool full) {
 
 SetUp plan_scene(const Site& site, const SetUpRequest& request, InputLog& log) {
   check_times(site);
-  const std::vector<std::string> odd = warn_of_settings(log, site);
+  std::vector<std::string> odd = warn_of_settings(log, site);
+  if (const std::size_t n = site.quantities.size(); n > 0 && site.uncertainty.sample == 0) {
+    odd.push_back(std::to_string(n) + (n == 1 ? " quantity" : " quantities") +
+                  " of [uncertainty] not drawn: no --sample is given, so the values of the site "
+                  "file hold");
+    log.warn(odd.back());
+  }
   SetUp setup;
   setup.inputs = read_dda_inputs(log, site, request.files);
   setup.inputs.warnings.insert(setup.inputs.warnings.begin(), odd.begin(), odd.end());

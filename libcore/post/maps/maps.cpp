@@ -215,8 +215,9 @@ double reach_bound_elsewhere(const ShareBasis& basis) {
 
 RunsToAdd runs_to_add(const CellRows& cells, const ShareBasis& basis, double half) {
   std::vector<BlockWeight> blocks;
+  if (!basis.bounded) return runs_to_add(basis, blocks, 0, half);
   RunsToAdd most;
-  for (std::size_t i = 0; i < cells.cell.size() && basis.bounded; ++i) {
+  for (std::size_t i = 0; i < cells.cell.size(); ++i) {
     const double share = take_blocks(rows_of(cells, i), basis, all, blocks);
     if (share <= least_reach) continue;
     const RunsToAdd here = runs_to_add(basis, blocks, share, half);

@@ -38,6 +38,7 @@ prints "friction: ground.slope.friction_deg, material.rock.friction_deg: what is
 prints "2 rock masses, each cut anew"
 stat -c %Y slope/out/runs/run_1.h5 >before
 made slope WITHOUT=no RUNS=4
+grep -q 'not drawn' slope/out/check.json && fail 'the look before the runs says that they draw nothing'
 [ "$(stat -c %Y slope/out/runs/run_1.h5)" = "$(cat before)" ] || fail "a run was made again for more runs"
 # in reverse order, in another folder, by hand
 uncertain other

@@ -290,6 +290,8 @@ TEST(RunsToAdd, AreThoseOfTheWorstCell) {
   for (int run = 0; run < 20; ++run) made.runs[run].passages.push_back(half);
   EXPECT_EQ(runs_to_add(made.cells(), made.basis(), 0.05).n, 341);  // 381 wanted where R = 0.5
   EXPECT_EQ(runs_to_add(made.cells(), made.basis(), 0.2).n, 0);
+  HandMade few = random_runs(4, 2, false, 0, 1);  // have no interval at all
+  EXPECT_EQ(runs_to_add(few.cells(), few.basis(), 0.2).n, least_clusters - 4);
 }
 
 // Two of the 102 runs that were wanted failed: the rest says 10 of 100.
