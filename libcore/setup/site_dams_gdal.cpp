@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 
 #include "base/text.hpp"
 #include "base/units.hpp"
@@ -56,8 +55,8 @@ InputError error_of(const DamFault& fault, const Where& where, const DamSettings
               "the ground falls nearly as steeply: a steeper face (slopes_deg), or flatter ground"};
     case DamFault::ditch_side:
       return {where, face("far side of the ditch", s.slopes_deg[1]) + at,
-              "the ground rises nearly as steeply: a shallower or narrower ditch (ditch_m), or a "
-              "steeper downhill face, which the ditch's far side is as steep as (slopes_deg)"};
+              "the ground rises nearly as steeply: a steeper downhill face, which the ditch's far "
+              "side is as steep as (slopes_deg), or no ditch"};
     default:
       return {where, "reaches beyond the known ground" + at + "; " + extent_text(trn),
               "make the terrain larger, or move the dam"};
@@ -250,24 +249,15 @@ const BurntDam* burnt_in(const Trn& trn, const SiteDam& dam) {
   return nullptr;
 }
 
-void check_known(const Site& site, const Trn& trn, const std::set<std::string>& active) {
-  for (const BurntDam& burnt : trn.dams)
-    if (!active.contains(burnt.name))
-      throw InputError({site.file, 0, "dam." + burnt.name},
-                       "is in the ground of the terrain, and not active here", other_terrain_hint);
-}
-
 }  // namespace
 
 std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn) {
   constexpr double spacing = 10;
   std::vector<DamLines> all;
-  std::set<std::string> active;
   for (const DamSettings& settings : site.dams) {
     if (!settings.active) continue;
     const Where where = where_of_dam(site, settings);
     for (const SiteDam& dam : dams_of(log, site, trn, settings)) {
-      active.insert(dam.name);
       const DamShape& shape = dam.shape;
       const BurntDam* const found = burnt_in(trn, dam);
       if (found == nullptr) {
@@ -297,15 +287,20 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
       all.back().crest.roof_nodes = burnt.nodes;
     }
   }
-  check_known(site, trn, active);
   return all;
 }
 
-void check_burnt(const Site& site, const DamSettings* unburnt) {
+void check_burnt(const Site& site, const DamSettings* unburnt, const Trn& trn) {
   if (unburnt != nullptr)
     throw InputError(where_of_dam(site, *unburnt),
                      "is active, and the terrain was made without it or with another shape of it",
                      other_terrain_hint);
+  for (const BurntDam& burnt : trn.dams)
+    if (std::none_of(site.dams.begin(), site.dams.end(), [&burnt](const DamSettings& dam) {
+          return dam.active && (burnt.name == dam.name || burnt.name.starts_with(dam.name + "."));
+        }))
+      throw InputError({site.file, 0, "dam." + burnt.name},
+                       "is in the ground of the terrain, and not active here", other_terrain_hint);
 }
 
 std::vector<RoofPiece> gallery_roofs(InputLog& log, const Site& site, const Trn& trn) {

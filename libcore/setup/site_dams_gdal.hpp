@@ -43,12 +43,12 @@ struct DamLines {
   int uphill = 1;  ///< +1: left of both seen from their first points, -1: right; 0: see dam_lines()
 };
 /// Of all that are active. One that `trn` was made without, or with another shape of it, has none,
-/// and no side uphill. Throws InputError as dams_of() and posts_on_ground(), and where the ground
-/// has a dam that is not active.
+/// and no side uphill. Throws InputError as dams_of() and posts_on_ground().
 [[nodiscard]] std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn);
 
-/// Throws InputError for a dam that the terrain does not hold; null: it holds all.
-void check_burnt(const Site& site, const DamSettings* unburnt);
+/// Throws InputError for an active dam that the terrain does not hold (null: it holds all), and for
+/// one that it holds and that is not active.
+void check_burnt(const Site& site, const DamSettings* unburnt, const Trn& trn);
 
 /// Roofs of the galleries that are active in the ground of `trn`. Throws InputError as dams_of().
 [[nodiscard]] std::vector<RoofPiece> gallery_roofs(InputLog& log, const Site& site, const Trn& trn);

@@ -398,7 +398,7 @@ void look_at(Tool& tool, const Site& site, const CheckFiles& files, Look& look) 
   check_times(site);
   static_cast<void>(warn_of_settings(tool, site));
   look.inputs = read_dda_inputs(tool, site, {files.bed, files.blocks, files.settle});
-  check_burnt(site, look.inputs.unburnt);
+  check_burnt(site, look.inputs.unburnt, look.inputs.parts.trn);
   warn_of_soils(tool, site, look.inputs.parts.blocks);
   static_cast<void>(observed_events(tool, site, look.work.ground));  // refused before the runs
   look.is_cut = look.work.is_cut();

@@ -74,7 +74,9 @@ std::vector<DamCase> dam_cases(Tool& tool, const Site& site, const Trn& trn,
                                std::vector<FenceCase>& lines) {
   std::vector<DamCase> cases;
   const std::vector<DamLines> dams = dam_lines(tool, site, trn);
-  for (const DamLines& dam : dams) check_burnt(site, dam.uphill == 0 ? dam.settings : nullptr);
+  const auto unburnt =
+      std::find_if(dams.begin(), dams.end(), [](const DamLines& dam) { return dam.uphill == 0; });
+  check_burnt(site, unburnt == dams.end() ? nullptr : unburnt->settings, trn);
   const std::size_t first = lines.size();
   for (const RecordLine DamLines::*of : {&DamLines::before, &DamLines::crest})
     for (const DamLines& dam : dams) {

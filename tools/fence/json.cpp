@@ -38,9 +38,8 @@ Json part_json(const FencePartSummary& p) {
           {"hits_in_that_second", p.window_hits}};
 }
 
-// Counts beside shares are written as 12.0.
 Json share_json(const VerdictShare& share) {
-  return {{"n", static_cast<double>(share.n)},
+  return {{"n", share.n},
           {"share", number_or_null(share.share)},
           {"low", number_or_null(share.interval.low)},
           {"high", number_or_null(share.interval.high)}};
@@ -129,7 +128,7 @@ Json ground_json(const FenceRunGroup& group, std::size_t fence) {
   const GroundBehind g = ground_behind(group, fence);
   return {{"n_runs", n_runs(group)},
           {"n_runs_moved", g.n_moved},
-          {"blocks_behind_the_line", static_cast<double>(g.n)},
+          {"blocks_behind_the_line", g.n},
           {"share_behind_the_line", number_or_null(g.share)},
           {"volume_behind_the_line_m3_per_run", g.volume},
           {"energy_at_the_line_kj_p50", number_or_null(g.energy_p50 / 1e3)},

@@ -80,7 +80,9 @@ bool is_before(const RowAcross& a, const RowAcross& b) {
 
 double size_of(double volume) { return std::cbrt(6 * volume / std::numbers::pi); }
 
-// Of the largest line across a path, in cell sizes: the part that hits, and all of it.
+// A line across a path, in cell sizes: the part that the rock hits from, and all of it. Each end is
+// longer by what passages of one rock may lie beside each other, so that a cell which one of its
+// lines reaches is crossed by the others too.
 struct LineAcross {
   double reach = 0, length = 0;
 };
@@ -89,10 +91,9 @@ LineAcross line_across(const PassageGrid& grid, double volume, double width, dou
   return {reach, reach + 2 * (rock + cell_width)};
 }
 
-// Rows of one rock in the cells of its rows `of`, for what is `width` wide [m] and centred on a
-// cell. Its passages say which cells it crossed, not where: lines across its path over them, as
-// long as the width and the rock, reach all of a cell beside it, a part, or nothing. The weight of
-// a row is the share that they reach.
+// Rows of a rock beside one of its passages, for what is `width` wide [m] and centred on a cell.
+// The passages say which cells it crossed, not where: lines over them, as long as the width and the
+// rock, reach all of a cell, a part, or nothing.
 void add_across(const EventRow& row, double heading, const PassageGrid& grid, double volume,
                 double width, std::vector<RowAcross>& across) {
   if (std::isnan(heading)) {  // at rest
@@ -111,6 +112,7 @@ void add_across(const EventRow& row, double heading, const PassageGrid& grid, do
       });
 }
 
+// One row of each cell: its weight is the share of the lines over it that is reached.
 void take_merged(std::vector<RowAcross>& across, const TakeEvent& take) {
   std::sort(across.begin(), across.end(), is_before);
   for (std::size_t i = 0; i < across.size();) {

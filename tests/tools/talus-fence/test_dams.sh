@@ -56,7 +56,7 @@ for other in height_m=2 ditch_m=[1,3] 'line=[[500115,5000011],[500115,5000090]]'
   expect 1 talus-fence site.toml --set "dam.road.$other" high/run_1.h5 --trn high/bed.tif -o no.gpkg --no-db
   says 'dam.road: is active, and the terrain was made without it or with another shape of it'
 done
-expect 1 talus-fence site.toml --set dam.road.active=false --set dam.below.active=true high/run_1.h5 --trn high/bed.tif -o no.gpkg --no-db
+expect 1 talus-fence site.toml --set dam.road.active=false high/run_1.h5 --trn high/bed.tif -o no.gpkg --no-db
 says 'dam.road: is in the ground of the terrain, and not active here'
 python3 - <<'PY' || fail "what comes and what passes"
 import csv, json

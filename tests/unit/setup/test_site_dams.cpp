@@ -40,7 +40,7 @@ TEST_F(Dams, AreWatchedFromWhereTheGroundRoseBeforeThem) {
   ASSERT_EQ(absent.size(), 2U);
   EXPECT_EQ(absent[0].uphill, 0);
   EXPECT_NE(refusal_of([&] {
-              check_burnt(site, absent[0].settings);
+              check_burnt(site, absent[0].settings, trn);
             }).find("dam.above: is active, and the terrain was made without it"),
             std::string::npos);
   const std::vector<DamLines> lines = lines_of(both);
@@ -48,6 +48,11 @@ TEST_F(Dams, AreWatchedFromWhereTheGroundRoseBeforeThem) {
   const double before = 1 + 5 / std::tan(std::acos(-1) / 3) + 2.5;  // crest, face, half the height
   for (const Vec3& post : lines[0].before.points) EXPECT_NEAR(post.y(), 35 + before, 1e-9);
   for (const Vec3& post : lines[1].before.points) EXPECT_NEAR(post.y(), 18 + before, 1e-9);
+  check_burnt(site, nullptr, trn);
+  EXPECT_NE(refusal_of([&] {
+              check_burnt(site_of(folder, ""), nullptr, trn);
+            }).find("dam.above: is in the ground of the terrain, and not active here"),
+            std::string::npos);
 }
 
 // Both edges lie between two nodes, where the terrain falls from the roof.
