@@ -141,11 +141,15 @@ std::vector<std::uint32_t> by_block(const std::vector<MapRow>& rows) {
   return order;
 }
 
-bool are_rocks(const RunMember& run, const Recipe& recipe) {
-  return recipe.width > 0 && (run.info.independent || run.info.weights_are_frequencies);
+bool has_width(const Recipe& recipe, const RunMember& run, const RunBlocks& blocks) {
+  return recipe.width > 0 && blocks_are_events(run.info, static_cast<int>(blocks.volume.size()));
 }
 
 }  // namespace
+
+bool blocks_are_events(const RunInfo& run, int n_blocks) {
+  return n_blocks == 1 || run.independent || run.weights_are_frequencies;
+}
 
 void event_rows(const std::vector<MapRow>& rows, const PassageGrid& grid, const RunBlocks& blocks,
                 const Recipe& recipe, const RunMember& run, int index, const TakeEvent& take) {
@@ -173,7 +177,7 @@ void event_rows(const std::vector<MapRow>& rows, const PassageGrid& grid, const 
             company[i] ? std::max(own, least) : own,
             weight * run.run_weight};
   };
-  if (!are_rocks(run, recipe)) {
+  if (!has_width(recipe, run, blocks)) {
     for (std::size_t i = 0; i < rows.size(); ++i) take(row_of(i));
     return;
   }
@@ -189,7 +193,7 @@ void event_rows(const std::vector<MapRow>& rows, const PassageGrid& grid, const 
 
 int cells_beside(const PassageGrid& grid, const RunBlocks& blocks, const Recipe& recipe,
                  const RunMember& run) {
-  if (!are_rocks(run, recipe) || blocks.volume.empty()) return 0;
+  if (blocks.volume.empty() || !has_width(recipe, run, blocks)) return 0;
   const double largest = *std::max_element(blocks.volume.begin(), blocks.volume.end());
   return 1 + static_cast<int>(line_across(grid, largest, recipe.width, 2).length / 2);
 }

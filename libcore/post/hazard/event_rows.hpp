@@ -25,6 +25,10 @@ struct EventRow {
   double weight = 1;    ///< of the block, times that of its run
 };
 
+/// Whether each block of a run is an event of its own: it moved as if it were alone, has a
+/// frequency, or is the only one.
+[[nodiscard]] bool blocks_are_events(const RunInfo& run, int n_blocks);
+
 using TakeEvent = std::function<void(const EventRow&)>;
 /// Calls take(row) for the passages of `run`, which has the place `index` among all. Where it
 /// released more than the recipe's volume of a mass, a block that is not alone in a cell has at

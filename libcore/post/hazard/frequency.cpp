@@ -90,10 +90,20 @@ HazardClass class_of(const Site& site, const HazardClassSettings& s) {
   return out;
 }
 
-// One class by weights among several may be that of the release points; the runs tell.
+// One class by weights among several may be that of the release points; the runs tell. Two would
+// count each rock twice: the classes of a site share its sources.
 void check_sources(const Site& site, const std::vector<HazardClass>& classes) {
-  for (const HazardClass& kind : classes)
-    if (kind.kind == FrequencyKind::of_weights) return;
+  const HazardClassSettings* by_weights = nullptr;
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    if (classes[i].kind != FrequencyKind::of_weights) continue;
+    if (by_weights)
+      throw InputError(where_of_class(site, site.hazard_classes[i]),
+                       "takes the frequencies of [rockfall.*], class " + by_weights->name +
+                           " takes them too: each rock would count twice",
+                       "keep one class: with one, alternatives count by their weights");
+    by_weights = &site.hazard_classes[i];
+  }
+  if (by_weights) return;
   for (const RockfallSettings& section : site.rockfalls) {
     const char* const key = frequency_key(section);
     if (!key || classes.empty()) continue;

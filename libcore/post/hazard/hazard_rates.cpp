@@ -94,7 +94,8 @@ HazardRuns hazard_runs(const HazardClass& kind, std::span<const RunMember> membe
       std::find_if(own.begin(), own.end(), [](const RunMember& run) { return run.n_blocks > 1; });
   const RunMember& first_run = first_of_several == own.end() ? own.front() : *first_of_several;
   for (const RunMember& run : own) check_run(kind, run, first_run);
-  runs.kind.of_rocks = kind.kind == FrequencyKind::of_weights || first_run.info.independent;
+  runs.kind.of_rocks = kind.kind == FrequencyKind::of_weights ||
+                       blocks_are_events(first_run.info, first_run.n_blocks);
   runs.basis = share_basis(clusters_of(own), failed_share);
   for (const RunMember& run : own) runs.n_rocks += runs.kind.of_rocks ? run.n_blocks : 0;
   if (kind.kind == FrequencyKind::of_weights) {

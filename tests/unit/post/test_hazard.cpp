@@ -434,18 +434,23 @@ TEST(Hazard, AMassIsAsWideAsItIsAndARockAtRestIsInItsCell) {
   PassageGrid grid;
   grid.cell_size = 2;
   grid.n_rows = grid.n_cols = 9;
-  RunBlocks blocks;
+  RunBlocks blocks, block;
   blocks.volume = {1, 1};
+  block.volume = {1};
   std::vector<MapRow> rows(1);
   rows[0].cell = 40;
   RunMember run;
   run.n_blocks = 2;
   EXPECT_EQ(events_of(rows, grid, blocks, recipe, run, 0).size(), 1U);
+  const auto cells_of = [&](const RunBlocks& of) {
+    std::vector<std::uint32_t> cells;
+    for (const EventRow& row : events_of(rows, grid, of, recipe, run, 0)) cells.push_back(row.cell);
+    return cells;
+  };
+  const std::vector<std::uint32_t> across_east = {13, 22, 31, 40, 49, 58, 67};
+  EXPECT_EQ(cells_of(block), across_east);
   run.info.independent = true;
-  std::vector<std::uint32_t> cells;
-  for (const EventRow& row : events_of(rows, grid, blocks, recipe, run, 0))
-    cells.push_back(row.cell);
-  EXPECT_EQ(cells, (std::vector<std::uint32_t>{13, 22, 31, 40, 49, 58, 67}));  // across east
+  EXPECT_EQ(cells_of(blocks), across_east);
   EXPECT_GE(cells_beside(grid, blocks, recipe, run), 2);
   rows[0].heading = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(events_of(rows, grid, blocks, recipe, run, 0).size(), 1U);
@@ -564,6 +569,21 @@ TEST(Hazard, OfSingleRocksAsksOneQuestionOnce) {
   EXPECT_EQ(
       refusal_of_site("[hazard.class.V1]\n[hazard.class.V5]\nfrequency_per_a = 0.28\n" + release),
       "accepted");  // which runs are of which release the runs say
+  EXPECT_NE(
+      refusal_of_site("[hazard.class.frozen]\n[hazard.class.thawed]\n" + release)
+          .find("hazard.class.thawed: takes the frequencies of [rockfall.*], class frozen takes "
+                "them too"),
+      std::string::npos);
+}
+
+// One block is alone however its run was computed.
+TEST(Hazard, AClassOfSingleBlocksIsOfRocks) {
+  const HazardClass kind = class_named("V1", FrequencyKind::of_events);
+  std::vector<RunMember> members = members_of(20, 1, 1, false);
+  for (RunMember& member : members) member.info.independent = false;
+  EXPECT_TRUE(hazard_runs(kind, members, 0, 0).kind.of_rocks);
+  members[7].n_blocks = 2;
+  EXPECT_FALSE(hazard_runs(kind, members, 0, 0).kind.of_rocks);
 }
 
 // A case that counts three times as much does so in the share of runs and in that of rocks.
