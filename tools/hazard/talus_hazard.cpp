@@ -200,17 +200,23 @@ void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
             " are needed to call them free");
 }
 
+// What every file of a result says.
+struct Marks {
+  std::string remark;
+  MapTags tags;
+  std::vector<std::string> notes;
+};
+
 // The maps of all layers; their entries in the result.
 Json write_layers(Tool& tool, const Options& o, const MapFrame& frame, const Recipe& recipe,
-                  const std::vector<MapLayer>& layers, const std::string& remark,
-                  const std::vector<std::string>& notes, const MapTags& tags) {
+                  const std::vector<MapLayer>& layers, const Marks& marks) {
   const MapLayer* const certainty = layer_named(layers, certainty_layer);
   Json written = Json::array();
   for (const MapLayer& layer : layers) {
     const std::string path = (fs::path(o.folder) / (layer.name + ".tif")).string();
     const std::string shown =
-        write_map(tool, frame, path, layer, hazard_style(layer, recipe, remark, notes), tags,
-                  layer.name == "class" ? certainty : nullptr);
+        write_map(tool, frame, path, layer, hazard_style(layer, recipe, marks.remark, marks.notes),
+                  marks.tags, layer.name == "class" ? certainty : nullptr);
     Json bands = Json::array();
     for (const MapBand& band : layer.bands) bands.push_back(band.name);
     written.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});
@@ -227,6 +233,42 @@ std::string area_lines(const Json& classes) {
   return lines;
 }
 
+// Polygons and areas of the classes, and what is filed; the lines of the summary.
+std::string write_classes(Tool& tool, const Options& o, const Site& site, const Vec3& origin,
+                          const HazardSources& sources, const std::vector<MapLayer>& layers,
+                          const MapFrame& frame, const Marks& marks, Json& result) {
+  const MapLayer& of_class = *layer_named(layers, "class");
+  const MapLayer& certainty = *layer_named(layers, certainty_layer);
+  std::vector<VectorLayer> polygons =
+      hazard_polygons(of_class, certainty, frame.grid, origin, sources.recipe, marks.notes);
+  mark_layers(polygons, marks.remark);
+  write_geopackage(tool.stage((fs::path(o.folder) / "hazard.gpkg").string()), frame.crs_wkt,
+                   polygons, marks.tags);
+  result["classes"] = class_areas(of_class, certainty, sources.recipe, frame.grid.cell_size);
+  Json rates = Json::array();
+  for (const HazardRuns& of : sources.classes) rates.push_back(rate_json(of.kind));
+  result["frequencies"] = rates;
+  result["rate_elsewhere_per_a"] = number_or_null(largest_rate_elsewhere(sources.classes));
+  const std::string areas = area_lines(result["classes"]);
+  if (!is_filed(site)) return areas;
+  const std::string path = (fs::path(o.folder) / "filing.gpkg").string();
+  Filing filing = filing_of(site, sources, layers, frame.grid, frame.known, origin, path);
+  mark_layers(filing.layers, marks.remark);
+  write_geopackage(tool.stage(path), frame.crs_wkt, filing.layers, marks.tags);
+  result["filing"] = filing.result;
+  return areas + filing.words;
+}
+
+std::string no_classes_words(const Site& site, const HazardSources& sources) {
+  if (sources.has_frequencies)
+    return "recipe " + sources.recipe.name +
+           " is of risk: cells have no class, objects have one (talus-trace)";
+  return "no frequency is given: classes, return periods and frequencies are not written; give "
+         "[hazard.class.NAME] frequency_per_a, events with observed_a, or failure_probability "
+         "with in_years in " +
+         site.file;
+}
+
 void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs) {
   limit_memory(0);  // --memory-mb is for rows alone; the rest needs the free memory
   const Site& site = site_options.load();
@@ -240,59 +282,32 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   const HazardSources& sources = inputs.sources;
   if (inputs.n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
   runs.warn_of_ends();
-  const std::string why =
-      classes.empty()
-          ? "no frequency is given: classes, return periods and frequencies are not written; give "
-            "[hazard.class.NAME] frequency_per_a, events with observed_a, or failure_probability "
-            "with in_years in " +
-                site.file
-          : "recipe " + recipe.name +
-                " is of risk: cells have no class, objects have one (talus-trace)";
-  if (classes.empty())
-    tool.warn(why);
-  else
+  if (sources.has_frequencies)
     warn_of_elsewhere(tool, sources);
+  else
+    tool.warn(no_classes_words(site, sources));
   const std::string remark = runs.remark();
-  const MapTags tags = tags_of(tool, runs, sources, remark);
   const PassageGrid& grid = inputs.map.grid;
-  const std::vector<std::string> notes = notes_of(site, sources, grid.cell_size);
+  const Marks marks{remark, tags_of(tool, runs, sources, remark),
+                    notes_of(site, sources, grid.cell_size)};
   const MapFrame frame = map_frame(runs, grid, o.pages, layers[0].cell);
-  const MapLayer* const certainty = layer_named(layers, certainty_layer);
   Json result = {{"run_id", tool.run_id()},
                  {"tags", Json::object()},
                  {"sections", section_state(site, {"hazard"})},
                  {"n_runs", runs.members.size()},
                  {"n_cells_touched", layers[0].cell.size()},
                  {"cell_size_m", grid.cell_size},
-                 {"layers", write_layers(tool, o, frame, recipe, layers, remark, notes, tags)}};
-  for (const auto& [key, value] : tags) result["tags"][key] = value;
+                 {"layers", write_layers(tool, o, frame, recipe, layers, marks)}};
+  for (const auto& [key, value] : marks.tags) result["tags"][key] = value;
   std::string summary =
       std::to_string(layers.size()) + " maps of " + run_words(sources) + " in " + o.folder;
-  result["notes"] = notes;
-  if (const MapLayer* of_class = layer_named(layers, "class")) {
-    std::vector<VectorLayer> polygons =
-        hazard_polygons(*of_class, *certainty, grid, trn.origin, recipe, notes);
-    mark_layers(polygons, remark);
-    write_geopackage(tool.stage((fs::path(o.folder) / "hazard.gpkg").string()), trn.crs_wkt,
-                     polygons, tags);
-    result["classes"] = class_areas(*of_class, *certainty, recipe, grid.cell_size);
-    Json rates = Json::array();
-    for (const HazardRuns& of : sources.classes) rates.push_back(rate_json(of.kind));
-    result["frequencies"] = rates;
-    result["rate_elsewhere_per_a"] = number_or_null(largest_rate_elsewhere(sources.classes));
-    summary += area_lines(result["classes"]);
-    if (is_filed(site)) {
-      const std::string path = (fs::path(o.folder) / "filing.gpkg").string();
-      Filing filing = filing_of(site, sources, layers, grid, frame.known, trn.origin, path);
-      mark_layers(filing.layers, remark);
-      write_geopackage(tool.stage(path), trn.crs_wkt, filing.layers, tags);
-      result["filing"] = filing.result;
-      summary += filing.words;
-    }
+  result["notes"] = marks.notes;
+  if (layer_named(layers, "class")) {
+    summary += write_classes(tool, o, site, trn.origin, sources, layers, frame, marks, result);
   } else {
     result["classes"] = nullptr;
-    result["why_no_classes"] = why;
-    if (!classes.empty()) summary += "\n" + why;
+    result["why_no_classes"] = no_classes_words(site, sources);
+    if (sources.has_frequencies) summary += "\n" + no_classes_words(site, sources);
   }
   add_faults(result, faults_of(runs.members, runs.left_out));
   tool.metric("passages", static_cast<double>(inputs.n_rows), "1");
