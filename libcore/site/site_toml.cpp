@@ -699,19 +699,7 @@ Texts names_in(const Site& site, const std::string& group) {
 struct Refusal {
   std::string why, hint;
 };
-Refusal refusal_of(const VariantSettings& variant, const VariantSettings::Change& change) {
-  const EffectiveValue value{path_of(change.group, change.name), change.key, "", ""};
-  if (change.group == "site") return {"is of the site itself", "write it in [site]"};
-  if (change.key == "n_runs" || (change.group == "solver" && change.key == "seed"))
-    return {"would make other runs, and runs of the same seeds are compared",
-            "write it in [solver], for all variants"};
-  if (is_alternative(variant)) {
-    const bool is_shared = stage_reads("import", value) || stage_reads("trn", value) ||
-                           is_rock_key(value.section + "." + value.key);
-    if (stage_reads("run", value) && !is_shared && change.group != "uncertainty") return {};
-    return {"changes nothing in its runs: alternatives share terrain, blocks and what is evaluated",
-            "take the weight out, so that it is compared, or make another site of it"};
-  }
+Refusal refusal_of_measure(const VariantSettings::Change& change) {
   if (change.group == "output" ||
       (change.group == "terrain" && has_name({"cell_size_m", "window_m"}, change.key)))
     return {"would record what cannot be laid over the site's",
@@ -721,8 +709,32 @@ Refusal refusal_of(const VariantSettings& variant, const VariantSettings::Change
   if (has_name({"source", "blocks", "uncertainty"}, change.group) ||
       (change.group == "joints" && !is_strength) || (change.group == "rockfall" && !is_frequency))
     return {"would draw other rocks, and the difference would be theirs",
-            "a mass that is scaled off is named by the key without; else make another site of it"};
+            change.group == "rockfall"
+                ? "give rocks of another volume a [rockfall.NAME] of their own, each with its "
+                  "frequency_per_a; else make another site of it"
+                : "a mass that is scaled off is named by the key without; else make another site "
+                  "of it"};
   return {};
+}
+
+Refusal refusal_of_alternative(const VariantSettings::Change& change) {
+  const EffectiveValue value{path_of(change.group, change.name), change.key, "", ""};
+  const bool is_shared = stage_reads("import", value) || stage_reads("trn", value) ||
+                         is_rock_key(value.section + "." + value.key);
+  if (stage_reads("run", value) && !is_shared && change.group != "uncertainty") return {};
+  const Refusal of_measure = refusal_of_measure(change);
+  return {"changes nothing in its runs: alternatives share terrain, blocks and what is evaluated",
+          of_measure.why.empty()
+              ? "take the weight out, so that it is compared, or make another site of it"
+              : of_measure.hint};
+}
+
+Refusal refusal_of(const VariantSettings& variant, const VariantSettings::Change& change) {
+  if (change.group == "site") return {"is of the site itself", "write it in [site]"};
+  if (change.key == "n_runs" || (change.group == "solver" && change.key == "seed"))
+    return {"would make other runs, and runs of the same seeds are compared",
+            "write it in [solver], for all variants"};
+  return is_alternative(variant) ? refusal_of_alternative(change) : refusal_of_measure(change);
 }
 
 void check_change(const Site& site, const VariantSettings& variant,
