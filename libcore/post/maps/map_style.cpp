@@ -30,6 +30,21 @@ std::vector<StyleClass> change_classes(const std::vector<double>& limits, const 
   return classes;
 }
 
+// Rocks one by one change less than the first class: then the same classes, ten times finer or
+// more. What is still less is rounding.
+std::vector<double> limits_seen(const MapBand& band, const std::vector<double>& limits) {
+  double largest = 0;
+  for (const float value : band.value)
+    if (!std::isnan(value)) largest = std::max(largest, std::abs(static_cast<double>(value)));
+  for (const double finer : {1.0, 10.0, 100.0, 1000.0}) {
+    if (largest < limits[0] / finer) continue;
+    std::vector<double> out = limits;
+    for (double& limit : out) limit /= finer;
+    return out;
+  }
+  return limits;
+}
+
 // In no more than a twentieth of the cells that were touched is there no value.
 bool is_nearly_everywhere(const MapBand& band) {
   const auto n_missing =
@@ -75,8 +90,9 @@ std::string intensity(const std::string& unit, double upper) {
 RasterStyle change_style(const MapLayer& layer, const ChangeWords& words, const std::string& remark,
                          const std::vector<double>& breaks) {
   const MapBand& band = layer.bands[0];
-  RasterStyle style{1, band.name + " [" + band.unit + "]",
-                    change_classes(breaks, band.unit == "1" ? "" : " " + band.unit), remark};
+  RasterStyle style{
+      1, band.name + " [" + band.unit + "]",
+      change_classes(limits_seen(band, breaks), band.unit == "1" ? "" : " " + band.unit), remark};
   style.heading = words.heading;
   style.legend = words.legend;
   return style;

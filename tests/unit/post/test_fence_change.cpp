@@ -76,3 +76,15 @@ TEST(ChangeStyle, TellsLessFromMore) {
   EXPECT_EQ(style.classes.front().label, "less by more than 4 m");
   EXPECT_EQ(style.classes.back().label, "more by more than 4 m");
 }
+
+TEST(ChangeStyle, ShowsSmallChangesWhereAllAreSmall) {
+  MapLayer layer = change_layer({}, {}, 4);
+  const auto label_with = [&layer](std::vector<float> values) {
+    layer.bands[0].value = std::move(values);
+    return change_style(layer, {"Change", "with minus without"}).classes.back().label;
+  };
+  EXPECT_EQ(label_with({0.001F, -0.06F}), "more by more than 4 m");
+  EXPECT_EQ(label_with({0.001F, -0.04F}), "more by more than 0.4 m");
+  EXPECT_EQ(label_with({0.001F}), "more by more than 0.04 m");
+  EXPECT_EQ(label_with({1e-12F}), "more by more than 4 m");  // rounding
+}
