@@ -82,6 +82,20 @@ TEST(DeepRows, ASplinterThatMattersFailsTheRun) {
   EXPECT_TRUE(Row::broken(at_fence).empty());
 }
 
+// Of rocks that fall one by one it may be one in a thousand.
+TEST(DeepRows, ARockThatMattersIsOneSample) {
+  for (const auto& [max_share, is_broken] : {std::pair{0.04, true}, {0.05, false}}) {
+    Row row(0.2);  // 21 blocks
+    row.scene.settings.block_contacts = false;
+    row.options.limits.max_deep_share = max_share;
+    Runner runner = row.begin();
+    Row::sink(runner);
+    runner.state.deep[20].is_too_fast = true;
+    EXPECT_EQ(Row::broken(runner),
+              is_broken ? std::vector<std::string>{matters} : std::vector<std::string>{});
+  }
+}
+
 // Every broken limit says which block, in which body, when, where and its share of the mass.
 TEST(DeepRows, BrokenLimitsNameABlock) {
   Row row(1);
