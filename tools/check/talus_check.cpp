@@ -133,10 +133,12 @@ int main(int argc, char** argv) {
     find_doubts(look);
     const Json report = check_json(look, tool.run_id());
     if (o.doubts.accept) accept(look.doubts);
-    if (!o.page.empty()) write(tool, o.page, check_page(look, page_of(tool, o, look.doubts)));
+    const CheckPage page = page_of(tool, o, look.doubts);
+    if (!o.page.empty()) write(tool, o.page, check_page(look, page));
     tool.report(o.report, report, true);
     o.doubts.crs_wkt = look.work.ground.crs_wkt;
     static_cast<void>(judge(tool, o.doubts, look.doubts));
-    tool.result(report, check_text(look, o.n_runs > 0 ? o.n_runs : site.solver.n_runs));
+    tool.result(report,
+                check_text(look, page.doubts, o.n_runs > 0 ? o.n_runs : site.solver.n_runs));
   });
 }

@@ -247,12 +247,12 @@ Json check_json(const Look& look, const std::string& run_id) {
   return json;
 }
 
-std::string check_text(const Look& look, std::int64_t n_runs) {
+std::string check_text(const Look& look, const std::vector<Doubt>& doubts, std::int64_t n_runs) {
   std::string words =
       look.is_cut ? source_text(look) : counted(n_blocks(look.inputs.parts.blocks), "block");
   words += "\n" + motion_text(look) + fences_text(look) + objects_text(look) + "\n" +
            time_text(look, n_runs, true);
-  return words + "\n" + counted(std::ssize(look.doubts), "doubt");
+  return words + "\n" + counted(std::ssize(doubts), "doubt");
 }
 
 }  // namespace talus

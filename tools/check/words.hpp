@@ -11,8 +11,9 @@ namespace talus {
 /// The same for the same inputs: no times of the machine.
 [[nodiscard]] Json check_json(const Look& look, const std::string& run_id);
 
-/// `n_runs`: that are to be computed.
-[[nodiscard]] std::string check_text(const Look& look, std::int64_t n_runs);
+/// `doubts`: those of the page. `n_runs`: that are to be computed.
+[[nodiscard]] std::string check_text(const Look& look, const std::vector<Doubt>& doubts,
+                                     std::int64_t n_runs);
 
 /// The parts of check_text() that the page shows too.
 [[nodiscard]] std::string motion_text(const Look& look);
