@@ -188,6 +188,17 @@ void doubt_missing_part(Tool& tool, const Options& o, const MapWindow& edges,
       "ask for the part that is there (window_m of a site), or add the data of the rest")});
 }
 
+// The bilinear facets of a coarse DEM stay what they are, however many cells each is cut into.
+void doubt_cells_finer_than_dem(Tool& tool, const Options& o, double dem_cell_size,
+                                const GridFrame& frame) {
+  if (frame.cell_size > 0.5 * dem_cell_size) return;
+  tool.doubts({talus::doubt_on({o.source},
+                               "the nodes of the DEM are " + text(dem_cell_size, 4) +
+                                   " m apart, those of the terrain " + text(frame.cell_size, 4) +
+                                   " m: steps and gullies between the DEM's nodes are not there",
+                               "omit --cell-size-m (of a site: cell_size_m), or get a finer DEM")});
+}
+
 // A surface that folds over, or has a second layer, has two heights in one place; a terrain has
 // one.
 void judge_layers(Tool& tool, const Options& o, const std::string& finding, const talus::Vec3& at,
@@ -304,6 +315,7 @@ Ground ground_of_dem(Tool& tool, const Options& o) {
   const MapWindow nodes = talus::extent(dem.frame());
   check_frame(frame, nodes, o);
   doubt_missing_part(tool, o, grown(nodes, 0.5 * dem.frame().cell_size), frame);
+  doubt_cells_finer_than_dem(tool, o, dem.frame().cell_size, frame);
   if (o.cell_size_m != 0 && frame.cell_size != o.cell_size_m)
     tool.info("the nodes are the DEM's own, " + text(frame.cell_size, 12) + " m apart");
   ground.trn = talus::make_trn(frame, dem.crs_wkt(), talus::read_dem(dem, frame, tool.progress()));

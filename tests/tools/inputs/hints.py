@@ -1179,6 +1179,7 @@ NOT_OBEYED = {
     '--hold-out': 'of options that do not go together',
     '--like': 'of options that do not go together',
     '--cell-size-m is': 'of options that do not go together',
+    'omit --cell-size-m (of a site': 'of a terrain that is made: talus-trn/test_averaging.sh',
     '--unit-m is for faces': 'of options that do not go together',
     'with talus-tin --t-srs ': 'the contours are not there',
     'TERRAIN.tif --t-vertical': 'needs a grid of PROJ',

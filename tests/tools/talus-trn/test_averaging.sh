@@ -30,8 +30,11 @@ awk 'BEGIN {
 }' >plane.asc
 expect 0 talus-trn plane.asc -o fine.tif --crs EPSG:32632 --cell-size-m 1
 prints "40 x 30 nodes"  # 1003..1042 by 2003..2032
+says "the nodes of the DEM are 5 m apart, those of the terrain 1 m"
 gdal_translate -q -of ENVI fine.tif fine.bin
 od -A n -v -w320 -t f8 fine.bin |
   awk '{ for (c = 1; c <= NF; ++c) {
            e = $c - (100 + 2 * (c - 1 + 0.5) / 5 - (NR - 1 + 0.5) / 5)
            if (e > 1e-9 || e < -1e-9) exit 1 } } END { exit NR != 30 }' || fail "a plane did not stay the plane"
+expect 0 talus-trn plane.asc -o own.tif --crs EPSG:32632  # as the warning says
+! grep -q "nodes of the DEM" err || fail "the DEM's own cells are called too fine"
