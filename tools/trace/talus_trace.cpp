@@ -393,6 +393,44 @@ std::string summary_of(const std::string& name, const TracedObject& o, const Rec
          std::to_string(t.n_sources[2]) + " source cells";
 }
 
+MapTags tags_of(Tool& tool, const std::vector<RunMember>& members,
+                const std::vector<RunMember>& left_out, const Recipe& recipe,
+                const std::string& remark) {
+  MapTags tags = talus::tags_of(members, left_out);
+  std::vector<std::string> ids;
+  for (const RunMember& member : members) ids.push_back(member.info.run_id);
+  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", run_set_id(std::move(ids))}});
+  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  if (is_of_risk(recipe)) {
+    tags.emplace_back("RECIPE", recipe.name + ", " + recipe.edition);
+    tags.emplace_back("RECIPE_SOURCE", source_words(recipe));
+    tags.emplace_back("RECIPE_SHA256", recipe.sha256);
+  }
+  return tags;
+}
+
+void warn_of_method(Tool& tool, const RecordObject& of, const std::string& method) {
+  if (method == "recorded") return;
+  tool.warn("object " + of.name + " was not watched by " +
+            (method == "both" ? "some of the runs" : "the runs") +
+            ": its hits are counted by the cells that it lies in, none too few and some too many, "
+            "with the largest energy over these cells");
+}
+
+// A map an object of the sources that reach it.
+void write_source_maps(Tool& tool, const Options& o, RunInputs& runs, const TraceSums& sums,
+                       const std::vector<SourceLink>& links, const std::string& remark,
+                       const MapTags& tags) {
+  std::vector<std::uint32_t> touched;
+  for (const auto& [cell, source] : sums.source) touched.push_back(cell);
+  const MapFrame frame = map_frame(runs, sums.sources, o.pages, touched);
+  for (int i = 0; i < static_cast<int>(sums.objects.size()); ++i) {
+    const MapLayer layer = source_layer(sums, i, links);
+    write_map(tool, frame, (fs::path(o.rasters) / (layer.name + ".tif")).string(), layer,
+              source_style(sums.objects[static_cast<std::size_t>(i)].name, remark), tags);
+  }
+}
+
 void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs) {
   const Site& site = site_options.load();
   if (!o.rasters.empty()) check_object_files(site);
@@ -419,11 +457,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
     TracedObject object{object_trace(sums, i, basis, links), no_value, no_value, no_value, {}};
     if (!classes.empty()) put_rate(traced, site, recipe, i, object);
     const RecordObject& of = sums.objects[static_cast<std::size_t>(i)];
-    if (object.trace.method != "recorded")
-      tool.warn("object " + of.name + " was not watched by " +
-                (object.trace.method == "both" ? "some of the runs" : "the runs") +
-                ": its hits are counted by the cells that it lies in, none too few and some too "
-                "many, with the largest energy over these cells");
+    warn_of_method(tool, of, object.trace.method);
     list.push_back(object_json(of, object, recipe, !classes.empty()));
     list.back()["sources"] = sources_json(traced, i, links, trn.origin);
     if (compared) list.back()["compared"] = compared_json(*compared, traced, site, recipe, i);
@@ -431,31 +465,12 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
                summary_of(of.name, object, recipe, !classes.empty(), sums.n_runs, rocks_alone);
     objects.push_back(std::move(object));
   }
-  MapTags tags = tags_of(members, left_out);
-  std::vector<std::string> ids;
-  for (const RunMember& member : members) ids.push_back(member.info.run_id);
-  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", run_set_id(std::move(ids))}});
-  if (!remark.empty()) tags.emplace_back("REMARK", remark);
-  if (is_of_risk(recipe)) {
-    tags.emplace_back("RECIPE", recipe.name + ", " + recipe.edition);
-    tags.emplace_back("RECIPE_SOURCE", source_words(recipe));
-    tags.emplace_back("RECIPE_SHA256", recipe.sha256);
-  }
+  const MapTags tags = tags_of(tool, members, left_out, recipe, remark);
   std::vector<VectorLayer> layers = trace_layers(sums, objects, links, trn, recipe);
   mark_layers(layers, remark);
   write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
   if (!o.csv.empty()) tool.write_text(o.csv, link_csv(sums, links, trn.origin));
-  if (!o.rasters.empty()) {
-    std::vector<std::uint32_t> touched;
-    for (const auto& [cell, source] : sums.source) touched.push_back(cell);
-    const MapFrame frame = map_frame(runs, sums.sources, o.pages, touched);
-    for (int i = 0; i < static_cast<int>(sums.objects.size()); ++i) {
-      const MapLayer layer = source_layer(sums, i, links);
-      write_map(tool, frame, (fs::path(o.rasters) / (layer.name + ".tif")).string(), layer,
-                source_style(sums.objects[static_cast<std::size_t>(i)].name, remark), tags);
-    }
-  }
-  const RunFaults faults = faults_of(members, left_out);
+  if (!o.rasters.empty()) write_source_maps(tool, o, runs, sums, links, remark, tags);
   Json result = {{"run_id", tool.run_id()},
                  {"tags", Json::object()},
                  {"sections", section_state(site, {"object", "hazard"})},
@@ -465,7 +480,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
                  {"objects", list},
                  {"conservation", conservation(traced, links)}};
   for (const auto& [key, value] : tags) result["tags"][key] = value;
-  add_faults(result, faults);
+  add_faults(result, faults_of(members, left_out));
   tool.result(result, summary);
 }
 

@@ -48,80 +48,103 @@ void put(MapLayer& layer, std::size_t first_band, std::size_t cell, const Rate& 
 constexpr const char* rate_bounds =
     "95 % interval of the share of events times the bounds of the frequency";
 
-std::vector<MapLayer> empty_layers(const HazardSources& sources,
-                                   const std::vector<std::uint32_t>& cells) {
-  const Recipe& recipe = sources.recipe;
-  const std::vector<std::string> limits = limit_names(recipe);
-  std::vector<MapLayer> layers;
-  const auto start = [&](const std::string& name) -> MapLayer& {
+// Layers to be filled, of the same cells.
+struct LayersToFill {
+  const Recipe& recipe;
+  const std::vector<std::uint32_t>& cells;
+  std::vector<std::string> limits;  // names
+  std::vector<MapLayer> layers{};
+
+  MapLayer& start(const std::string& name) {
     return layers.emplace_back(MapLayer{name, cells, {}});
-  };
-  MapLayer& exceed = start("event_exceed");
+  }
+};
+
+void start_shares(const HazardSources& sources, LayersToFill& to) {
+  MapLayer& exceed = to.start("event_exceed");
   for (const HazardRuns& runs : sources.classes)
-    for (std::size_t i = 0; i < limits.size(); ++i)
+    for (std::size_t i = 0; i < to.limits.size(); ++i)
       add_bounded(exceed,
                   (sources.classes.size() > 1 ? runs.kind.name + "_" : std::string()) +
-                      "event_exceed_" + limits[i],
+                      "event_exceed_" + to.limits[i],
                   "1",
                   std::string("share of the ") + (runs.kind.of_rocks ? "rocks: " : "runs with ") +
-                      above_words(recipe, i),
+                      above_words(to.recipe, i),
                   runs.kind.of_rocks ? "95 % interval" : "Wilson's 95 % interval");
-  if (!sources.has_frequencies) return layers;
-  if (is_localized(sources)) {
-    MapLayer& probability = start("probability");
-    const std::string years = text(sources.classes[0].kind.years);
-    for (std::size_t i = 0; i < limits.size(); ++i)
-      add_bounded(
-          probability, "probability_" + limits[i], "1",
-          "that within " + years + " years the mass fails and there is " + above_words(recipe, i),
-          "95 % interval of the share of events");
-  } else {
-    MapLayer& events = start("event_frequency");
-    for (std::size_t i = 0; i < limits.size(); ++i)
-      add_bounded(events, "event_frequency_" + limits[i], "1/a",
-                  "events a year with " + above_words(recipe, i), rate_bounds);
-    MapLayer& passages = start("passage_frequency");
-    for (std::size_t i = 0; i < limits.size(); ++i)
-      passages.bands.push_back(band("passage_frequency_" + limits[i], "1/a",
-                                    i == 0 ? "blocks a year over the cell"
-                                           : "blocks a year over the cell with more than " +
-                                                 break_name(recipe, recipe.breaks[i - 1]),
-                                    cells.size()));
-    for (std::size_t i = 0; i < limits.size(); ++i) {
-      const std::string name = "return_period_" + limits[i];
-      add_bounded(start(name), name, "a", "1 / frequency of events with " + above_words(recipe, i),
-                  "1 / the other bound of the frequency; nodata: not bounded");
-      for (MapBand& made : layers.back().bands) made.overview = OverviewValue::smallest;
-    }
-    for (const double period : recipe.return_periods) {
-      const std::string years = period_name(period), name = "ke_T" + years;
-      add_bounded(start(name), name, "kJ",
-                  "largest kinetic energy with spin that comes at least once in " + years +
-                      " years; nodata: nothing comes so often",
-                  "that at the bound of the frequency; nodata: nothing, or not bounded");
-    }
+}
+
+void start_probability(double years, LayersToFill& to) {
+  MapLayer& probability = to.start("probability");
+  for (std::size_t i = 0; i < to.limits.size(); ++i)
+    add_bounded(probability, "probability_" + to.limits[i], "1",
+                "that within " + text(years) + " years the mass fails and there is " +
+                    above_words(to.recipe, i),
+                "95 % interval of the share of events");
+}
+
+void start_rates(LayersToFill& to) {
+  const Recipe& recipe = to.recipe;
+  const std::vector<std::string>& limits = to.limits;
+  MapLayer& events = to.start("event_frequency");
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    add_bounded(events, "event_frequency_" + limits[i], "1/a",
+                "events a year with " + above_words(recipe, i), rate_bounds);
+  MapLayer& passages = to.start("passage_frequency");
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    passages.bands.push_back(band("passage_frequency_" + limits[i], "1/a",
+                                  i == 0 ? "blocks a year over the cell"
+                                         : "blocks a year over the cell with more than " +
+                                               break_name(recipe, recipe.breaks[i - 1]),
+                                  to.cells.size()));
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const std::string name = "return_period_" + limits[i];
+    add_bounded(to.start(name), name, "a", "1 / frequency of events with " + above_words(recipe, i),
+                "1 / the other bound of the frequency; nodata: not bounded");
+    for (MapBand& made : to.layers.back().bands) made.overview = OverviewValue::smallest;
   }
-  if (is_of_risk(recipe)) return layers;
-  MapLayer& intensity = start("intensity");
+  for (const double period : recipe.return_periods) {
+    const std::string years = period_name(period), name = "ke_T" + years;
+    add_bounded(to.start(name), name, "kJ",
+                "largest kinetic energy with spin that comes at least once in " + years +
+                    " years; nodata: nothing comes so often",
+                "that at the bound of the frequency; nodata: nothing, or not bounded");
+  }
+}
+
+void start_classes(LayersToFill& to) {
+  const Recipe& recipe = to.recipe;
+  MapLayer& intensity = to.start("intensity");
   intensity.is_codes = true;
   for (const double period : recipe.return_periods)
     intensity.bands.push_back(band("intensity_T" + period_name(period), "1",
                                    "reached at least once in " + period_name(period) +
                                        " years: 0 none, then from 1 the weakest",
-                                   cells.size()));
-  MapLayer& classes = start("class");
+                                   to.cells.size()));
+  MapLayer& classes = to.start("class");
   classes.is_codes = true;
   classes.bands.push_back(
-      band("class", "1", "code of the hazard class by " + recipe.name, cells.size()));
-  MapLayer& certainty = start(certainty_layer);
+      band("class", "1", "code of the hazard class by " + recipe.name, to.cells.size()));
+  MapLayer& certainty = to.start(certainty_layer);
   certainty.is_codes = true;
   for (const auto& [name, words] :
        {std::pair{"class_certain", "1: the same class at both bounds, 0: not"},
         {"class_lo", "class at the lower bound of the frequencies"},
         {"class_hi", "class at the upper bound of the frequencies"},
         {"matrix_number", "of the cell of the matrix that decides, 0: none"}})
-    certainty.bands.push_back(band(name, "1", words, cells.size()));
-  return layers;
+    certainty.bands.push_back(band(name, "1", words, to.cells.size()));
+}
+
+std::vector<MapLayer> empty_layers(const HazardSources& sources,
+                                   const std::vector<std::uint32_t>& cells) {
+  LayersToFill to{sources.recipe, cells, limit_names(sources.recipe)};
+  start_shares(sources, to);
+  if (!sources.has_frequencies) return std::move(to.layers);
+  if (is_localized(sources))
+    start_probability(sources.classes[0].kind.years, to);
+  else
+    start_rates(to);
+  if (!is_of_risk(sources.recipe)) start_classes(to);
+  return std::move(to.layers);
 }
 
 Rate period_of(const Rate& rate) {
