@@ -5,7 +5,7 @@
 namespace talus {
 
 extern const char* const build_version;  ///< "0.2.0"
-extern const char* const build_commit;   ///< short hash, "-dirty" with local changes, or "unknown"
+extern const char* const build_commit;   ///< short hash, "-dirty" with changes but of docs, or "unknown"
 extern const char* const build_commit_date;  ///< of that commit, "2026-11-25", or "unknown"
 
 }  // namespace talus
