@@ -4,8 +4,8 @@
 
 namespace talus {
 
-extern const char* const build_version;  ///< "0.2.0"
-extern const char* const build_commit;   ///< short hash, "-dirty" with changes but of docs, or "unknown"
+extern const char* const build_version;      ///< "0.2.0"
+extern const char* const build_commit;       ///< short hash, "-dirty" if not only docs changed
 extern const char* const build_commit_date;  ///< of that commit, "2026-11-25", or "unknown"
 
 }  // namespace talus
