@@ -32,7 +32,7 @@ struct RunLimits {
   double max_energy_gain = 0.01;
   double max_lost_share = 0.01;        ///< mass of the blocks that left the terrain, share [-]
   double max_unconverged_share = 0.1;  ///< accepted without convergence, share of the steps [-]
-  double max_deep_share = 1e-3;        ///< mass of the blocks that were deep, share of all [-]
+  double max_deep_share = 1e-3;        ///< of the mass, or of rocks one by one, that was deep [-]
 };
 
 struct RunOptions {

@@ -254,13 +254,23 @@ void add_deep_checks(const Runner& runner, std::vector<HealthCheck>& checks) {
   const std::string words =
       deep.empty() ? "" : deep_words(deep[0], runner.file.lines, runner.file.info.origin);
   const int n = n_that_matter(deep);
-  const double max_share = runner.options.limits.max_deep_share;
+  const double most = runner.options.limits.max_deep_share;
+  const std::string words_of_some = n > 0 ? words : "";
+  if (shares_world(runner.scene)) {
+    checks.push_back(check("mass of blocks in by more than a tenth of their thickness, share",
+                           mass_share(deep), most, false, words));
+    checks.push_back(check("such blocks in the toe, at a fence, or faster than by their fall", n, 0,
+                           false, words_of_some));
+    return;
+  }
   // Of rocks that fall one by one each is a sample: one of them affects its share of every result.
-  const double most = shares_world(runner.scene) ? 0 : max_share * n_blocks(runner.scene);
-  checks.push_back(check("mass of blocks in by more than a tenth of their thickness, share",
-                         mass_share(deep), max_share, false, words));
-  checks.push_back(check("such blocks in the toe, at a fence, or faster than by their fall", n,
-                         most, false, n > 0 ? words : ""));
+  double n_rocks = 0;
+  for (std::size_t b = 0; b < runner.scene.blocks.mass.size(); ++b)
+    n_rocks += is_released(runner.scene, b);
+  checks.push_back(check("rocks in by more than a tenth of their thickness, share",
+                         static_cast<double>(deep.size()) / n_rocks, most, false, words));
+  checks.push_back(check("such rocks in the toe, at a fence, or faster than by their fall, share",
+                         n / n_rocks, most, false, words_of_some));
 }
 
 void add_penetration_check(const Runner& runner, double penetration,

@@ -373,7 +373,7 @@ template <> const std::vector<SiteKey<HazardSettings>>& keys_of() {
 template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of() {
   using S = HazardClassSettings;
   static const std::vector<SiteKey<S>> table = {
-      {"frequency_per_a", &S::frequency_per_a, "events a year; of rocks that move alone, rocks a year of the whole class; else those of [rockfall.*]", positive},
+      {"frequency_per_a", &S::frequency_per_a, "events a year; of rocks that move alone, also of one block a run, rocks a year of the whole class; else those of [rockfall.*]", positive},
       {"events", &S::events, "events that were counted, instead", not_negative},
       {"observed_a", &S::observed_a, "in so many years", positive},
       {"failure_probability", &S::failure_probability, "instead: that the mass fails, once", {0, 1, true, false}},

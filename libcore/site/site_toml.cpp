@@ -699,6 +699,14 @@ Texts names_in(const Site& site, const std::string& group) {
 struct Refusal {
   std::string why, hint;
 };
+constexpr const char* rocks_of_several_volumes =
+    "give rocks of each volume a [rockfall.NAME] of their own with its frequency_per_a, and no "
+    "frequency to their class; else make another site of it";
+bool is_size_of_rocks(const VariantSettings::Change& change) {
+  return change.group == "rockfall" &&
+         (change.key.starts_with("volume_") || change.key == "size_m" || change.key == "shape");
+}
+
 Refusal refusal_of_measure(const VariantSettings::Change& change) {
   if (change.group == "output" ||
       (change.group == "terrain" && has_name({"cell_size_m", "window_m"}, change.key)))
@@ -709,9 +717,8 @@ Refusal refusal_of_measure(const VariantSettings::Change& change) {
   if (has_name({"source", "blocks", "uncertainty"}, change.group) ||
       (change.group == "joints" && !is_strength) || (change.group == "rockfall" && !is_frequency))
     return {"would draw other rocks, and the difference would be theirs",
-            change.group == "rockfall"
-                ? "give rocks of another volume a [rockfall.NAME] of their own, each with its "
-                  "frequency_per_a; else make another site of it"
+            is_size_of_rocks(change)
+                ? std::string(rocks_of_several_volumes)
                 : "a mass that is scaled off is named by the key without; else make another site "
                   "of it"};
   return {};
@@ -722,11 +729,12 @@ Refusal refusal_of_alternative(const VariantSettings::Change& change) {
   const bool is_shared = stage_reads("import", value) || stage_reads("trn", value) ||
                          is_rock_key(value.section + "." + value.key);
   if (stage_reads("run", value) && !is_shared && change.group != "uncertainty") return {};
-  const Refusal of_measure = refusal_of_measure(change);
+  const bool would_be_compared = refusal_of_measure(change).why.empty();
   return {"changes nothing in its runs: alternatives share terrain, blocks and what is evaluated",
-          of_measure.why.empty()
+          would_be_compared
               ? "take the weight out, so that it is compared, or make another site of it"
-              : of_measure.hint};
+          : is_size_of_rocks(change) ? rocks_of_several_volumes
+                                     : "make another site of it"};
 }
 
 Refusal refusal_of(const VariantSettings& variant, const VariantSettings::Change& change) {

@@ -437,9 +437,9 @@ void probe_look(Tool& tool, double duration, Look& look) {
 void set_magnitudes(const Look& look, PlausibilityFacts& facts) {
   const Site& site = look.work.site;
   const std::vector<double>& volumes = look.inputs.parts.blocks.volume;
-  if (moves_alone(site)) {
-    if (!volumes.empty()) facts.largest_rock = *std::max_element(volumes.begin(), volumes.end());
-  } else {
+  if (moves_alone(site) && !volumes.empty())
+    facts.largest_rock = *std::max_element(volumes.begin(), volumes.end());
+  if (!moves_alone(site) && volumes.size() != 1) {  // a mass: it does not go often
     for (const HazardClassSettings& kind : site.hazard_classes)
       if (!(kind.frequency_per_a <= facts.frequency) && !std::isnan(kind.frequency_per_a)) {
         facts.frequency = kind.frequency_per_a;

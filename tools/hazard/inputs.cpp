@@ -46,11 +46,19 @@ std::vector<MapTile> tiles_of_part(const PartFile& file, const MapTile& tile, st
   return tiles;
 }
 
+bool is_of_rocks(const HazardSources& sources, int run) {
+  const auto of = std::find_if(
+      sources.classes.begin(), sources.classes.end(),
+      [run](const HazardRuns& runs) { return run >= runs.first && run < runs.first + runs.n; });
+  return of != sources.classes.end() && of->kind.of_rocks;
+}
+
 // Rows in a tile, of the parts from `first_part` on. A rock's passages are evaluated together: they
 // are read of the cells around as well.
-void take_rows_of_parts(const RunInputs& runs, std::size_t first_part, const MapGrid& map,
-                        const Recipe& recipe, const MapTile& tile, std::uint64_t most,
-                        const TakeEvent& take) {
+void take_rows_of_parts(const RunInputs& runs, std::size_t first_part, const HazardInputs& inputs,
+                        const MapTile& tile, std::uint64_t most, const TakeEvent& take) {
+  const MapGrid& map = inputs.map;
+  const Recipe& recipe = inputs.sources.recipe;
   const std::size_t n_cells = static_cast<std::size_t>(map.grid.n_rows) * map.grid.n_cols;
   for (std::size_t p = first_part; p < runs.parts().size(); ++p) {
     const PartInput& part = runs.parts()[p];
@@ -58,28 +66,57 @@ void take_rows_of_parts(const RunInputs& runs, std::size_t first_part, const Map
     const auto blocks_of = [&](std::size_t r) -> const RunBlocks& {
       return content.blocks[static_cast<std::size_t>(content.blocks_of_run[r])];
     };
-    const auto member_of = [&](std::size_t r) -> const RunMember& {
-      return runs.members[static_cast<std::size_t>(part.member[r])];
+    const auto source_of = [&](std::size_t r) -> EventSource {
+      const int index = part.member[r];
+      return {runs.members[static_cast<std::size_t>(index)], index,
+              is_of_rocks(inputs.sources, index)};
     };
     int beside = 0;
     for (std::size_t r = 0; r < part.member.size(); ++r)
       if (part.member[r] >= 0)
-        beside = std::max(beside, cells_beside(map.grid, blocks_of(r), recipe, member_of(r)));
+        beside =
+            std::max(beside, cells_beside(map.grid, blocks_of(r), recipe, source_of(r).of_rocks));
     for (const MapTile& own : tiles_of_part(part.file, tile, n_cells, most)) {
       const MapTile around = wider(own, beside, map.grid);
       const auto take_own = [&](const EventRow& row) {
         if (is_in(own, row.cell)) take(row);
       };
-      for_each_strip(
-          part.file, 1, around, std::numeric_limits<std::uint64_t>::max(),
-          [&](const std::vector<std::vector<Passage>>& by_run) {
-            for (std::size_t r = 0; r < by_run.size(); ++r)
-              if (part.member[r] >= 0 && !by_run[r].empty())
-                event_rows(map_rows(by_run[r], content.grid, map, blocks_of(r).weight, around),
-                           map.grid, blocks_of(r), recipe, member_of(r), part.member[r], take_own);
-          });
+      for_each_strip(part.file, 1, around, std::numeric_limits<std::uint64_t>::max(),
+                     [&](const std::vector<std::vector<Passage>>& by_run) {
+                       for (std::size_t r = 0; r < by_run.size(); ++r)
+                         if (part.member[r] >= 0 && !by_run[r].empty())
+                           event_rows(
+                               map_rows(by_run[r], content.grid, map, blocks_of(r).weight, around),
+                               map.grid, blocks_of(r), recipe, source_of(r), take_own);
+                     });
     }
   }
+}
+
+// Rows in a tile, of all runs once more, each as its class counts it.
+void take_rows(RunInputs& runs, const HazardInputs& inputs, const MapTile& tile, std::uint64_t most,
+               const TakeEvent& take) {
+  const Recipe& recipe = inputs.sources.recipe;
+  const PassageGrid& grid = inputs.map.grid;
+  const auto take_own = [&](const EventRow& row) {
+    if (is_in(tile, row.cell)) take(row);
+  };
+  runs.read_again(only_passages, [&](RunFile& run, int index) {
+    const EventSource of{runs.members[static_cast<std::size_t>(index)], index,
+                         is_of_rocks(inputs.sources, index)};
+    const MapTile around = wider(tile, cells_beside(grid, run.blocks, recipe, of.of_rocks), grid);
+    event_rows(map_rows(run.passages, run.grid, inputs.map, run.blocks.weight, around), grid,
+               run.blocks, recipe, of, take_own);
+  });
+  take_rows_of_parts(runs, 0, inputs, tile, most, take_own);
+}
+
+// Whether some runs of a class have one block, which is an event of its own, and others masses.
+bool is_mixed(const HazardRuns& runs, const std::vector<RunMember>& members) {
+  return std::any_of(members.begin() + runs.first, members.begin() + runs.first + runs.n,
+                     [&runs](const RunMember& run) {
+                       return blocks_are_events(run.info, run.n_blocks) != runs.kind.of_rocks;
+                     });
 }
 
 }  // namespace
@@ -111,11 +148,20 @@ HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<HazardClass>&
                                 0);
       }
       event_rows(map_rows(run.passages, run.grid, out.map, run.blocks.weight), out.map.grid,
-                 run.blocks, recipe, member, index, count);
+                 run.blocks, recipe,
+                 {member, index, blocks_are_events(member.info, member.n_blocks)}, count);
     });
-    take_rows_of_parts(runs, first_part, out.map, recipe, {}, most_rows, count);
     out.sources.classes.push_back(hazard_runs(kind, runs.members, first, runs.last_failed_share()));
+    take_rows_of_parts(runs, first_part, out, {}, most_rows, count);
   }
+  const std::vector<HazardRuns>& of = out.sources.classes;
+  if (std::none_of(of.begin(), of.end(),
+                   [&](const HazardRuns& one) { return is_mixed(one, runs.members); }))
+    return out;
+  out.rows.clear();
+  out.n_rows = 0;
+  std::fill(out.rows_of_cell.begin(), out.rows_of_cell.end(), 0);
+  take_rows(runs, out, {}, most_rows, count);
   return out;
 }
 
@@ -125,21 +171,10 @@ std::vector<MapLayer> read_hazard_layers(RunInputs& runs, HazardInputs& inputs,
     sort_events(inputs.rows);
     return hazard_layers(inputs.sources, inputs.rows);
   }
-  const Recipe& recipe = inputs.sources.recipe;
-  const PassageGrid& grid = inputs.map.grid;
   std::vector<MapLayer> layers;
   for (const MapTile& tile : tiles_of(inputs.rows_of_cell, most_rows)) {
     std::vector<EventRow> rows;
-    const auto add = [&](const EventRow& row) {
-      if (is_in(tile, row.cell)) rows.push_back(row);
-    };
-    runs.read_again(only_passages, [&](RunFile& run, int index) {
-      const RunMember& member = runs.members[static_cast<std::size_t>(index)];
-      const MapTile around = wider(tile, cells_beside(grid, run.blocks, recipe, member), grid);
-      event_rows(map_rows(run.passages, run.grid, inputs.map, run.blocks.weight, around), grid,
-                 run.blocks, recipe, member, index, add);
-    });
-    take_rows_of_parts(runs, 0, inputs.map, recipe, tile, most_rows, add);
+    take_rows(runs, inputs, tile, most_rows, [&rows](const EventRow& row) { rows.push_back(row); });
     sort_events(rows);
     std::vector<MapLayer> of_tile = hazard_layers(inputs.sources, rows);
     if (layers.empty())

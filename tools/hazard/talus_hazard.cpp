@@ -58,7 +58,7 @@ std::string recipe_words(const Recipe& recipe) {
 std::string frequency_words(const HazardSources& sources) {
   std::string out;
   for (const HazardRuns& runs : sources.classes)
-    out += (out.empty() ? "" : "; ") + words_of(runs.kind);
+    out += (out.empty() ? "" : "; ") + runs.kind.name + ": " + rate_words(runs.kind);
   return out;
 }
 
@@ -68,14 +68,16 @@ std::string elsewhere_words(double rate) {
          " years (95 %)";
 }
 
+std::string run_words(const HazardRuns& runs) {
+  return counted(runs.n, "run") + (runs.basis.clusters.kind == Clusters::Kind::run
+                                       ? ""
+                                       : " (intervals over " + text(runs.basis.clusters) + ")");
+}
+
 std::string run_words(const HazardSources& sources) {
   std::string out;
   for (const HazardRuns& runs : sources.classes)
-    out += (out.empty() ? "" : ", ") + std::to_string(runs.n) +
-           (runs.n == 1 ? " run of class " : " runs of class ") + runs.kind.name +
-           (runs.basis.clusters.kind == Clusters::Kind::run
-                ? ""
-                : " (intervals over " + text(runs.basis.clusters) + ")");
+    out += (out.empty() ? "" : ", ") + counted(runs.n, "run") + " of class " + runs.kind.name;
   return out;
 }
 
@@ -87,20 +89,19 @@ bool is_of_rocks(const HazardSources& sources) {
 // What a rock may hit, of which its frequency is.
 std::string width_words(const Recipe& recipe, double cell_size) {
   if (recipe.width > 0)
-    return "rocks one by one: frequencies of what is " + text(recipe.width, 3) +
-           " m wide across their paths";
-  return "rocks one by one: frequencies of a cell of " + text(cell_size, 3) +
-         " m; other cells give others";
+    return "rocks one by one hit what is " + text(recipe.width, 3) + " m wide across their paths";
+  return "rocks one by one hit cells of " + text(cell_size, 3) + " m, larger ones more often";
 }
 
 // Notes of every map below its picture, and in its tags.
 std::vector<std::string> notes_of(const Site& site, const HazardSources& sources,
                                   double cell_size) {
-  std::vector<std::string> notes{site.info.name + ": " + run_words(sources) + "; talus " +
-                                 build_version};
+  std::vector<std::string> notes{site.info.name + "; talus " + build_version};
+  for (const HazardRuns& runs : sources.classes)
+    notes.push_back("class " + runs.kind.name + ": " + run_words(runs) +
+                    (sources.has_frequencies ? ", " + rate_words(runs.kind) : ""));
   if (is_of_rocks(sources)) notes.push_back(width_words(sources.recipe, cell_size));
   if (!sources.has_frequencies) return notes;
-  notes.push_back("frequencies: " + frequency_words(sources));
   notes.push_back(elsewhere_words(largest_rate_elsewhere(sources.classes)));
   notes.push_back(recipe_words(sources.recipe));
   return notes;
@@ -200,7 +201,7 @@ void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
             " are needed to call them free");
 }
 
-// What every file of a result says.
+// Remark, tags and notes of all files of a result.
 struct Marks {
   std::string remark;
   MapTags tags;

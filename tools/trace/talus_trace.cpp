@@ -417,7 +417,7 @@ void warn_of_method(Tool& tool, const RecordObject& of, const std::string& metho
             "with the largest energy over these cells");
 }
 
-// A map an object of the sources that reach it.
+// One map per object, of the sources that reach it.
 void write_source_maps(Tool& tool, const Options& o, RunInputs& runs, const TraceSums& sums,
                        const std::vector<SourceLink>& links, const std::string& remark,
                        const MapTags& tags) {

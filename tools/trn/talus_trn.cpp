@@ -192,11 +192,12 @@ void doubt_missing_part(Tool& tool, const Options& o, const MapWindow& edges,
 void doubt_cells_finer_than_dem(Tool& tool, const Options& o, double dem_cell_size,
                                 const GridFrame& frame) {
   if (frame.cell_size > 0.5 * dem_cell_size) return;
-  tool.doubts({talus::doubt_on({o.source},
-                               "the nodes of the DEM are " + text(dem_cell_size, 4) +
-                                   " m apart, those of the terrain " + text(frame.cell_size, 4) +
-                                   " m: steps and gullies between the DEM's nodes are not there",
-                               "omit --cell-size-m (of a site: cell_size_m), or get a finer DEM")});
+  tool.doubts({talus::doubt_on(
+      {o.source},
+      "the nodes of the DEM are " + text(dem_cell_size, 4) + " m apart, those of the terrain " +
+          text(frame.cell_size, 4) + " m: steps and gullies between the DEM's nodes are not there",
+      o.like.empty() ? "omit --cell-size-m (of a site: cell_size_m), or get a finer DEM"
+                     : "get a finer DEM")});
 }
 
 // A surface that folds over, or has a second layer, has two heights in one place; a terrain has

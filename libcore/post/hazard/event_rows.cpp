@@ -141,10 +141,6 @@ std::vector<std::uint32_t> by_block(const std::vector<MapRow>& rows) {
   return order;
 }
 
-bool has_width(const Recipe& recipe, const RunMember& run, const RunBlocks& blocks) {
-  return recipe.width > 0 && blocks_are_events(run.info, static_cast<int>(blocks.volume.size()));
-}
-
 }  // namespace
 
 bool blocks_are_events(const RunInfo& run, int n_blocks) {
@@ -152,10 +148,10 @@ bool blocks_are_events(const RunInfo& run, int n_blocks) {
 }
 
 void event_rows(const std::vector<MapRow>& rows, const PassageGrid& grid, const RunBlocks& blocks,
-                const Recipe& recipe, const RunMember& run, int index, const TakeEvent& take) {
+                const Recipe& recipe, const EventSource& of, const TakeEvent& take) {
   const double released = std::accumulate(blocks.volume.begin(), blocks.volume.end(), 0.0);
   const bool is_mass =
-      !run.info.independent && recipe.mass_volume > 0 && released > recipe.mass_volume;
+      !of.run.info.independent && recipe.mass_volume > 0 && released > recipe.mass_volume;
   const std::vector<bool> company =
       is_mass ? is_in_company(rows, recipe.alone_s) : std::vector<bool>(rows.size(), false);
   // the least value of that intensity: the breaks are exceeded, not met
@@ -171,13 +167,13 @@ void event_rows(const std::vector<MapRow>& rows, const PassageGrid& grid, const 
     const double weight =
         blocks.weight.empty() ? 1 : blocks.weight[static_cast<std::size_t>(row.block)];
     return {row.cell,
-            index,
+            of.index,
             row.block,
             row.largest.total_energy / 1e3F,
             company[i] ? std::max(own, least) : own,
-            weight * run.run_weight};
+            weight * of.run.run_weight};
   };
-  if (!has_width(recipe, run, blocks)) {
+  if (!of.of_rocks || recipe.width == 0) {
     for (std::size_t i = 0; i < rows.size(); ++i) take(row_of(i));
     return;
   }
@@ -192,8 +188,8 @@ void event_rows(const std::vector<MapRow>& rows, const PassageGrid& grid, const 
 }
 
 int cells_beside(const PassageGrid& grid, const RunBlocks& blocks, const Recipe& recipe,
-                 const RunMember& run) {
-  if (blocks.volume.empty() || !has_width(recipe, run, blocks)) return 0;
+                 bool of_rocks) {
+  if (blocks.volume.empty() || !of_rocks || recipe.width == 0) return 0;
   const double largest = *std::max_element(blocks.volume.begin(), blocks.volume.end());
   return 1 + static_cast<int>(line_across(grid, largest, recipe.width, 2).length / 2);
 }

@@ -26,20 +26,27 @@ struct EventRow {
 };
 
 /// Whether each block of a run is an event of its own: it moved as if it were alone, has a
-/// frequency, or is the only one.
+/// frequency, or is the only one. `n_blocks`: with the pieces that came of them.
 [[nodiscard]] bool blocks_are_events(const RunInfo& run, int n_blocks);
 
+/// A run as its class counts it.
+struct EventSource {
+  const RunMember& run;
+  int index = 0;          ///< place among all runs
+  bool of_rocks = false;  ///< each block is an event, by the class
+};
+
 using TakeEvent = std::function<void(const EventRow&)>;
-/// Calls take(row) for the passages of `run`, which has the place `index` among all. Where it
-/// released more than the recipe's volume of a mass, a block that is not alone in a cell has at
-/// least the intensity of a mass; rocks that moved as if they were alone are none. Where a block is
-/// an event of its own, it has a row in all cells within half of the recipe's width across its
-/// heading, weighed by the probability to hit what is so wide and centred there.
+/// Calls take(row) for the passages of a run. Where it released more than the recipe's volume of a
+/// mass, a block that is not alone in a cell has at least the intensity of a mass; rocks that moved
+/// as if they were alone are none. Where a block is an event of its own, it has a row in all cells
+/// within half of the recipe's width across its heading, weighed by the probability to hit what is
+/// so wide and centred there.
 void event_rows(const std::vector<MapRow>& rows, const PassageGrid& grid, const RunBlocks& blocks,
-                const Recipe& recipe, const RunMember& run, int index, const TakeEvent& take);
+                const Recipe& recipe, const EventSource& of, const TakeEvent& take);
 /// How many cells beside a passage its rows may be.
 [[nodiscard]] int cells_beside(const PassageGrid& grid, const RunBlocks& blocks,
-                               const Recipe& recipe, const RunMember& run);
+                               const Recipe& recipe, bool of_rocks);
 
 /// By cell, run, then all else, so that the rows alone say their order.
 void sort_events(std::vector<EventRow>& rows);

@@ -90,8 +90,9 @@ HazardClass class_of(const Site& site, const HazardClassSettings& s) {
   return out;
 }
 
-// One class by weights among several may be that of the release points; the runs tell. Two would
-// count each rock twice: the classes of a site share its sources.
+// Two classes that take the frequencies of the sources would count each rock twice, for they share
+// them. One may, beside classes with a frequency: the runs tell which are of the sources. Where
+// none does, sources may have no frequency.
 void check_sources(const Site& site, const std::vector<HazardClass>& classes) {
   const HazardClassSettings* by_weights = nullptr;
   for (std::size_t i = 0; i < classes.size(); ++i) {
@@ -100,7 +101,7 @@ void check_sources(const Site& site, const std::vector<HazardClass>& classes) {
       throw InputError(where_of_class(site, site.hazard_classes[i]),
                        "takes the frequencies of [rockfall.*], class " + by_weights->name +
                            " takes them too: each rock would count twice",
-                       "keep one class: with one, alternatives count by their weights");
+                       "keep one of the classes: alternatives of one class count by their weights");
     by_weights = &site.hazard_classes[i];
   }
   if (by_weights) return;
@@ -155,13 +156,12 @@ std::vector<HazardClass> hazard_classes(const Site& site) {
   return classes;
 }
 
-std::string words_of(const HazardClass& kind) {
+std::string rate_words(const HazardClass& kind) {
   if (kind.kind == FrequencyKind::of_failure)
-    return kind.name + ": fails with probability " + text(kind.probability, 4) + " in " +
-           text(kind.years, 4) + " years";
+    return "fails with probability " + text(kind.probability, 4) + " in " + text(kind.years, 4) +
+           " years";
   const Rate& f = kind.frequency;
-  std::string out =
-      kind.name + ": " + text(f.value, 3) + (kind.of_rocks ? " rocks a year" : " a year");
+  std::string out = text(f.value, 3) + (kind.of_rocks ? " rocks a year" : " a year");
   if (kind.kind == FrequencyKind::of_weights) out += ", each by its weight";
   if (f.low != f.high) out += " (90 % within " + text(f.low, 3) + " - " + text(f.high, 3) + ")";
   return out;

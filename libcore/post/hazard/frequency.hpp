@@ -62,8 +62,8 @@ inline constexpr const char* two_frequencies_hint =
     "without one of its own, the class counts each source by its frequency; or take the frequency "
     "out of [rockfall.*]: that of the class is then of all its sources together";
 
-/// "V1: 0.0233 a year (90 % within 0.0072 - 0.0471)", "V1: 0.28 rocks a year"
-[[nodiscard]] std::string words_of(const HazardClass& kind);
+/// "0.0233 a year (90 % within 0.0072 - 0.0471)", "0.28 rocks a year"
+[[nodiscard]] std::string rate_words(const HazardClass& kind);
 
 /// A year of a constant danger that adds up to `probability` within `years` [1/a].
 [[nodiscard]] double equivalent_rate(double probability, double years);

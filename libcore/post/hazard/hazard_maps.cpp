@@ -48,8 +48,8 @@ void put(MapLayer& layer, std::size_t first_band, std::size_t cell, const Rate& 
 constexpr const char* rate_bounds =
     "95 % interval of the share of events times the bounds of the frequency";
 
-// Layers to be filled, of the same cells.
-struct LayersToFill {
+// Layers without values yet, all of the same cells.
+struct EmptyLayers {
   const Recipe& recipe;
   const std::vector<std::uint32_t>& cells;
   std::vector<std::string> limits;  // names
@@ -60,7 +60,7 @@ struct LayersToFill {
   }
 };
 
-void start_shares(const HazardSources& sources, LayersToFill& to) {
+void add_shares(const HazardSources& sources, EmptyLayers& to) {
   MapLayer& exceed = to.start("event_exceed");
   for (const HazardRuns& runs : sources.classes)
     for (std::size_t i = 0; i < to.limits.size(); ++i)
@@ -73,7 +73,7 @@ void start_shares(const HazardSources& sources, LayersToFill& to) {
                   runs.kind.of_rocks ? "95 % interval" : "Wilson's 95 % interval");
 }
 
-void start_probability(double years, LayersToFill& to) {
+void add_probability(double years, EmptyLayers& to) {
   MapLayer& probability = to.start("probability");
   for (std::size_t i = 0; i < to.limits.size(); ++i)
     add_bounded(probability, "probability_" + to.limits[i], "1",
@@ -82,7 +82,7 @@ void start_probability(double years, LayersToFill& to) {
                 "95 % interval of the share of events");
 }
 
-void start_rates(LayersToFill& to) {
+void add_rates(EmptyLayers& to) {
   const Recipe& recipe = to.recipe;
   const std::vector<std::string>& limits = to.limits;
   MapLayer& events = to.start("event_frequency");
@@ -111,7 +111,7 @@ void start_rates(LayersToFill& to) {
   }
 }
 
-void start_classes(LayersToFill& to) {
+void add_classes(EmptyLayers& to) {
   const Recipe& recipe = to.recipe;
   MapLayer& intensity = to.start("intensity");
   intensity.is_codes = true;
@@ -136,14 +136,14 @@ void start_classes(LayersToFill& to) {
 
 std::vector<MapLayer> empty_layers(const HazardSources& sources,
                                    const std::vector<std::uint32_t>& cells) {
-  LayersToFill to{sources.recipe, cells, limit_names(sources.recipe)};
-  start_shares(sources, to);
+  EmptyLayers to{sources.recipe, cells, limit_names(sources.recipe)};
+  add_shares(sources, to);
   if (!sources.has_frequencies) return std::move(to.layers);
   if (is_localized(sources))
-    start_probability(sources.classes[0].kind.years, to);
+    add_probability(sources.classes[0].kind.years, to);
   else
-    start_rates(to);
-  if (!is_of_risk(sources.recipe)) start_classes(to);
+    add_rates(to);
+  if (!is_of_risk(sources.recipe)) add_classes(to);
   return std::move(to.layers);
 }
 

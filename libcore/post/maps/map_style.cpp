@@ -2,6 +2,7 @@
 #include "post/maps/map_style.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "base/numbers.hpp"
@@ -11,28 +12,36 @@
 namespace talus {
 namespace {
 
+// "0.0005": text() has an exponent for so small a number.
+std::string decimal(double limit) {
+  char buffer[32];
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, limit, std::chars_format::fixed).ptr;
+  return {buffer, end};
+}
+
 // From the largest loss (blue) over no change (transparent) to the largest gain (red).
 std::vector<StyleClass> change_classes(const std::vector<double>& limits, const std::string& unit) {
   std::vector<StyleClass> classes;
   const double n = std::max(1.0, static_cast<double>(limits.size()) - 1);
   const auto label = [&](const char* word, std::size_t i) {
-    if (i + 1 == limits.size()) return word + (" by more than " + text(limits[i])) + unit;
-    return std::string(word) + " by " + text(limits[i]) + " - " + text(limits[i + 1]) + unit;
+    if (i + 1 == limits.size()) return word + (" by more than " + decimal(limits[i])) + unit;
+    return std::string(word) + " by " + decimal(limits[i]) + " - " + decimal(limits[i + 1]) + unit;
   };
   for (std::size_t i = limits.size(); i-- > 0;) {
     classes.push_back(
         {-limits[i], ramp_colour(Ramp::less, static_cast<double>(i) / n), label("less", i)});
   }
-  classes.push_back({limits[0], {255, 255, 255, 0}, "within " + text(limits[0]) + unit});
+  classes.push_back({limits[0], {255, 255, 255, 0}, "within " + decimal(limits[0]) + unit});
   for (std::size_t i = 0; i < limits.size(); ++i)
     classes.push_back({i + 1 < limits.size() ? limits[i + 1] : infinity,
                        ramp_colour(Ramp::more, static_cast<double>(i) / n), label("more", i)});
   return classes;
 }
 
-// Rocks one by one change less than the first class: then the same classes, ten times finer or
-// more. What is still less is rounding.
-std::vector<double> limits_seen(const MapBand& band, const std::vector<double>& limits) {
+// The limits; ten, a hundred or a thousand times smaller where no change reaches the first: single
+// rocks change little. Less than that is rounding.
+std::vector<double> limits_for(const MapBand& band, const std::vector<double>& limits) {
   double largest = 0;
   for (const float value : band.value)
     if (!std::isnan(value)) largest = std::max(largest, std::abs(static_cast<double>(value)));
@@ -92,7 +101,7 @@ RasterStyle change_style(const MapLayer& layer, const ChangeWords& words, const 
   const MapBand& band = layer.bands[0];
   RasterStyle style{
       1, band.name + " [" + band.unit + "]",
-      change_classes(limits_seen(band, breaks), band.unit == "1" ? "" : " " + band.unit), remark};
+      change_classes(limits_for(band, breaks), band.unit == "1" ? "" : " " + band.unit), remark};
   style.heading = words.heading;
   style.legend = words.legend;
   return style;

@@ -21,7 +21,8 @@ struct ChangeWords {
 };
 /// The style of a layer of differences (post/fence/fence_change.hpp, post/maps/compare.hpp): its
 /// first band, blue for less and red for more, in classes up to `breaks`; changes below the first
-/// of them are transparent. Where no change reaches the first, all are ten times smaller, or more.
+/// of them are transparent. Where no change reaches the first, all breaks are ten, a hundred or a
+/// thousand times smaller, so that pages of two measures may have different classes.
 [[nodiscard]] RasterStyle change_style(const MapLayer& layer, const ChangeWords& words,
                                        const std::string& remark = {},
                                        const std::vector<double>& breaks = {0.05, 0.25, 0.5, 1, 2,

@@ -23,7 +23,7 @@ for word in '"event": "rock"' '"frequency_per_a": 0.03'; do
   grep -q "$word" class.json && grep -q "$word" weights.json || fail "no $word in the results"
 done
 gdalinfo class/class.tif | grep -q 'FREQUENCIES=V1: 0.03 rocks a year' || fail 'the tags do not say what is counted'
-grep -q 'rocks one by one: frequencies of what is 5 m wide across their paths' class.json || fail 'the pages do not say what is hit'
+grep -q 'rocks one by one hit what is 5 m wide across their paths' class.json || fail 'the pages do not say what is hit'
 # each of the three boxes has a lane of its own: 0.01 a year, a third of the rocks
 for of in event_frequency:0.01 passage_frequency:0.01 event_exceed:0.333; do
   value=$(gdallocationinfo -valonly -b 1 "class/${of%:*}.tif" 10 10)

@@ -86,5 +86,6 @@ TEST(ChangeStyle, ShowsSmallChangesWhereAllAreSmall) {
   EXPECT_EQ(label_with({0.001F, -0.06F}), "more by more than 4 m");
   EXPECT_EQ(label_with({0.001F, -0.04F}), "more by more than 0.4 m");
   EXPECT_EQ(label_with({0.001F}), "more by more than 0.04 m");
+  EXPECT_EQ(change_style(layer, {"Change", ""}).classes[5].label, "less by 0.0005 - 0.0025 m");
   EXPECT_EQ(label_with({1e-12F}), "more by more than 4 m");  // rounding
 }

@@ -54,7 +54,8 @@ std::vector<EventRow> events_of(const std::vector<MapRow>& rows, const PassageGr
                                 const RunBlocks& blocks, const Recipe& recipe, const RunMember& run,
                                 int index) {
   std::vector<EventRow> out;
-  event_rows(rows, grid, blocks, recipe, run, index,
+  event_rows(rows, grid, blocks, recipe,
+             {run, index, blocks_are_events(run.info, static_cast<int>(blocks.volume.size()))},
              [&out](const EventRow& row) { out.push_back(row); });
   return out;
 }
@@ -451,7 +452,8 @@ TEST(Hazard, AMassIsAsWideAsItIsAndARockAtRestIsInItsCell) {
   EXPECT_EQ(cells_of(block), across_east);
   run.info.independent = true;
   EXPECT_EQ(cells_of(blocks), across_east);
-  EXPECT_GE(cells_beside(grid, blocks, recipe, run), 2);
+  EXPECT_GE(cells_beside(grid, blocks, recipe, true), 2);
+  EXPECT_EQ(cells_beside(grid, blocks, recipe, false), 0);
   rows[0].heading = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(events_of(rows, grid, blocks, recipe, run, 0).size(), 1U);
 }

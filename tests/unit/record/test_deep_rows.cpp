@@ -82,17 +82,21 @@ TEST(DeepRows, ASplinterThatMattersFailsTheRun) {
   EXPECT_TRUE(Row::broken(at_fence).empty());
 }
 
-// Of rocks that fall one by one it may be one in a thousand.
-TEST(DeepRows, ARockThatMattersIsOneSample) {
-  for (const auto& [max_share, is_broken] : {std::pair{0.04, true}, {0.05, false}}) {
-    Row row(0.2);  // 21 blocks
+// Rocks that fall one by one are samples, each as much as another: one in a thousand may be deep,
+// however large it is.
+TEST(DeepRows, RocksOneByOneAreCounted) {
+  const std::vector<std::string> both = {
+      "rocks in by more than a tenth of their thickness, share",
+      "such rocks in the toe, at a fence, or faster than by their fall, share"};
+  for (const auto& [width, max_share, is_broken] :
+       {std::tuple{0.2, 0.04, true}, {0.2, 0.05, false}, {2.0, 0.05, false}}) {  // one of 21
+    Row row(width);
     row.scene.settings.block_contacts = false;
     row.options.limits.max_deep_share = max_share;
     Runner runner = row.begin();
     Row::sink(runner);
     runner.state.deep[20].is_too_fast = true;
-    EXPECT_EQ(Row::broken(runner),
-              is_broken ? std::vector<std::string>{matters} : std::vector<std::string>{});
+    EXPECT_EQ(Row::broken(runner), is_broken ? both : std::vector<std::string>{});
   }
 }
 
