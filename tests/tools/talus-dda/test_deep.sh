@@ -7,7 +7,7 @@ soft="--set solver.law=paper --set solver.time_step_s=0.001 --set solver.duratio
 expect 3 run_dda -o deep.h5 $soft --json
 says "of the mass came in by more than a tenth of"
 says "was in the ground by"
-says "health: mass of blocks in by more than a tenth of their thickness, share is"
+says "health: rocks in by more than a tenth of their thickness, share is"
 says "or merge small blocks"
 prints '"partner": "the ground"'
 prints '"ends_in_toe"'
@@ -18,7 +18,7 @@ answer = json.load(open("deep.json"))
 deep = answer["deep_blocks"]
 assert deep and all(row["depth_m"] > 0.1 * row["thickness_m"] for row in deep), deep
 assert all(abs(row["position_m"][0] - 500000) < 1000 for row in deep), deep
-share = next(c["value"] for c in answer["health"] if c["check"].startswith("mass of blocks in by"))
+share = next(c["value"] for c in answer["health"] if c["check"].startswith("rocks in by"))
 assert abs(sum(row["mass_share"] for row in deep) - share) < 1e-12, share
 END
 
