@@ -37,12 +37,16 @@ struct Solve {
   }
 
   // Lowers the rows of pair `p` that are too stiff, and notes the tolerance that they and the
-  // velocities allow: in a very short substep contacts press with little more than rounding.
+  // velocities allow: in a very short substep contacts press with little more than rounding, and
+  // impulses about a large body's centroid turn a small one by the rounding of a long lever.
   void prepare_pair(size_t p) {
     const BodyPair& pair = island.pairs[p];
     const double mass = reduced_mass(island, pair), limit = settings.stiffest * mass;
     const double free_speed =
         std::max(free_speed_of(pair.a), pair.b < 0 ? 0 : free_speed_of(pair.b));
+    const double turned =
+        pair.b < 0 ? 0 : pair.shift.norm() * work.per_impulse[pair.b].tail<3>().maxCoeff();
+    const double per_impulse = std::max(1 / mass, turned);
     for (RowGroup& group : groups_of(island, pair))
       for (int lane = 0; lane < 2; ++lane) {
         inherits |= group.state[lane] != 0;
@@ -54,7 +58,7 @@ struct Solve {
           stiffness = limit;
         }
         work.stiffness_ratio = std::max(work.stiffness_ratio, stiffness / mass);
-        const double changed = stiffness / mass * (std::abs(group.bias[lane]) + free_speed);
+        const double changed = stiffness * per_impulse * (std::abs(group.bias[lane]) + free_speed);
         work.rounding = std::max(
             work.rounding, 8 * std::numeric_limits<double>::epsilon() * (changed + free_speed));
       }
@@ -62,17 +66,17 @@ struct Solve {
 
   void prepare() {
     const size_t n = island.mass.size(), n_pairs = island.pairs.size();
+    work.per_impulse.resize(n);
+    for (size_t i = 0; i < n; ++i) {
+      work.per_impulse[i] = island.mass[i].diagonal().cwiseInverse();
+      work.per_impulse[i].tail<3>() *= island.radius[i];
+    }
     work.rounding = work.stiffness_ratio = 0;
     for (size_t p = 0; p < n_pairs; ++p) prepare_pair(p);
     prepare_matrix(island, work.matrix);
     set_heights(island, settings.down, work.factor);
     for (auto* vectors : {&work.residual, &work.step, &work.from}) vectors->resize(n);
     work.speed.resize(n);
-    work.per_impulse.resize(n);
-    for (size_t i = 0; i < n; ++i) {
-      work.per_impulse[i] = island.mass[i].diagonal().cwiseInverse();
-      work.per_impulse[i].tail<3>() *= island.radius[i];
-    }
     work.pair_impulse.assign(n_pairs, Vec6::Zero());
     work.touched_bodies.reset(n);
     work.touched_pairs.reset(n_pairs);

@@ -738,6 +738,17 @@ TEST(StepIsland, ADeepCornerThatMovesOnIsPressedOutWithAccuracyAsWithout) {
 
 TEST(StepIsland, LargeBlockRestsOnSmallOnes) { EXPECT_LT(large_on_small({}).error, 1e-3); }
 
+// Impulses about the cube's centroid turn the small boxes by the rounding of a lever of 6 m: no
+// step looks for less.
+TEST(StepIsland, ALargeBlockOnSoftContactsOfSmallOnesConverges) {
+  CaseSettings soft;
+  soft.normal_stiffness = 1e8;
+  soft.dt = 0.01;
+  const CaseResult result = large_on_small(soft);
+  EXPECT_EQ(result.unconverged, 0);
+  EXPECT_LT(result.passes, 5 * result.steps);
+}
+
 // A roof of two slabs that hangs on the edge of a wedge, and a plate of two halves that balances on
 // one: a block on both parts is supported, not let in where they meet.
 Body on_an_edge(double rise) {
