@@ -417,17 +417,20 @@ void warn_of_method(Tool& tool, const RecordObject& of, const std::string& metho
             "with the largest energy over these cells");
 }
 
-// One map per object, of the sources that reach it.
+// One map per object, of the sources that reach it. Its page shows that object alone: a thousand
+// others would hide its sources, and be drawn a thousand times.
 void write_source_maps(Tool& tool, const Options& o, RunInputs& runs, const TraceSums& sums,
                        const std::vector<SourceLink>& links, const std::string& remark,
                        const MapTags& tags) {
   std::vector<std::uint32_t> touched;
   for (const auto& [cell, source] : sums.source) touched.push_back(cell);
-  const MapFrame frame = map_frame(runs, sums.sources, o.pages, touched);
+  MapFrame frame = map_frame(runs, sums.sources, o.pages, touched);
   for (int i = 0; i < static_cast<int>(sums.objects.size()); ++i) {
+    const RecordObject& object = sums.objects[static_cast<std::size_t>(i)];
     const MapLayer layer = source_layer(sums, i, links);
+    frame.places.objects = {object};
     write_map(tool, frame, (fs::path(o.rasters) / (layer.name + ".tif")).string(), layer,
-              source_style(sums.objects[static_cast<std::size_t>(i)].name, remark), tags);
+              source_style(object.name, remark), tags);
   }
 }
 
