@@ -164,6 +164,25 @@ std::string downhill_text(const DamResult& r) {
          std::to_string(r.n_from_downhill);
 }
 
+// Of blocks that never met the line from uphill.
+int n_ended_downhill(const FenceRunGroup& group, const DamCase& dam) {
+  const Sides sides(dam);
+  int sum = 0;
+  for (const FenceRun& run : group.runs)
+    for (const BlockVerdict& v : run.at_fence[dam.arrival].verdicts)
+      sum += v.verdict == Verdict::not_reached && sides.is_downhill(run.end[v.block].head<2>());
+  return sum;
+}
+
+// A dam on a counter-slope has its uphill side where no block comes from.
+std::string nothing_came_text(const DamResult& r) {
+  return r.n_ended_downhill == 0
+             ? "not judged: nothing came to it"
+             : "not judged: nothing came to it from the side taken as uphill; blocks that ended on "
+               "the other side: " +
+                   std::to_string(r.n_ended_downhill);
+}
+
 std::string moving_text(const DamResult& r) {
   return "blocks that had not passed it still moved at the end: " + std::to_string(r.n_moving);
 }
@@ -177,7 +196,7 @@ void describe_gallery(DamResult& r) {
   const std::string passed =
       std::to_string(r.passing.n) + " passed over it; its strength is not checked";
   if (r.arriving.n == 0 && r.n_loads == 0) {
-    r.text = r.n_moving > 0 ? "not judged: " + moving_text(r) : "not judged: nothing came to it";
+    r.text = r.n_moving > 0 ? "not judged: " + moving_text(r) : nothing_came_text(r);
     if (r.n_moving > 0) r.verdict = DesignVerdict::still_moving;
     return;
   }
@@ -207,7 +226,7 @@ void judge(const DamCase& dam, DamResult& r) {
     r.verdict = DesignVerdict::still_moving;
     r.text = "not judged: " + moving_text(r);
   } else if (r.arriving.n == 0) {
-    r.text = "not judged: nothing came to it";
+    r.text = nothing_came_text(r);
   } else if (std::isnan(p95)) {
     r.verdict = DesignVerdict::too_few;
     r.text = "not judged: too few arrivals, " + std::to_string(r.arriving.n) + " of " +
@@ -243,6 +262,7 @@ DamResult dam_result(const DamCase& dam, const FenceRunGroup& group) {
   r.passing = summarise(over_the_crest(group, dam), group.clusters);
   r.n_moving = n_moving(group, dam);
   r.n_from_downhill = n_from_downhill(group, dam);
+  r.n_ended_downhill = n_ended_downhill(group, dam);
   if (dam.is_gallery) {
     add_loads(group, dam, r);
     describe_gallery(r);

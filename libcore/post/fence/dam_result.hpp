@@ -37,8 +37,9 @@ struct DamResult {
   FencePartSummary arriving;  ///< at the line before the uphill face
   FencePartSummary passing;   ///< over the crest
   int n_moving = 0;  ///< blocks that had neither passed it nor come to rest when their run ended
-  int n_from_downhill = 0;  ///< blocks that came to the crest first from the other side
-  double energy_use = 0;    ///< 95th percentile of the energy over the capacity [-]; NaN: unknown
+  int n_from_downhill = 0;   ///< blocks that came to the crest first from the other side
+  int n_ended_downhill = 0;  ///< blocks on the other side at the end that did not come to it
+  double energy_use = 0;     ///< 95th percentile of the energy over the capacity [-]; NaN: unknown
   DesignVerdict verdict = DesignVerdict::nothing_came;  ///< meets: it holds
   std::string text;                                     ///< the verdict in words
   int n_loads = 0, n_hits = 0;       ///< blocks that hit the roof, and how often they did

@@ -92,6 +92,19 @@ TEST(DamResult, NothingIsSaidWhereBlocksComeToTheCrestFromDownhill) {
   EXPECT_EQ(r.verdict, DesignVerdict::does_not_meet);
 }
 
+// As on a counter-slope: the ground rises away from where blocks come from.
+TEST(DamResult, BlocksThatStayOnTheOtherSideAreNamedWhereNothingCame) {
+  Hollow hollow;
+  hollow.add(true, 1, {20, -9});
+  hollow.add(true, 1, {10, 10});
+  hollow.group.runs[0].at_fence[1].crossings.clear();
+  set_verdicts(hollow.group, hollow.dam);
+  const DamResult r = dam_result(hollow.dam, hollow.group);
+  EXPECT_EQ(r.n_ended_downhill, 1);
+  EXPECT_EQ(r.verdict, DesignVerdict::nothing_came);
+  EXPECT_TRUE(r.text.ends_with("blocks that ended on the other side: 1")) << r.text;
+}
+
 // A roof 4 m wide on a straight wall, its edges at y = 4 and 0; rock lies on the ground 5 m below.
 TEST(DamResult, RockAgainstTheUphillWallOfAGalleryDidNotComeToIt) {
   Hollow hollow;
