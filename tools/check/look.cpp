@@ -209,13 +209,14 @@ bool segments_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) 
   return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
 }
 
-bool crosses(const std::vector<Vec2>& path, const RecordLine& line) {
+// The first segment of the path that crosses the line; none: the path's number of points.
+size_t crossing(const std::vector<Vec2>& path, const RecordLine& line) {
   for (size_t k = 0; k + 1 < path.size(); ++k)
     for (size_t i = 0; i + 1 < line.points.size(); ++i)
       if (segments_cross(path[k], path[k + 1], line.points[i].head<2>(),
                          line.points[i + 1].head<2>()))
-        return true;
-  return false;
+        return k;
+  return path.size();
 }
 
 // In plan, of lines that do not cross: the least lies at an end of one of two segments.
@@ -279,9 +280,11 @@ void look_at_fences(Look& look) {
     fence.nearest = std::numeric_limits<double>::infinity();
     for (const SliderPath& slide : look.slides) {
       // a dam turns them away: they come to the line before it, which is the next
-      const bool comes =
-          crosses(slide.points, line) || (is_crest && crosses(slide.points, lines[i + 1]));
+      const size_t onto = crossing(slide.points, line),
+                   before = is_crest ? crossing(slide.points, lines[i + 1]) : onto;
+      const bool comes = std::min(onto, before) < slide.points.size();
       fence.n_fall_lines += comes;
+      fence.n_from_downhill += onto < before;
       fence.nearest = std::min(fence.nearest, comes ? 0 : gap(slide.points, line));
     }
     look.fences.push_back(std::move(fence));
@@ -361,6 +364,13 @@ void doubt_fences(Look& look) {
                     text(fence.nearest, 2) + " m away",
                 "a mass spreads beside its fall lines, and may still come: look at the map, is it "
                 "below the source?");
+    if (fence.n_from_downhill > 0)
+      add_doubt(look, key, posts,
+                std::to_string(fence.n_from_downhill) + " of the " +
+                    std::to_string(fence.n_fall_lines) +
+                    " fall lines that come to it come from the side taken as downhill",
+                "what comes from there is not judged: draw the line where the ground still falls "
+                "towards it");
   }
 }
 
