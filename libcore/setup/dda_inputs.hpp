@@ -2,9 +2,11 @@
 // Inputs of a run: terrain, blocks and the structures on the ground, relative to one origin.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "record/crossings.hpp"
 #include "record/object_hits.hpp"
 #include "record/run_file.hpp"
@@ -21,7 +23,7 @@ struct DdaFiles {
 struct DdaInputs {
   SceneParts parts;
   std::vector<RecordLine> lines;         ///< of [fence.*], on the ground
-  const DamSettings* unburnt = nullptr;  ///< an active dam that the terrain was made without
+  std::optional<InputError> other_dams;  ///< WatchedDams::other_ground
   std::vector<RecordObject> objects;     ///< of [object.*]
   std::vector<ForestInfo> forests;       ///< of active [forest.*], set by check_start()
   std::string crs_wkt;

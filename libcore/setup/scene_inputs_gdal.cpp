@@ -255,11 +255,9 @@ DdaInputs read_dda_inputs(InputLog& log, const Site& site, const DdaFiles& files
   std::vector<FenceLine> lines;
   for (const FenceSettings& fence : site.fences) add_lines(log, site, fence, inputs, lines);
   check_fences_apart(log, site, parts.trn, lines);
-  for (DamLines& dam : dam_lines(log, site, parts.trn)) {
-    if (dam.uphill == 0) {
-      inputs.unburnt = dam.settings;
-      continue;
-    }
+  WatchedDams watched = watched_dams(log, site, parts.trn);
+  inputs.other_dams = std::move(watched.other_ground);
+  for (DamLines& dam : watched.dams) {
     inputs.lines.push_back(std::move(dam.crest));
     inputs.lines.push_back(std::move(dam.before));
   }

@@ -38,7 +38,7 @@ void read_files_of_scene(const Site& site, InputLog& log, const SetUp& setup) {
 }
 
 void make_scene(const Site& site, const SetUpRequest& request, InputLog& log, SetUp& setup) {
-  check_burnt(site, setup.inputs.unburnt, setup.inputs.parts.trn);
+  if (setup.inputs.other_dams) throw *setup.inputs.other_dams;
   warn_of_plan(log, site, setup.plan, setup.inputs);
   check_start(log, site, setup.inputs, request.files, setup.plan.block_contacts);
   log.detail(as_text(setup.plan));

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
+#include <string>
 
 #include "base/text.hpp"
 #include "base/units.hpp"
@@ -251,17 +253,22 @@ const BurntDam* burnt_in(const Trn& trn, const SiteDam& dam) {
 
 }  // namespace
 
-std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn) {
+WatchedDams watched_dams(InputLog& log, const Site& site, const Trn& trn) {
   constexpr double spacing = 10;
-  std::vector<DamLines> all;
+  WatchedDams all;
+  std::set<std::string> active;
   for (const DamSettings& settings : site.dams) {
     if (!settings.active) continue;
     const Where where = where_of_dam(site, settings);
     for (const SiteDam& dam : dams_of(log, site, trn, settings)) {
       const DamShape& shape = dam.shape;
       const BurntDam* const found = burnt_in(trn, dam);
+      active.insert(dam.name);
       if (found == nullptr) {
-        all.push_back({&settings, {}, {}, 0});
+        if (!all.other_ground)
+          all.other_ground.emplace(
+              where, "is active, and the terrain was made without it or with another shape of it",
+              other_terrain_hint);
         continue;
       }
       const BurntDam& burnt = *found;
@@ -280,27 +287,19 @@ std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn)
           shape.is_gallery ? edge : edge + shape.height / shape.tan_uphill + shape.height / 2;
       const std::string name =
           std::string(shape.is_gallery ? gallery_prefix : dam_prefix) + dam.name;
-      all.push_back({&settings, edge_at(shape.is_gallery ? -edge : 0, name),
-                     edge_at(before, name + std::string(before_dam)), burnt.uphill});
+      all.dams.push_back({&settings, edge_at(shape.is_gallery ? -edge : 0, name),
+                          edge_at(before, name + std::string(before_dam)), burnt.uphill});
       if (!shape.is_gallery) continue;
-      all.back().crest.roof = roof_pieces(trn, shape);
-      all.back().crest.roof_nodes = burnt.nodes;
+      all.dams.back().crest.roof = roof_pieces(trn, shape);
+      all.dams.back().crest.roof_nodes = burnt.nodes;
     }
   }
-  return all;
-}
-
-void check_burnt(const Site& site, const DamSettings* unburnt, const Trn& trn) {
-  if (unburnt != nullptr)
-    throw InputError(where_of_dam(site, *unburnt),
-                     "is active, and the terrain was made without it or with another shape of it",
-                     other_terrain_hint);
   for (const BurntDam& burnt : trn.dams)
-    if (std::none_of(site.dams.begin(), site.dams.end(), [&burnt](const DamSettings& dam) {
-          return dam.active && (burnt.name == dam.name || burnt.name.starts_with(dam.name + "."));
-        }))
-      throw InputError({site.file, 0, "dam." + burnt.name},
-                       "is in the ground of the terrain, and not active here", other_terrain_hint);
+    if (!all.other_ground && !active.contains(burnt.name))
+      all.other_ground.emplace(Where{site.file, 0, "dam." + burnt.name},
+                               "is in the ground of the terrain, and not active here",
+                               other_terrain_hint);
+  return all;
 }
 
 std::vector<RoofPiece> gallery_roofs(InputLog& log, const Site& site, const Trn& trn) {

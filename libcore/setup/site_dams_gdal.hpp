@@ -2,9 +2,11 @@
 // The [dam.*] of a site, burnt into its terrain.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/input_log.hpp"
 #include "record/crossings.hpp"
 #include "site/site.hpp"
@@ -40,15 +42,16 @@ std::vector<BuiltDam> build_dams(InputLog& log, const Site& site, Trn& trn);
 struct DamLines {
   const DamSettings* settings = nullptr;
   RecordLine crest, before;
-  int uphill = 1;  ///< +1: left of both seen from their first points, -1: right; 0: see dam_lines()
+  int uphill = 1;  ///< +1: left of both seen from their first points, -1: right
 };
-/// Of all that are active. One that `trn` was made without, or with another shape of it, has none,
-/// and no side uphill. Throws InputError as dams_of() and posts_on_ground().
-[[nodiscard]] std::vector<DamLines> dam_lines(InputLog& log, const Site& site, const Trn& trn);
-
-/// Throws InputError for an active dam that the terrain does not hold (null: it holds all), and for
-/// one that it holds and that is not active.
-void check_burnt(const Site& site, const DamSettings* unburnt, const Trn& trn);
+struct WatchedDams {
+  std::vector<DamLines> dams;  ///< those in the ground
+  /// Where the ground holds other dams than the active ones, or another shape of them; for whoever
+  /// computes with it to throw.
+  std::optional<InputError> other_ground;
+};
+/// Of all that are active. Throws InputError as dams_of() and posts_on_ground().
+[[nodiscard]] WatchedDams watched_dams(InputLog& log, const Site& site, const Trn& trn);
 
 /// Roofs of the galleries that are active in the ground of `trn`. Throws InputError as dams_of().
 [[nodiscard]] std::vector<RoofPiece> gallery_roofs(InputLog& log, const Site& site, const Trn& trn);

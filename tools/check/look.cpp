@@ -209,14 +209,16 @@ bool segments_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) 
   return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
 }
 
-// The first segment of the path that crosses the line; none: the path's number of points.
-size_t crossing(const std::vector<Vec2>& path, const RecordLine& line) {
+// To which side a path first crosses a line: +1: to its left, seen from its first point, -1: to its
+// right; 0: it does not cross it.
+int crossing(const std::vector<Vec2>& path, const RecordLine& line) {
   for (size_t k = 0; k + 1 < path.size(); ++k)
-    for (size_t i = 0; i + 1 < line.points.size(); ++i)
-      if (segments_cross(path[k], path[k + 1], line.points[i].head<2>(),
-                         line.points[i + 1].head<2>()))
-        return k;
-  return path.size();
+    for (size_t i = 0; i + 1 < line.points.size(); ++i) {
+      const Vec2 a = line.points[i].head<2>(), b = line.points[i + 1].head<2>();
+      if (segments_cross(path[k], path[k + 1], a, b))
+        return cross(b - a, path[k + 1] - path[k]) > 0 ? 1 : -1;
+    }
+  return 0;
 }
 
 // In plan, of lines that do not cross: the least lies at an end of one of two segments.
@@ -256,6 +258,12 @@ const FenceSettings* fence_of(const Site& site, const std::string& line) {
   return nullptr;
 }
 
+// On which side of a crest the line before its uphill face is, as crossing().
+int side_of(const RecordLine& crest, const RecordLine& before) {
+  const Vec2 along = (crest.points[1] - crest.points[0]).head<2>();
+  return cross(along, Vec2((before.points[0] - crest.points[0]).head<2>())) > 0 ? 1 : -1;
+}
+
 void look_at_fences(Look& look) {
   const std::vector<RecordLine>& lines = look.inputs.lines;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -280,11 +288,10 @@ void look_at_fences(Look& look) {
     fence.nearest = std::numeric_limits<double>::infinity();
     for (const SliderPath& slide : look.slides) {
       // a dam turns them away: they come to the line before it, which is the next
-      const size_t onto = crossing(slide.points, line),
-                   before = is_crest ? crossing(slide.points, lines[i + 1]) : onto;
-      const bool comes = std::min(onto, before) < slide.points.size();
+      const int onto = crossing(slide.points, line);
+      const bool comes = onto != 0 || (is_crest && crossing(slide.points, lines[i + 1]) != 0);
       fence.n_fall_lines += comes;
-      fence.n_from_downhill += onto < before;
+      fence.n_from_downhill += is_crest && onto == side_of(line, lines[i + 1]);
       fence.nearest = std::min(fence.nearest, comes ? 0 : gap(slide.points, line));
     }
     look.fences.push_back(std::move(fence));
@@ -408,7 +415,7 @@ void look_at(Tool& tool, const Site& site, const CheckFiles& files, Look& look) 
   check_times(site);
   static_cast<void>(warn_of_settings(tool, site));
   look.inputs = read_dda_inputs(tool, site, {files.bed, files.blocks, files.settle});
-  check_burnt(site, look.inputs.unburnt, look.inputs.parts.trn);
+  if (look.inputs.other_dams) throw *look.inputs.other_dams;
   warn_of_soils(tool, site, look.inputs.parts.blocks);
   static_cast<void>(observed_events(tool, site, look.work.ground));  // refused before the runs
   look.is_cut = look.work.is_cut();
@@ -447,9 +454,9 @@ void probe_look(Tool& tool, double duration, Look& look) {
 void set_magnitudes(const Look& look, PlausibilityFacts& facts) {
   const Site& site = look.work.site;
   const std::vector<double>& volumes = look.inputs.parts.blocks.volume;
-  if (moves_alone(site) && !volumes.empty())
-    facts.largest_rock = *std::max_element(volumes.begin(), volumes.end());
-  if (!moves_alone(site) && volumes.size() != 1) {  // a mass: it does not go often
+  if (moves_alone(site) || volumes.size() == 1) {
+    if (!volumes.empty()) facts.largest_rock = *std::max_element(volumes.begin(), volumes.end());
+  } else {  // a mass: it does not go often
     for (const HazardClassSettings& kind : site.hazard_classes)
       if (!(kind.frequency_per_a <= facts.frequency) && !std::isnan(kind.frequency_per_a)) {
         facts.frequency = kind.frequency_per_a;

@@ -44,7 +44,7 @@ struct FenceLook {
   bool is_dam = false;        ///< the crest of a dam, or a gallery's edge: ground
   double low = 0, high = 0;   ///< of its base, local z [m]
   int n_fall_lines = 0;       ///< that cross it
-  int n_from_downhill = 0;    ///< of these, that meet a dam's crest before its uphill face
+  int n_from_downhill = 0;    ///< of these, that cross a dam's crest towards uphill
   double nearest = 0;         ///< distance of the nearest fall line; 0 where one crosses it [m]
   bool is_in_source = false;  ///< a post is in the source
 };

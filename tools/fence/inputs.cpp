@@ -73,10 +73,9 @@ std::vector<FenceCase> fence_cases(Tool& tool, const Site& site, const Trn& trn)
 std::vector<DamCase> dam_cases(Tool& tool, const Site& site, const Trn& trn,
                                std::vector<FenceCase>& lines) {
   std::vector<DamCase> cases;
-  const std::vector<DamLines> dams = dam_lines(tool, site, trn);
-  const auto unburnt =
-      std::find_if(dams.begin(), dams.end(), [](const DamLines& dam) { return dam.uphill == 0; });
-  check_burnt(site, unburnt == dams.end() ? nullptr : unburnt->settings, trn);
+  const WatchedDams watched = watched_dams(tool, site, trn);
+  if (watched.other_ground) throw *watched.other_ground;
+  const std::vector<DamLines>& dams = watched.dams;
   const std::size_t first = lines.size();
   for (const RecordLine DamLines::*of : {&DamLines::before, &DamLines::crest})
     for (const DamLines& dam : dams) {

@@ -213,6 +213,7 @@ Json dam_json(const DamCase& dam, const DamResult& r, const FenceRunGroup& group
                {"passing", part_json(r.passing)},
                {"still_moving", r.n_moving},
                {"from_downhill", r.n_from_downhill},
+               {"ended_downhill", r.n_ended_downhill},
                {"energy_use", number_or_null(r.energy_use)},
                {"verdict", text(r.verdict)},
                {"pass", is_judged ? Json(r.verdict == DesignVerdict::meets) : Json()},

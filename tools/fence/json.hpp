@@ -13,11 +13,12 @@ namespace talus {
                               const FenceRunGroup& group, const ShareBasis& basis,
                               const FenceCode& code);
 
-/// Blocks behind the line of fence number `index` with the fences, without them, and the
-/// difference.
+/// A dam or gallery: verdicts, arrivals, load cases.
 [[nodiscard]] Json dam_json(const DamCase& dam, const DamResult& result, const FenceRunGroup& group,
                             const Fence& crest, const ShareBasis& basis);
 
+/// Blocks behind the line of fence number `index` with the fences, without them, and the
+/// difference.
 [[nodiscard]] Json comparison_json(const FenceRunGroup& with, const FenceRunGroup& without,
                                    std::size_t index);
 

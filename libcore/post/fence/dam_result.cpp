@@ -164,7 +164,7 @@ std::string downhill_text(const DamResult& r) {
          std::to_string(r.n_from_downhill);
 }
 
-// Of blocks that never met the line from uphill.
+// Of blocks that did not come to it.
 int n_ended_downhill(const FenceRunGroup& group, const DamCase& dam) {
   const Sides sides(dam);
   int sum = 0;

@@ -1,6 +1,6 @@
 // libcore/post/fence/dam_result.hpp: public
 // Blocks that reach a dam in the terrain, those that pass over its crest, and whether it holds; of
-// a gallery the hits of its roof. in:    runs at the two lines of each dam (dam_lines() of
+// a gallery the hits of its roof. in:    runs at the two lines of each dam (watched_dams() of
 // setup/site_dams_gdal.hpp), read as the
 //        lines of fences that stop nothing
 // out:   a verdict a block, statistics of arrivals and of passages, a verdict on the whole
