@@ -13,6 +13,7 @@
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "ensemble/made_with.hpp"
+#include "record/pieces.hpp"
 
 namespace talus {
 namespace {
@@ -77,6 +78,7 @@ RunMember member_of(const std::string& file, const RunFile& run) {
   member.info = run.info;
   member.grid = run.grid;
   member.n_blocks = n_blocks(run);
+  member.n_released = count_different(released_of(run));
   member.run_weight = run.run_weight;
   member.settings = settings_digest(run.info);
   const MadeWith made = made_with(run.info.config, "");

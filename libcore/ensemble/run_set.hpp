@@ -19,7 +19,8 @@ struct RunMember {
   std::string file;  ///< of a run in a part: its file before, with its folder
   RunInfo info;      ///< without config, made_with and plan, as large as a small run
   PassageGrid grid;
-  int n_blocks = 0;
+  int n_blocks = 0;  ///< with the pieces of those that broke
+  int n_released = 0;
   int n_moving = 0;   ///< at the end, by the evaluation's own limit of speed
   double weight = 0;  ///< sum over its blocks, times run_weight
   // health over the whole run

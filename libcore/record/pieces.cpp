@@ -186,23 +186,26 @@ void merge_pieces(RunFile& run) {
   blocks.parent.clear();
 }
 
-std::vector<int> worlds_of(const RunFile& run) {
-  std::vector<int> worlds(run.blocks.mass.size(), 0);
-  if (!run.info.independent) return worlds;
+std::vector<int> released_of(const RunFile& run) {
+  std::vector<int> released_block(run.blocks.mass.size());
   std::map<int, int> released;  // of pieces
   for (const Break& broken : run.breaks)
     for (const int piece : {broken.first_piece, broken.first_piece + 1})
       released[piece] = broken.released;
-  for (size_t b = 0; b < worlds.size(); ++b) {
+  for (size_t b = 0; b < released_block.size(); ++b) {
     const int body = run.blocks.body.empty() ? static_cast<int>(b) : run.blocks.body[b];
     const auto found = released.find(body);
-    worlds[b] = found == released.end() ? body : found->second;
+    released_block[b] = found == released.end() ? body : found->second;
   }
-  return worlds;
+  return released_block;
 }
 
-int count_worlds(const std::vector<int>& worlds) {
-  return static_cast<int>(std::set<int>(worlds.begin(), worlds.end()).size());
+std::vector<int> worlds_of(const RunFile& run) {
+  return run.info.independent ? released_of(run) : std::vector<int>(run.blocks.mass.size(), 0);
+}
+
+int count_different(const std::vector<int>& numbers) {
+  return static_cast<int>(std::set<int>(numbers.begin(), numbers.end()).size());
 }
 
 }  // namespace talus

@@ -18,10 +18,12 @@ namespace talus {
 /// phases; frames, passages, crossings and hits of objects as far as they were read.
 void merge_pieces(RunFile& run);
 
-/// Whose fences and trees the blocks of a run met: of each the released block that it is or is part
-/// of, by its number in the run, where rocks fall one by one; 0 where all share them  (n_blocks)
+/// The released block that each block is or is part of, by its number in the run  (n_blocks)
+[[nodiscard]] std::vector<int> released_of(const RunFile& run);
+/// Whose fences and trees the blocks of a run met: those of the released block where rocks fall one
+/// by one; 0 where all share them  (n_blocks)
 [[nodiscard]] std::vector<int> worlds_of(const RunFile& run);
-/// How many worlds there are: one, or one a rock.
-[[nodiscard]] int count_worlds(const std::vector<int>& worlds);
+/// How many blocks were released, or how many worlds there are.
+[[nodiscard]] int count_different(const std::vector<int>& numbers);
 
 }  // namespace talus

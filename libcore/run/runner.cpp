@@ -248,6 +248,15 @@ HealthCheck check(std::string name, double value, double limit, bool ends_run, s
   return {std::move(name), value, limit, value <= limit, ends_run, std::move(where)};
 }
 
+// How many rocks the rows are of; pieces of one rock are one.
+int count_rocks(const Scene& scene, std::span<const DeepRow> rows, bool only_that_matter) {
+  std::vector<int> rocks;
+  for (const DeepRow& row : rows)
+    if (!only_that_matter || n_that_matter({&row, 1}) > 0)
+      rocks.push_back(world_of(scene, row.block));
+  return count_different(rocks);
+}
+
 void add_deep_checks(const Runner& runner, std::vector<HealthCheck>& checks) {
   const std::vector<DeepRow> deep =
       by_weight(deep_rows(runner.scene, runner.state, runner.crossings.rows));
@@ -268,9 +277,10 @@ void add_deep_checks(const Runner& runner, std::vector<HealthCheck>& checks) {
   for (std::size_t b = 0; b < runner.scene.blocks.mass.size(); ++b)
     n_rocks += is_released(runner.scene, b);
   checks.push_back(check("rocks in by more than a tenth of their thickness, share",
-                         static_cast<double>(deep.size()) / n_rocks, most, false, words));
+                         count_rocks(runner.scene, deep, false) / n_rocks, most, false, words));
   checks.push_back(check("such rocks in the toe, at a fence, or faster than by their fall, share",
-                         n / n_rocks, most, false, words_of_some));
+                         count_rocks(runner.scene, deep, true) / n_rocks, most, false,
+                         words_of_some));
 }
 
 void add_penetration_check(const Runner& runner, double penetration,

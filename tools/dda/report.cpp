@@ -94,7 +94,7 @@ std::string fence_summary(const Json& report, const RunFile& file) {
     if (row.broken_by >= 0) ++n_broken, rocks.insert(row.rock);
   if (file.info.independent)
     return hits + "panels broken by " + std::to_string(rocks.size()) + " of " +
-           counted(count_worlds(worlds_of(file)), "rock") + broken_panels(panels);
+           counted(count_different(worlds_of(file)), "rock") + broken_panels(panels);
   return hits + std::to_string(n_broken) + " of " +
          counted(static_cast<std::int64_t>(panels.size()), "panel") + " broken" +
          broken_panels(panels);

@@ -115,7 +115,7 @@ void take_rows(RunInputs& runs, const HazardInputs& inputs, const MapTile& tile,
 bool is_mixed(const HazardRuns& runs, const std::vector<RunMember>& members) {
   return std::any_of(members.begin() + runs.first, members.begin() + runs.first + runs.n,
                      [&runs](const RunMember& run) {
-                       return blocks_are_events(run.info, run.n_blocks) != runs.kind.of_rocks;
+                       return blocks_are_events(run.info, run.n_released) != runs.kind.of_rocks;
                      });
 }
 
@@ -149,7 +149,7 @@ HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<HazardClass>&
       }
       event_rows(map_rows(run.passages, run.grid, out.map, run.blocks.weight), out.map.grid,
                  run.blocks, recipe,
-                 {member, index, blocks_are_events(member.info, member.n_blocks)}, count);
+                 {member, index, blocks_are_events(member.info, member.n_released)}, count);
     });
     out.sources.classes.push_back(hazard_runs(kind, runs.members, first, runs.last_failed_share()));
     take_rows_of_parts(runs, first_part, out, {}, most_rows, count);

@@ -179,26 +179,30 @@ Json rate_json(const HazardClass& kind) {
   return out;
 }
 
+// What a class needs more of for narrower bounds; all kinds where classes differ.
+std::string units_of(const HazardSources& sources) {
+  using Kind = Clusters::Kind;
+  const auto kind_of = [](const HazardRuns& runs) { return runs.basis.clusters.kind; };
+  const Kind first = kind_of(sources.classes.front());
+  for (const HazardRuns& runs : sources.classes)
+    if (kind_of(runs) != first) return "runs, rock masses or release cells";
+  if (first == Kind::run) return "runs";
+  return first == Kind::rock_mass ? "rock masses" : "release cells";
+}
+
 // The longest return period of the recipe that places which no run reached may still have.
 void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
   const double rate = largest_rate_elsewhere(sources.classes);
   const std::vector<double>& periods = sources.recipe.return_periods;
   if (std::isnan(rate)) {
-    tool.warn(
-        "fewer than 10 runs of a class of rocks, and fewer than 10 release cells: its rates have "
-        "no "
-        "bounds, and no class is certain");
+    tool.warn("a class has fewer than 10 " + units_of(sources) +
+              ": its rates have no bounds, and no class is certain");
     return;
   }
   if (periods.empty() || rate * periods.back() < 1) return;
-  const bool is_of_cells =
-      std::all_of(sources.classes.begin(), sources.classes.end(), [](const HazardRuns& runs) {
-        return runs.basis.clusters.kind == Clusters::Kind::release_cell;
-      });
   tool.warn("places that no run reached may be reached once in " + text(1 / rate, 3) +
             " years, which is within the " + period_name(periods.back()) +
-            " years of the recipe; more " + (is_of_cells ? "release cells" : "runs") +
-            " are needed to call them free");
+            " years of the recipe; more " + units_of(sources) + " are needed to call them free");
 }
 
 // Remark, tags and notes of all files of a result.

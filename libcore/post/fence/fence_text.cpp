@@ -48,7 +48,7 @@ std::string broken_text(std::size_t index, const FenceRunGroup& group) {
   std::string list;
   for (const FenceRun& run : group.runs) {
     std::set<int> with;  // rocks, or all blocks
-    n_worlds += count_worlds(run.world);
+    n_worlds += count_different(run.world);
     for (const PanelRow& panel : run.at_fence[index].broken) {
       with.insert(panel.rock);
       if (++n > most) continue;

@@ -143,8 +143,8 @@ std::vector<std::uint32_t> by_block(const std::vector<MapRow>& rows) {
 
 }  // namespace
 
-bool blocks_are_events(const RunInfo& run, int n_blocks) {
-  return n_blocks == 1 || run.independent || run.weights_are_frequencies;
+bool blocks_are_events(const RunInfo& run, int n_released) {
+  return n_released == 1 || run.independent || run.weights_are_frequencies;
 }
 
 void event_rows(const std::vector<MapRow>& rows, const PassageGrid& grid, const RunBlocks& blocks,

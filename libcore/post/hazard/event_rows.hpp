@@ -25,9 +25,9 @@ struct EventRow {
   double weight = 1;    ///< of the block, times that of its run
 };
 
-/// Whether each block of a run is an event of its own: it moved as if it were alone, has a
-/// frequency, or is the only one. `n_blocks`: with the pieces that came of them.
-[[nodiscard]] bool blocks_are_events(const RunInfo& run, int n_blocks);
+/// Whether each block that a run released is an event of its own: it moved as if it were alone, has
+/// a frequency, or is the only one.
+[[nodiscard]] bool blocks_are_events(const RunInfo& run, int n_released);
 
 /// A run as its class counts it.
 struct EventSource {

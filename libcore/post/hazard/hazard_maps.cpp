@@ -70,7 +70,7 @@ void add_shares(const HazardSources& sources, EmptyLayers& to) {
                   "1",
                   std::string("share of the ") + (runs.kind.of_rocks ? "rocks: " : "runs with ") +
                       above_words(to.recipe, i),
-                  runs.kind.of_rocks ? "95 % interval" : "Wilson's 95 % interval");
+                  "95 % interval");
 }
 
 void add_probability(double years, EmptyLayers& to) {

@@ -67,7 +67,7 @@ void check_run(const HazardClass& kind, const RunMember& run, const RunMember& f
     return of.info.independent ? "each block as if it were alone" : "its blocks together";
   };
   const std::string item = "hazard.class." + kind.name;
-  if (run.n_blocks > 1 && run.info.independent != first.info.independent)
+  if (run.n_released > 1 && run.info.independent != first.info.independent)
     throw InputError({where_of(run), 0, item},
                      std::string("the run moved ") + words(run) + ", " + where_of(first) +
                          " moved " + words(first),
@@ -78,10 +78,11 @@ void check_run(const HazardClass& kind, const RunMember& run, const RunMember& f
                      "how often rocks come",
                      two_frequencies_hint);
   if (kind.kind == FrequencyKind::of_weights && !run.info.weights_are_frequencies)
-    throw InputError({where_of(run), 0, item},
-                     "the class has no frequency, and the weights of the run's blocks are none",
-                     "give frequency_per_a or frequency_per_m2_a to [rockfall.*] and run "
-                     "talus-blocks and talus-dda again, or give the class a frequency");
+    throw InputError(
+        {where_of(run), 0, item},
+        "the class has no frequency, and the weights of the run's blocks are not frequencies",
+        "give frequency_per_a or frequency_per_m2_a to [rockfall.*] and run "
+        "talus-blocks and talus-dda again, or give the class a frequency");
 }
 
 }  // namespace
@@ -91,13 +92,13 @@ HazardRuns hazard_runs(const HazardClass& kind, std::span<const RunMember> membe
   const std::span<const RunMember> own = members.subspan(static_cast<std::size_t>(first));
   HazardRuns runs{kind, {}, first, static_cast<int>(own.size())};
   const auto first_of_several =
-      std::find_if(own.begin(), own.end(), [](const RunMember& run) { return run.n_blocks > 1; });
+      std::find_if(own.begin(), own.end(), [](const RunMember& run) { return run.n_released > 1; });
   const RunMember& first_run = first_of_several == own.end() ? own.front() : *first_of_several;
   for (const RunMember& run : own) check_run(kind, run, first_run);
   runs.kind.of_rocks = kind.kind == FrequencyKind::of_weights ||
-                       blocks_are_events(first_run.info, first_run.n_blocks);
+                       blocks_are_events(first_run.info, first_run.n_released);
   runs.basis = share_basis(clusters_of(own), failed_share);
-  for (const RunMember& run : own) runs.n_rocks += runs.kind.of_rocks ? run.n_blocks : 0;
+  for (const RunMember& run : own) runs.n_rocks += runs.kind.of_rocks ? run.n_released : 0;
   if (kind.kind == FrequencyKind::of_weights) {
     const double all = runs.basis.over.whole / runs.n;
     runs.kind.frequency = {all, all, all};
@@ -149,9 +150,7 @@ std::vector<BlockWeight> rate_amounts(const HazardRuns& runs, std::span<const Ev
 
 double largest_rate_elsewhere(std::span<const HazardRuns> classes) {
   double sum = 0;
-  for (const HazardRuns& runs : classes)
-    sum += runs.kind.of_rocks ? rate_of(runs, std::span<const BlockWeight>{}).high
-                              : rate_of(runs, 0).high;
+  for (const HazardRuns& runs : classes) sum += rate_of(runs, std::span<const BlockWeight>{}).high;
   return sum;
 }
 

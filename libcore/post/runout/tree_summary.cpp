@@ -18,7 +18,7 @@ void add_trees(const RunTrees& run, std::map<StemName, HitStem>& stems,
                std::map<std::string, ForestSummary>& forests) {
   for (const ForestInfo& forest : run.forests) {
     ForestSummary& sum = forests[forest.name];
-    const int n_worlds = run.independent ? count_worlds(run.worlds) : 1;
+    const int n_worlds = run.independent ? count_different(run.worlds) : 1;
     sum.name = forest.name;
     ++sum.n_runs;
     sum.n_worlds += n_worlds;

@@ -12,7 +12,7 @@ refused 'hazard.class.V1: has no frequency' run_0.h5
 site '[hazard.class.V1]' 'frequency_per_a = 1' '[hazard.class.V5]' 'frequency_per_a = 1'
 refused 'is of no case V1, nor is any other run' run_0.h5
 site '[hazard.class.V1]' '[rockfall.cliff]' 'frequency_per_a = 0.02'
-refused "the class has no frequency, and the weights of the run's blocks are none" run_0.h5
+refused "the class has no frequency, and the weights of the run's blocks are not frequencies" run_0.h5
 site '[hazard.class.V1]' 'failure_probability = 0.1' 'in_years = 50' '[hazard.class.V5]' 'frequency_per_a = 1'
 refused 'fails again, class V1 does not' run_0.h5
 site '[hazard.class.V1]' 'by_weights = true'

@@ -70,7 +70,7 @@ inline Clusters clusters_of_runs(const std::vector<double>& weight, int n_blocks
   std::vector<RunMember> runs(weight.size());
   for (std::size_t r = 0; r < runs.size(); ++r) {
     runs[r].weight = weight[r];
-    runs[r].n_blocks = n_blocks;
+    runs[r].n_blocks = runs[r].n_released = n_blocks;
     if (!run_weight.empty()) runs[r].run_weight = run_weight[r];
     if (!mass.empty()) {
       runs[r].info.terrain_digest = "before the slide";

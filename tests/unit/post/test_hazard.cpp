@@ -79,7 +79,7 @@ std::vector<RunMember> members_of(int n_runs, int n_rocks, double weight, bool h
     members[r].file = "run_" + std::to_string(r) + ".h5";
     members[r].info.independent = true;
     members[r].info.weights_are_frequencies = has_frequencies;
-    members[r].n_blocks = n_rocks;
+    members[r].n_blocks = members[r].n_released = n_rocks;
     for (int rock = 0; rock < n_rocks; ++rock) members[r].weight += weight;
   }
   return members;
@@ -441,7 +441,7 @@ TEST(Hazard, AMassIsAsWideAsItIsAndARockAtRestIsInItsCell) {
   std::vector<MapRow> rows(1);
   rows[0].cell = 40;
   RunMember run;
-  run.n_blocks = 2;
+  run.n_blocks = run.n_released = 2;
   EXPECT_EQ(events_of(rows, grid, blocks, recipe, run, 0).size(), 1U);
   const auto cells_of = [&](const RunBlocks& of) {
     std::vector<std::uint32_t> cells;
@@ -556,7 +556,7 @@ TEST(Hazard, OfSingleRocksAsksOneQuestionOnce) {
   std::vector<RunMember> mixed = members_of(3, 28, 1, false);
   mixed[1].info.independent = false;
   EXPECT_NE(refusal_of_runs(given, mixed).find("run_1.h5"), std::string::npos);
-  mixed[1].n_blocks = 1;  // alone in any case
+  mixed[1].n_released = 1;  // alone in any case
   EXPECT_EQ(refusal_of_runs(given, mixed), "accepted");
 
   const std::string release = "[rockfall.cliff]\nfrequency_per_a = 0.01\n";
@@ -584,8 +584,25 @@ TEST(Hazard, AClassOfSingleBlocksIsOfRocks) {
   std::vector<RunMember> members = members_of(20, 1, 1, false);
   for (RunMember& member : members) member.info.independent = false;
   EXPECT_TRUE(hazard_runs(kind, members, 0, 0).kind.of_rocks);
-  members[7].n_blocks = 2;
+  members[7].n_blocks = 2;  // pieces of one rock
+  EXPECT_TRUE(hazard_runs(kind, members, 0, 0).kind.of_rocks);
+  members[7].n_released = 2;
   EXPECT_FALSE(hazard_runs(kind, members, 0, 0).kind.of_rocks);
+}
+
+// Runs of five rock masses are five samples: too few for bounds, where they hit and elsewhere.
+TEST(Hazard, FewRockMassesHaveNoBoundElsewhere) {
+  const HazardClass kind = class_named("V1", FrequencyKind::of_events);
+  for (const int n_masses : {5, 10}) {
+    std::vector<RunMember> members = members_of(50, 4, 1, false);
+    for (int r = 0; r < 50; ++r) {
+      members[r].info.independent = false;
+      members[r].info.terrain_digest = "before the slide";
+      members[r].info.blocks_hash = std::to_string(r % n_masses);
+    }
+    const HazardRuns runs = hazard_runs(kind, members, 0, 0);
+    EXPECT_EQ(std::isnan(largest_rate_elsewhere({&runs, 1})), n_masses < 10);
+  }
 }
 
 // A case that counts three times as much does so in the share of runs and in that of rocks.

@@ -100,6 +100,22 @@ TEST(DeepRows, RocksOneByOneAreCounted) {
   }
 }
 
+// The last two are pieces of a rock before them: one of 19 rocks is deep.
+TEST(DeepRows, PiecesOfARockCountAsOne) {
+  for (const auto& [max_share, is_broken] : {std::pair{0.05, true}, {0.06, false}}) {
+    Row row(0.2);
+    row.scene.settings.block_contacts = false;
+    row.options.limits.max_deep_share = max_share;
+    Runner runner = row.begin();
+    Row::sink(runner);
+    runner.state.deep[19] = runner.state.deep[20];
+    runner.scene.fragments.resize(21);
+    for (int b = 0; b < 21; ++b) runner.scene.fragments[b].released = b < 19 ? b : 18;
+    runner.scene.fragments[19].parent = runner.scene.fragments[20].parent = 18;
+    EXPECT_EQ(Row::broken(runner).size(), is_broken ? 1U : 0U);
+  }
+}
+
 // Every broken limit says which block, in which body, when, where and its share of the mass.
 TEST(DeepRows, BrokenLimitsNameABlock) {
   Row row(1);
