@@ -125,6 +125,15 @@ double effective_size(double sum_of_weights, double sum_of_squared_weights) {
   return sum_of_weights * sum_of_weights / sum_of_squared_weights;
 }
 
+double effective_size(std::span<const WeightedValue> values) {
+  double sum = 0, squares = 0;
+  for (const WeightedValue& value : values) {
+    sum += value.weight;
+    squares += value.weight * value.weight;
+  }
+  return effective_size(sum, squares);
+}
+
 Interval wilson_interval(double share, double n, double z) {
   TALUS_ASSERT(n > 0 && share >= 0 && share <= 1);
   const double z_sq = z * z;

@@ -27,6 +27,7 @@ static_assert(percentile_levels[place_of_p95].p == 0.95);
 
 /// Kish's effective sample size (sum w)^2 / sum w^2; 0 for no weight.
 [[nodiscard]] double effective_size(double sum_of_weights, double sum_of_squared_weights);
+[[nodiscard]] double effective_size(std::span<const WeightedValue> values);
 
 struct Interval {
   double low = 0, high = 0;
@@ -43,6 +44,8 @@ struct Interval {
 
 /// The smallest n for which upper_bound_rank() exists: ceil(log(1 - confidence) / log p).
 [[nodiscard]] int smallest_sample(double p, double confidence = 0.95);
+/// Whether values worth `n` independent ones are so many; the sums of their weights are rounded.
+[[nodiscard]] inline bool is_enough(double n, double p) { return n + 1e-9 >= smallest_sample(p); }
 
 /// Ranks of the order statistics that hold the true p-percentile between them with at least
 /// `confidence`, whatever the distribution; a rank of 0: none that bounds it there.

@@ -52,7 +52,7 @@ DesignStep sample_step(const QuantitySummary& quantity, double p, const FencePar
                        double scale, const char* symbol, const std::string& what,
                        const char* unit) {
   const std::string n = counted(part.n, "arrival");
-  if (part.n_eff + 1e-9 >= smallest_sample(p))
+  if (is_enough(part.n_eff, p))
     return {symbol, what + ", " + text(100 * p) + "th percentile", percentile(quantity, p) * scale,
             unit, "of " + n};
   return {symbol, what + ", largest", quantity.largest * scale, unit,

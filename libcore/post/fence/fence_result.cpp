@@ -27,7 +27,7 @@ double volume_behind(const FenceRunGroup& group, std::size_t fence) {
   double volume = 0;
   for (const FenceRun& run : group.runs)
     for (const FenceArrival& crossing : passed_for_good(run.at_fence[fence]))
-      volume += run.run_weight * crossing.volume / count_worlds(run.world);
+      volume += run.run_weight * crossing.volume / count_different(run.world);
   return volume / weight_of_runs(group);
 }
 
@@ -87,7 +87,7 @@ void set_design_block(DesignInput& input, const std::vector<FenceArrival>& arriv
   sort_values(volumes);
   const std::string n = counted(static_cast<std::int64_t>(arrivals.size()), "block");
   const std::string arrive = arrivals.size() == 1 ? " that arrives" : " that arrive";
-  if (effective_size(weight, weight_sq) + 1e-9 >= smallest_sample(level)) {
+  if (is_enough(effective_size(weight, weight_sq), level)) {
     input.block_volume = weighted_percentile(volumes, level);
     input.block_source = "95th percentile of the " + n + arrive;
     return;
@@ -191,7 +191,7 @@ GroundBehind ground_behind(const FenceRunGroup& group, std::size_t fence) {
   sort_values(energy);
   out.share = weight / total;
   out.volume /= weight_of_runs(group);
-  const bool enough = effective_size(weight, weight_sq) + 1e-9 >= smallest_sample(0.5);
+  const bool enough = is_enough(effective_size(weight, weight_sq), 0.5);
   out.energy_p50 = enough ? weighted_percentile(energy, 0.5) : no_value;
   out.energy_largest = energy.empty() ? no_value : energy.back().value;
   return out;

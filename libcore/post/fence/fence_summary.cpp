@@ -32,7 +32,7 @@ QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_e
     const double p = percentile_levels[k].p;
     BoundedPercentile& out = summary.percentile[k];
     out = {no_value, no_value};
-    if (static_cast<int>(n_eff + 1e-9) < smallest_sample(p)) continue;
+    if (!is_enough(n_eff, p)) continue;
     out.value = weighted_percentile(values, p);
     if (upper[k] >= 0) out.upper = values[upper[k]].value;
   }

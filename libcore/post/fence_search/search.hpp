@@ -35,9 +35,6 @@ struct SearchSettings {
 
 /// Reason why an option does not meet the demand.
 enum class SearchFault { share, height, energy, storage, length };
-inline constexpr std::array search_faults = {SearchFault::share, SearchFault::height,
-                                             SearchFault::energy, SearchFault::storage,
-                                             SearchFault::length};
 [[nodiscard]] const char* text(SearchFault fault);
 
 /// One fence of an option.

@@ -17,13 +17,7 @@ Envelope envelope_of(std::vector<WeightedValue> values) {
   if (values.empty()) return {no_value, no_value, no_value};
   sort_values(values);
   Envelope out{weighted_percentile(values, 0.5), no_value, values.back().value};
-  double w = 0, w_sq = 0;
-  for (const WeightedValue& v : values) {
-    w += v.weight;
-    w_sq += v.weight * v.weight;
-  }
-  if (effective_size(w, w_sq) + 1e-9 >= smallest_sample(0.95))
-    out.p95 = weighted_percentile(values, 0.95);
+  if (is_enough(effective_size(values), 0.95)) out.p95 = weighted_percentile(values, 0.95);
   return out;
 }
 

@@ -235,6 +235,13 @@ std::span<const TraceHit> hits_of(const TraceSums& sums, int object) {
 
 namespace {
 
+// Of sorted values; NaN: they are too few for it.
+double p95_of(const std::vector<WeightedValue>& values) {
+  return !values.empty() && is_enough(effective_size(values), 0.95)
+             ? weighted_percentile(values, 0.95)
+             : no_value;
+}
+
 // Of the hits of one object.
 TracePercentiles percentiles_of(std::vector<TraceHit> hits, const ShareBasis& basis) {
   TracePercentiles out{no_value, no_value, no_value, no_value};
@@ -251,19 +258,11 @@ TracePercentiles percentiles_of(std::vector<TraceHit> hits, const ShareBasis& ba
   PercentileBounds bounds{basis.clusters, 200};
   const BoundPlaces places = upper_bound_places(bounds, blocks);
   out.p50 = weighted_percentile(values, 0.5);
-  if (static_cast<int>(hits.size()) >= smallest_sample(0.95))
-    out.p95 = weighted_percentile(values, 0.95);
+  out.p95 = p95_of(values);
   if (places[place_of_p95] >= 0)
     out.p95_high = values[static_cast<std::size_t>(places[place_of_p95])].value;
   out.largest = values.back().value;
   return out;
-}
-
-double p95_or_largest(std::vector<WeightedValue> values) {
-  sort_values(values);
-  return static_cast<int>(values.size()) >= smallest_sample(0.95)
-             ? weighted_percentile(values, 0.95)
-             : values.back().value;
 }
 
 // Fewest sources with at least a share of the hits; `descending` shares.
@@ -306,7 +305,8 @@ ObjectTrace object_trace(const TraceSums& sums, int object, const ShareBasis& ba
   out.weight_share_interval = share_interval(basis, blocks, out.weight_share);
   out.volume_share = volume / sums.volume_released;
   out.energy = percentiles_of({hits.begin(), hits.end()}, basis);
-  out.top_height_p95 = heights.empty() ? no_value : p95_or_largest(heights);
+  sort_values(heights);
+  out.top_height_p95 = p95_of(heights);
   const auto o = static_cast<std::size_t>(object);
   out.deposited_a_run = sums.deposited[o] / n;
   out.method = sums.n_recorded[o] == sums.n_runs ? "recorded"
@@ -341,7 +341,9 @@ std::vector<SourceLink> source_links(const TraceSums& sums) {
     }
     link.p_hit = std::min(1.0, weight / sums.source.at(key.second).weight);
     link.share_of_hits = weight / weight_of_object[static_cast<std::size_t>(key.first)];
-    link.energy_p95 = p95_or_largest(std::move(energies));
+    sort_values(energies);
+    const double p95 = p95_of(energies);
+    link.energy_p95 = std::isnan(p95) ? energies.back().value : p95;
     links.push_back(link);
   }
   std::stable_sort(links.begin(), links.end(), [](const SourceLink& a, const SourceLink& b) {

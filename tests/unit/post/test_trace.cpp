@@ -78,6 +78,26 @@ TEST(Trace, OfTwoSourcesThreeToOneHasSharesThreeToOne) {
   EXPECT_DOUBLE_EQ(trace.deposited_a_run, 4);  // all four came to rest at x = 55
 }
 
+// Sixty hits have a p95 where they count alike; where one of them has nearly all the weight they
+// are worth one hit. Source cells give the largest value then.
+TEST(Trace, FewEffectiveHitsHaveNoP95) {
+  const std::vector<RecordObject> objects{area("house", 50, 0, 60, 100)};
+  const std::vector<Vec2> sources(60, Vec2(5, 20));
+  const RunFile run = run_of(sources, std::vector<std::vector<int>>(60, {0}), objects);
+  for (const double weight : {1.0, 1e-6}) {
+    std::vector<RunFile> runs{run};
+    runs[0].blocks.weight.assign(60, weight);
+    runs[0].blocks.weight[7] = 1;
+    const TraceSums sums = sums_of(runs, objects);
+    const std::vector<SourceLink> links = source_links(sums);
+    const ShareBasis basis = share_basis(clusters_of_runs({1 + 59 * weight}, 60));
+    const ObjectTrace trace = object_trace(sums, 0, basis, links);
+    EXPECT_EQ(std::isnan(trace.energy.p95), weight < 1);
+    EXPECT_EQ(std::isnan(trace.top_height_p95), weight < 1);
+    EXPECT_EQ(links[0].energy_p95, weight < 1 ? 60 : 57);
+  }
+}
+
 // A run of weight 1.5 whose three blocks hit, one of 0.5 whose one block does, of four each: by
 // hand (1.5 x 3 + 0.5 x 1) / 2 = 2.5 hits a run, 2.5 / 4 of the blocks and of the volume.
 TEST(Trace, RunsCountByTheirWeights) {
