@@ -13,12 +13,4 @@ void make_room(std::vector<T>& array) {
   if (array.size() == array.capacity()) array.reserve(array.size() + array.size() / 8 + 4);
 }
 
-/// Room for `n` elements in all; those that it held are lost where it has to grow.
-template <class T>
-void make_new_room(std::vector<T>& array, std::size_t n) {
-  if (n <= array.capacity()) return;
-  std::vector<T>().swap(array);
-  array.reserve(n + n / 8);
-}
-
 }  // namespace talus

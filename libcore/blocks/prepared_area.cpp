@@ -47,14 +47,14 @@ size_t PreparedArea::n_looked_at(const Vec2& point) const {
 
 void PreparedArea::add_crossings(const Vec2& from, const Vec2& to,
                                  std::vector<double>& shares) const {
-  const Vec2 way = to - from;
+  const Vec2 along = to - from;
   const size_t last = band_of(std::max(from.y(), to.y()));
   for (size_t band = band_of(std::min(from.y(), to.y())); band <= last; ++band)
     for (const auto& [a, b] : bands_[band]) {
       // both ends of the side on one side of the segment: it is not crossed
-      const double left_a = cross(way, a - from), left_b = cross(way, b - from);
+      const double left_a = cross(along, a - from), left_b = cross(along, b - from);
       if (left_a * left_b > 0 || left_a == left_b) continue;
-      const double share = cross(a - from, b - a) / cross(way, b - a);
+      const double share = cross(a - from, b - a) / cross(along, b - a);
       if (share > 0 && share < 1) shares.push_back(share);
     }
 }

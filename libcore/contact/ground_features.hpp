@@ -3,7 +3,7 @@
 // against its edges. Within the module, for search.cpp.
 // in:    ground, block where it is, candidate cells; the list of earlier searches
 // out:   contacts whose gap is below the margin
-// theory: 2.2-2.5
+// theory: 2.1, 2.2
 #pragma once
 
 #include <span>

@@ -15,11 +15,11 @@ constexpr double most_by_bearing = 0.5;  // mu_r: deeper in, the half disc says 
 // Centre of half a disc, from its middle.
 double half_disc_centre(double radius) { return 4 * radius / (3 * pi); }
 
-// Integral of friction along the slid distance, from 0 to `way`.
-double scar_work(const GroundClass& ground, double way) {
-  const double kappa = ground.scar_rate, x = kappa * way;
-  return ground.friction * way + 2 / pi * (ground.scar_friction - ground.friction) *
-                                     (way * std::atan(x) - std::log1p(x * x) / (2 * kappa));
+// Integral of friction along the slid distance, from 0 to `slid`.
+double scar_work(const GroundClass& ground, double slid) {
+  const double kappa = ground.scar_rate, x = kappa * slid;
+  return ground.friction * slid + 2 / pi * (ground.scar_friction - ground.friction) *
+                                      (slid * std::atan(x) - std::log1p(x * x) / (2 * kappa));
 }
 
 }  // namespace
@@ -36,21 +36,21 @@ RestitutionFall fall_on(const GroundClass& ground, double mass) {
   return fall;
 }
 
-double friction_on(const GroundClass& ground, double speed, double way) {
+double friction_on(const GroundClass& ground, double speed, double slid) {
   if (scars(ground))
     return ground.friction +
-           2 / pi * (ground.scar_friction - ground.friction) * std::atan(ground.scar_rate * way);
+           2 / pi * (ground.scar_friction - ground.friction) * std::atan(ground.scar_rate * slid);
   if (weakens(ground))
     return ground.weak_friction +
            (ground.friction - ground.weak_friction) / (1 + speed / ground.weakening_speed);
   return ground.friction;
 }
 
-double mean_friction(const GroundClass& ground, double speed, double way, double path) {
+double mean_friction(const GroundClass& ground, double speed, double slid, double path) {
   // below this the quotient is rounding
   if (!scars(ground) || ground.scar_rate * path < 1e-6)
-    return friction_on(ground, speed, way + path / 2);
-  return (scar_work(ground, way + path) - scar_work(ground, way)) / path;
+    return friction_on(ground, speed, slid + path / 2);
+  return (scar_work(ground, slid + path) - scar_work(ground, slid)) / path;
 }
 
 double rough_friction(const GroundClass& joint, double stress) {
@@ -77,7 +77,7 @@ Dent dent_in(const GroundClass& ground, double mass, double radius) {
 }
 
 double kept_by_drag(const GroundClass& ground, double speed, double h) {
-  return std::exp(-ground.drag_per_time * h) * (1 / (1 + ground.drag_per_way * speed * h));
+  return std::exp(-ground.drag_per_time * h) * (1 / (1 + ground.drag_per_distance * speed * h));
 }
 
 }  // namespace talus

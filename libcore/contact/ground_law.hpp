@@ -24,9 +24,9 @@ struct GroundClass {
   double scar_rate = 0;      ///< kappa: rate per slid distance [1/m]
   double scar_decay = 0;     ///< beta: rate at which the slid distance decays off the ground [1/s]
   double weak_friction = 0;  ///< mu_w: tan(phi) at high speed of slip [-]
-  double weakening_speed = 0;  ///< U_w: slip speed at which half of the drop is reached [m/s]
-  double drag_per_time = 0;    ///< nu [1/s]
-  double drag_per_way = 0;     ///< c [1/m]
+  double weakening_speed = 0;    ///< U_w: slip speed at which half of the drop is reached [m/s]
+  double drag_per_time = 0;      ///< nu [1/s]
+  double drag_per_distance = 0;  ///< c [1/m]
   // a rough joint, see rough_friction()
   double roughness = 0;      ///< JRC, the angle per decade of JCS over stress; 0: smooth [rad]
   double wall_strength = 0;  ///< JCS [Pa]
@@ -38,7 +38,7 @@ inline constexpr std::array yielding_numbers = {
     &GroundClass::half_speed,      &GroundClass::half_energy,   &GroundClass::rolling,
     &GroundClass::spinning,        &GroundClass::bearing,       &GroundClass::scar_friction,
     &GroundClass::scar_rate,       &GroundClass::scar_decay,    &GroundClass::weak_friction,
-    &GroundClass::weakening_speed, &GroundClass::drag_per_time, &GroundClass::drag_per_way};
+    &GroundClass::weakening_speed, &GroundClass::drag_per_time, &GroundClass::drag_per_distance};
 
 /// Whether any of them is not as in firm ground.
 [[nodiscard]] bool yields(const GroundClass& ground);
@@ -54,7 +54,7 @@ inline constexpr std::array yielding_numbers = {
 }
 [[nodiscard]] inline bool is_rough(const GroundClass& ground) { return ground.roughness > 0; }
 [[nodiscard]] inline bool drags(const GroundClass& ground) {
-  return ground.drag_per_time > 0 || ground.drag_per_way > 0;
+  return ground.drag_per_time > 0 || ground.drag_per_distance > 0;
 }
 [[nodiscard]] inline bool restitution_falls(const GroundClass& ground) {
   return ground.half_speed > 0 || ground.half_energy > 0;
@@ -74,10 +74,10 @@ struct RestitutionFall {
 /// How the restitution on `ground` falls for a block of `mass` [kg].
 [[nodiscard]] RestitutionFall fall_on(const GroundClass& ground, double mass);
 
-/// tan(phi) of ground at slip `speed` after a slid distance of `way`; and its mean over a further
+/// tan(phi) of ground at slip `speed` after a slid distance of `slid`; and its mean over a further
 /// path, exact in the work of friction that follows the slid distance.
-[[nodiscard]] double friction_on(const GroundClass& ground, double speed, double way);
-[[nodiscard]] double mean_friction(const GroundClass& ground, double speed, double way,
+[[nodiscard]] double friction_on(const GroundClass& ground, double speed, double slid);
+[[nodiscard]] double mean_friction(const GroundClass& ground, double speed, double slid,
                                    double path);
 
 /// tan(phi) of a rough joint at a normal stress [Pa] by Barton and Bandis:

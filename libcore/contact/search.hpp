@@ -2,7 +2,7 @@
 // All contacts that a block may have with the ground at a pose: modes 1, 2 and 3 of Fig. 7.
 // in:    ground, block surface, pose
 // out:   candidate contacts with their gaps
-// paper: Zhang et al. 2018, Eq. (5)-(7) and Fig. 7; theory 2.2-2.5
+// paper: Zhang et al. 2018, Eq. (5)-(7) and Fig. 7; theory 2.1, 2.2
 #pragma once
 
 #include <vector>

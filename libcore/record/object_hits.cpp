@@ -207,8 +207,8 @@ void follow(ObjectRecorder& recorder, const Scene& scene, SegmentMotion& motion,
       add_object_hit(recorder, hit_at(scene, segment.block, object, motion.at(t), t));
     }
     if (t >= segment.t_end) return;
-    const double way = gap <= touch_gap ? stride : gap - 0.5 * touch_gap;
-    t = std::min(segment.t_end, t + way / fastest);
+    const double distance = gap <= touch_gap ? stride : gap - 0.5 * touch_gap;
+    t = std::min(segment.t_end, t + distance / fastest);
   }
 }
 

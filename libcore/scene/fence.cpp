@@ -53,15 +53,15 @@ FenceHit first_touch(const Scene& scene, int block, const FencePanel& panel, con
                      double time, const Motion& before) {
   const Vec3 along = panel.foot_b - panel.foot_a;
   const double length = horizontal(along);
-  const double way = std::clamp(
+  const double share = std::clamp(
       (point - panel.foot_a).head<2>().dot(along.head<2>()) / (length * length), 0.0, 1.0);
-  const double base = panel.foot_a.z() + way * along.z();
+  const double base = panel.foot_a.z() + share * along.z();
   FenceHit hit;
   hit.block = block;
   hit.line = panel.line;
   hit.panel = panel.number;
   hit.time = time;
-  hit.chainage = panel.chainage + way * length;
+  hit.chainage = panel.chainage + share * length;
   hit.velocity = before.velocity;
   hit.translational_energy = translational(scene, block, before);
   hit.rotational_energy = rotational(scene, block, before);

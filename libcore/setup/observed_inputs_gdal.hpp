@@ -13,7 +13,7 @@
 namespace talus {
 
 /// Of all [observed.*], in the order of the file. Throws InputError for a section without a file,
-/// volumes and heights that are none, scars without a height, and a layer that lies outside of the
+/// invalid volumes and heights, scars without a height, and a layer that lies outside of the
 /// known terrain; points outside of it are left out with a warning.
 [[nodiscard]] std::vector<ObservedEvent> observed_events(InputLog& log, const Site& site,
                                                          const Trn& trn);

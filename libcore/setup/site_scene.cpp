@@ -40,7 +40,7 @@ void set_yielding(const GroundSettings& drawn, GroundClass& made) {
   made.weakening_speed = or_none(drawn.weakening_speed_m_s);
   made.weak_friction = std::tan(or_none(drawn.friction_weak_deg) * degree);
   made.drag_per_time = drawn.drag_1_s;
-  made.drag_per_way = drawn.drag_1_m;
+  made.drag_per_distance = drawn.drag_1_m;
 }
 
 bool weakens(const SolverSettings& solver) {

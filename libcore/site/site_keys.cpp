@@ -70,7 +70,7 @@ template <> const std::vector<SiteKey<SourceSettings>>& keys_of() {
       {"max_blocks", &S::max_blocks, "more blocks, or bodies of a section, are refused", {1, 10000000}},
       {"min_block_volume_m3", &S::min_block_volume_m3, "smaller blocks are merged into a neighbour; else 1e-2 of the mean joint cell in the mass", not_negative},
       {"min_block_thickness_m", &S::min_block_thickness_m, "thinner blocks are merged; else 0.05 of the smallest spacing or, if less, the cube root of the mass", not_negative},
-      {"min_block_edge_m", &S::min_block_edge_m, "shorter edges of convex blocks are removed, one end stays", not_negative},
+      {"min_block_edge_m", &S::min_block_edge_m, "shorter edges of convex blocks are removed, one end stays; default: 1e-3 of the cube root of the volume", not_negative},
       {"max_block_aspect", &S::max_block_aspect, "blocks with a larger ratio of axes are merged", at_least_1},
       {"max_convex_loss", &S::max_convex_loss, "blocks that would lose a larger share if made convex stay a union of convex parts; 1: never", share}};
   return table;
@@ -94,7 +94,7 @@ template <> const std::vector<SiteKey<JointSettings>>& keys_of() {
       {"spacing_std_m", &S::spacing_std_m, "standard deviation (lognormal)", positive},
       {"fisher_k", &S::fisher_k, "Fisher concentration of orientations; 0: no scatter", not_negative},
       {"persistence", &S::persistence, "open share of each joint plane; below 1 as discs", {0, 1, true, false}},
-      {"disc_diameter_m", &S::disc_diameter_m, "diameter of the discs", positive},
+      {"disc_diameter_m", &S::disc_diameter_m, "diameter of the discs; default: ten spacings", positive},
       {"offset_m", &S::offset_m, "distance of one joint from the middle of the source, along the normal"},
       {"measured", &S::measured, "measured pairs of dip direction, dip, instead of dip_deg and dip_direction_deg", any, "", "", 1},
       {"measured_file", &S::measured_file, "list of such pairs, or with named columns"},

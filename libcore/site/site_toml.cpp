@@ -704,7 +704,8 @@ constexpr const char* rocks_of_several_volumes =
     "frequency to their class; else make another site of it";
 bool is_size_of_rocks(const VariantSettings::Change& change) {
   return change.group == "rockfall" &&
-         (change.key.starts_with("volume_") || change.key == "size_m" || change.key == "shape");
+         (change.key.starts_with("volume") || change.key.ends_with("_raster") ||
+          change.key == "size_m" || change.key == "shape");
 }
 
 Refusal refusal_of_measure(const VariantSettings::Change& change) {

@@ -2,7 +2,7 @@
 // Contact impulses of an island: semismooth Newton on the balance of momentum of all its bodies,
 //   M (v - v_free) = sum B_c^T p_c(B_c v),
 // with the contact law of solver/contact_law.hpp. A body that touches only the ground is cheaper
-// with solve_contacts() in solver/newton.hpp. theory 1.7, 3.3-3.5; docs/developing/design-notes.md
+// with solve_contacts() in solver/newton.hpp. theory 1.7, 3.4, 3.5; docs/developing/design-notes.md
 #pragma once
 
 #include "solver/incomplete_factor.hpp"

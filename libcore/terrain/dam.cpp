@@ -1,6 +1,11 @@
+// Dams of earth and galleries laid on a terrain and burnt into it.
 #include "terrain/dam.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "geometry/plan2d.hpp"
@@ -11,7 +16,7 @@ namespace talus {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double most_heights = 10;      // that a face may run from the line
+constexpr double most_heights = 10;      // largest run of a face, in heights of the dam
 constexpr double same_place = 1e-6;      // what is nearer than this meets [m]
 constexpr double most_fine_nodes = 4e6;  // of the grid that the designed volumes are taken from
 constexpr double finest_turn = std::numbers::pi / 12;  // of the sides of a round corner
@@ -156,7 +161,7 @@ Trn part_of(const Trn& trn, int row, int col, int n_rows, int n_cols, int k) {
       GridPoint at{{std::min(row + r / k, trn.n_rows - 2), std::min(col + c / k, trn.n_cols - 2)}};
       at.south = row + static_cast<double>(r) / k - at.cell.row;
       at.east = col + static_cast<double>(c) / k - at.cell.col;
-      // NaN times 0 is NaN: a node itself is known whatever stands beside it
+      // NaN times 0 is NaN: a node itself is known whatever its neighbours are
       const bool is_node = r % k == 0 && c % k == 0;
       part.elevation[node_index(part, r, c)] =
           is_node ? trn.elevation[node_index(trn, row + r / k, col + c / k)]

@@ -29,7 +29,7 @@ GroundClass yielding_ground(bool scars) {
   ground.rolling = 0.1;
   ground.spinning = 0.05;
   ground.drag_per_time = 0.2;
-  ground.drag_per_way = 0.01;
+  ground.drag_per_distance = 0.01;
   if (scars) {
     ground.scar_friction = 1.2;
     ground.scar_rate = 1;

@@ -44,7 +44,7 @@ void add_common_options(const std::string& tool, CLI::App& app, ToolOptions& opt
         app.add_option("--label", options.label, "put this word before every message"),
         app.add_option("--progress", options.progress,
                        "how much is done: on a terminal in place, else a line a minute (auto); a "
-                       "line a second (plain, json), or none")
+                       "line a second (plain) or two (json), or none")
             ->check(CLI::IsMember({"auto", "plain", "json", "none"}))
             ->envname("TALUS_PROGRESS")
             ->capture_default_str(),

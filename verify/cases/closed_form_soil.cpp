@@ -280,7 +280,7 @@ CaseResult dragged_slide(const CaseSettings& settings, bool per_way) {
   GroundClass ground = ground_of(30);
   const double a = g * (std::sin(40 * degree) - std::tan(30 * degree) * std::cos(40 * degree));
   if (per_way)
-    ground.drag_per_way = 0.02;
+    ground.drag_per_distance = 0.02;
   else
     ground.drag_per_time = 0.6;
   Run run = slab_run(settings, frame, ground, 0, 60);

@@ -1,5 +1,5 @@
 // Stage 8 of an island's step: accepts the substep, or requests it again, shorter or with different
-// contacts. Reads alone; its findings are in SubstepEnd.
+// contacts. It only reads; its findings are in SubstepEnd.
 #include <algorithm>
 #include <cmath>
 
@@ -35,9 +35,9 @@ struct SubstepCheck {
   ContactMaking& making;
   SubstepEnd& end;
 
-  // When the substep has to end so that no block ends deep where it is hit, since a later hit
-  // throws it back or it goes in after its hit because of another: shortly after that hit. h: none
-  // does.
+  // When the substep has to end so that no block ends deep where it is hit: shortly after that hit.
+  // A later hit may throw a block back, or another contact may push it in after its own hit.
+  // Returns h if there is none.
   [[nodiscard]] double end_of_deepening_hit() const {
     double first = free.h;
     for (const size_t r : hits.contacts_hit) {
@@ -167,7 +167,7 @@ struct SubstepCheck {
   // --- accuracy --------------------------------------------------------------------------------
 
   // Estimated error of the substep, over the displacement of the moving mass.
-  [[nodiscard]] double error_over_way() const {
+  [[nodiscard]] double error_over_displacement() const {
     if (free.t == 0) return 0;
     MeanError error;
     for (size_t k = 0; k < members.size(); ++k)
@@ -212,7 +212,7 @@ struct SubstepCheck {
     if (members.locates_hits)
       if (const double first = first_hit(); first < h)
         return SubstepVerdict::again(SubstepCut::hit, first);
-    end.error = error_over_way();
+    end.error = error_over_displacement();
     if (const double shorter = accurate_substep(scene.settings, end.error, h); shorter < h)
       return SubstepVerdict::again(SubstepCut::inaccurate, shorter);
     if (overloads_bonds()) return SubstepVerdict::again(bond_broken, h);

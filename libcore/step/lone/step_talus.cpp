@@ -218,7 +218,7 @@ struct Advance {
     if (break_bonds()) return Attempt::shorter;
     const double hit = first_hit(c, s, solved, work);
     if (hit < s.h && !last) return shorten(hit, h);
-    const double error = error_over_way(s, solved.end);
+    const double error = error_over_displacement(s, solved.end);
     if (const double shorter = accurate_substep(scene.settings, error, h); shorter < h && !last) {
       ++report.cuts[static_cast<size_t>(SubstepCut::inaccurate)];
       return shorten(longest_h = shorter, h);
@@ -238,7 +238,7 @@ struct Advance {
 
   // Estimated error of the substep, over the block's displacement: 0 where the previous contact
   // force is unknown.
-  [[nodiscard]] double error_over_way(const Substep& s, const Motion& end) const {
+  [[nodiscard]] double error_over_displacement(const Substep& s, const Motion& end) const {
     const Vec3& before = state.acceleration[i()];
     if (state.local_time[i()] == 0 || before == scene.gravity || !state.strain.empty()) return 0;
     const Vec3 spin_end =

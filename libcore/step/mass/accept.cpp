@@ -88,7 +88,7 @@ struct MassEnd {
 
   // Estimated error of the step, over the displacement of the mass. A hit counts as if its time
   // were unknown: gravity acts before the rebound in part of the step alone.
-  [[nodiscard]] double error_over_way(const State& state) const {
+  [[nodiscard]] double error_over_displacement(const State& state) const {
     const double h = free.h, by_hit = scene.gravity.norm() * h * h / 2;
     MeanError error;
     for (size_t k = 0; k < members.size(); ++k) {
@@ -306,7 +306,7 @@ void find_mass_changes(const Scene& scene, const State& state, const PairSearch&
   const MassEnd end{scene, members, free, w};
   sum_impulses(end, w.changes);
   find_pushes(end, state, search, w.pushes);
-  w.error = end.error_over_way(state);
+  w.error = end.error_over_displacement(state);
 }
 
 void accept_mass(const Scene& scene, const IslandMembers& members, const FreeMotions& free,

@@ -430,7 +430,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         GroundLaw{"Rolling", 2, [](GroundClass& of, Scene&) { of.rolling = 0.3; }},
         GroundLaw{"Drag", 1,
-                  [](GroundClass& of, Scene&) { of.drag_per_time = of.drag_per_way = 0.1; }},
+                  [](GroundClass& of, Scene&) { of.drag_per_time = of.drag_per_distance = 0.1; }},
         GroundLaw{"Scar", 1,
                   [](GroundClass& of, Scene&) { of.scar_friction = 0.9, of.scar_rate = 0.5; }},
         GroundLaw{"Weakening", 1,

@@ -253,7 +253,7 @@ GroundClass all_laws() {
   ground.scar_rate = 1;
   ground.scar_decay = 50;
   ground.drag_per_time = 0.3;
-  ground.drag_per_way = 0.01;
+  ground.drag_per_distance = 0.01;
   return ground;
 }
 
