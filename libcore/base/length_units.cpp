@@ -15,14 +15,12 @@ struct Unit {
   std::initializer_list<std::string_view> words;
 };
 
-constexpr double us_foot = 1200.0 / 3937;
-
 const Unit units[] = {
     {1,
      {"m", "metre", "metres", "meter", "meters", "metro", "metros", "metri", "m\xc3\xa8tre",
       "m\xc3\xa8tres", "masl", "mamsl", "msnm", "mslm"}},
-    {0.3048, {"ft", "foot", "feet", "internationalfoot", "internationalfeet", "intft", "ftint"}},
-    {us_foot,
+    {foot_m, {"ft", "foot", "feet", "internationalfoot", "internationalfeet", "intft", "ftint"}},
+    {us_foot_m,
      {"usft", "ftus", "ussurveyfoot", "ussurveyfeet", "surveyfoot", "surveyfeet", "usfoot",
       "usfeet", "footus", "ftussurvey"}},
     {0.001, {"mm", "millimetre", "millimetres", "millimeter", "millimeters"}},

@@ -6,7 +6,7 @@
 
 namespace talus {
 
-inline constexpr double foot_m = 0.3048;
+inline constexpr double foot_m = 0.3048, us_foot_m = 1200.0 / 3937;
 
 /// Whether a file says no unit: an empty text, or a word like "unspecified".
 [[nodiscard]] bool is_no_unit(const std::string& word);

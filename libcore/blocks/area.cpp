@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "blocks/area_side.hpp"
 #include "geometry/touching_boxes.hpp"
+#include "terrain/extent_text.hpp"
 
 namespace talus {
 namespace {
@@ -42,18 +43,14 @@ std::vector<Box2> boxes_of(const std::vector<Segment>& segments) {
   return boxes;
 }
 
-std::string place_text(const Vec2& local, const Vec3& origin) {
-  return "(" + text(local.x() + origin.x(), 10) + ", " + text(local.y() + origin.y(), 10) + ")";
-}
-
 InputError crossing(const Segment& s, const Segment& t, const Vec3& origin, const Where& where) {
   const auto ends = [&](const Segment& side) {
-    return place_text(side.a, origin) + " and " + place_text(side.b, origin);
+    return "(" + place_text(side.a, origin) + ") and (" + place_text(side.b, origin) + ")";
   };
   if (s.ring == t.ring)
     return {where,
-            "the source area crosses itself between " + ends(s) + ", where " +
-                place_text(t.a, origin) + " - " + place_text(t.b, origin) + " meets it",
+            "the source area crosses itself between " + ends(s) + ", where (" +
+                place_text(t.a, origin) + ") - (" + place_text(t.b, origin) + ") meets it",
             "put the corners in order around the area"};
   return {where,
           "two outlines of the source area meet: the side between " + ends(s) +

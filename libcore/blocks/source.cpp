@@ -17,10 +17,6 @@
 namespace talus {
 namespace {
 
-std::string place_text(const Vec2& local, const Vec3& origin) {
-  return "(" + text(local.x() + origin.x(), 10) + ", " + text(local.y() + origin.y(), 10) + ")";
-}
-
 // Nodes of the TRN inside the area; throws when they are too few or unknown.
 std::vector<int> nodes_inside(const Trn& ground, const Area& area, const Where& where) {
   for (const auto& ring : area.rings)
@@ -28,8 +24,8 @@ std::vector<int> nodes_inside(const Trn& ground, const Area& area, const Where& 
       if (!contains(ground, p.x(), p.y())) {
         Doubt doubt = doubt_on(
             where,
-            "the source area reaches outside the terrain at " + place_text(p, ground.origin) +
-                "; " + extent_text(ground),
+            "the source area reaches outside the terrain at (" + place_text(p, ground.origin) +
+                "); " + extent_text(ground),
             "move the source or make the terrain larger; if it lies far away, check the order (x "
             "east, y north) and the coordinate system of its points");
         doubt.at = {{p.x() + ground.origin.x(), p.y() + ground.origin.y(), Doubt::none}};
@@ -90,8 +86,8 @@ void check_known(const Trn& ground, const std::vector<int>& nodes, const Where& 
                      ground.node0.y() - r * ground.cell_size);
         throw InputError(where,
                          std::string("the source area touches ") +
-                             (exists ? "nodata" : "the edge of the terrain") + " at " +
-                             place_text(p, ground.origin),
+                             (exists ? "nodata" : "the edge of the terrain") + " at (" +
+                             place_text(p, ground.origin) + ")",
                          "fill the terrain there, or keep the source two cells away from it");
       }
   }
@@ -159,7 +155,8 @@ double surface_at(const Trn& ground, int node, const SourceOptions& options, con
       break;
   }
   if (std::isnan(options.raster[node]))
-    throw InputError(where, "the failure surface has no data at " + place_text(p, ground.origin),
+    throw InputError(where,
+                     "the failure surface has no data at (" + place_text(p, ground.origin) + ")",
                      "the raster must cover the whole source area");
   return options.raster[node];
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/length_units.hpp"
 #include "base/text.hpp"
 #include "import/readings.hpp"
 
@@ -21,8 +22,6 @@ struct CloseFile {
   void operator()(VSILFILE* file) const { VSIFCloseL(file); }
 };
 
-constexpr double us_foot = 1200.0 / 3937;
-
 // Codes of $INSUNITS; those left out are not lengths that maps are drawn in.
 struct UnitCode {
   int code;
@@ -30,7 +29,7 @@ struct UnitCode {
   const char* name;
 };
 constexpr UnitCode unit_codes[] = {{inches, 0.0254, "inches"},
-                                   {2, 0.3048, "feet"},
+                                   {2, foot_m, "feet"},
                                    {3, 1609.344, "miles"},
                                    {4, 0.001, "millimetres"},
                                    {5, 0.01, "centimetres"},
@@ -40,10 +39,10 @@ constexpr UnitCode unit_codes[] = {{inches, 0.0254, "inches"},
                                    {14, 0.1, "decimetres"},
                                    {15, 10, "decametres"},
                                    {16, 100, "hectometres"},
-                                   {21, us_foot, "US survey feet"},
-                                   {22, us_foot / 12, "US survey inches"},
-                                   {23, us_foot * 3, "US survey yards"},
-                                   {24, us_foot * 5280, "US survey miles"}};
+                                   {21, us_foot_m, "US survey feet"},
+                                   {22, us_foot_m / 12, "US survey inches"},
+                                   {23, us_foot_m * 3, "US survey yards"},
+                                   {24, us_foot_m * 5280, "US survey miles"}};
 
 DrawingUnit unit_of_code(int code) {
   for (const UnitCode& unit : unit_codes)

@@ -178,8 +178,7 @@ std::vector<Vec3> posts_on_ground(const Trn& trn, const std::vector<Vec2>& corne
     if (!((b - a).norm() > 0))
       throw InputError(where,
                        "point " + std::to_string(i + 2) + " repeats the one before, (" +
-                           text(b.x() + trn.origin.x(), 10) + ", " +
-                           text(b.y() + trn.origin.y(), 10) + ")",
+                           place_text(b, trn.origin) + ")",
                        "leave out one of the two");
     const int n = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing - 1e-9)));
     for (int k = 0; k < n; ++k) add(a + (b - a) * (static_cast<double>(k) / n));

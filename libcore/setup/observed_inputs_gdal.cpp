@@ -34,9 +34,8 @@ struct Reader {
   [[noreturn]] void refuse_outside(const SitePlace& place, const Vec2& first) const {
     throw InputError({resolved(site, place.file)},
                      place.layer + " of [" + place.section +
-                         "] lies outside of the known terrain, " + "at (" +
-                         text(first.x() + trn.origin.x(), 10) + ", " +
-                         text(first.y() + trn.origin.y(), 10) + "); " + extent_text(trn),
+                         "] lies outside of the known terrain, at (" +
+                         place_text(first, trn.origin) + "); " + extent_text(trn),
                      "make the terrain larger, or check the order (x east, y north) and the "
                      "coordinate system of the layer");
   }

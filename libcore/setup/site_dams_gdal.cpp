@@ -27,23 +27,19 @@ Where where_of_dam(const Site& site, const DamSettings& dam) {
   return {site.file, dam.line_number, "dam." + dam.name};
 }
 
-std::string place_text(const Trn& trn, const Vec2& at) {
-  return text(at.x() + trn.origin.x(), 10) + ", " + text(at.y() + trn.origin.y(), 10);
-}
-
 // All that the ground with it depends on, to the millimetre.
 std::string shape_words(const DamShape& shape, const Trn& trn) {
   std::string words = std::string(shape.is_gallery ? "gallery" : "dam");
   for (const double value : {shape.height, shape.crest_width, shape.tan_uphill, shape.tan_downhill,
                              shape.ditch_depth, shape.ditch_width})
     words += " " + text(value, 6);
-  for (const Vec2& p : shape.line) words += "; " + place_text(trn, p);
+  for (const Vec2& p : shape.line) words += "; " + place_text(p, trn.origin);
   return words;
 }
 
 InputError error_of(const DamFault& fault, const Where& where, const DamSettings& s,
                     const Trn& trn) {
-  const std::string at = " at " + place_text(trn, fault.at);
+  const std::string at = " at " + place_text(fault.at, trn.origin);
   const auto face = [&](const char* name, double slope_deg) {
     return std::string("the ") + name + " of " + text(slope_deg, 4) +
            " degrees does not meet the ground within ten heights of the line,";
@@ -148,7 +144,7 @@ void check_share_no_node(const Site& site, const DamSettings& settings, const Bu
     const Vec3 at = node_point(trn, node / trn.n_cols, node % trn.n_cols);
     throw InputError(
         where_of_dam(site, settings),
-        "shares ground with dam." + known->second + " at " + place_text(trn, at.head<2>()),
+        "shares ground with dam." + known->second + " at " + place_text(at.head<2>(), trn.origin),
         "draw them as one line, or farther apart");
   }
 }
@@ -236,7 +232,7 @@ double crest_at(const DamShape& shape, const std::vector<double>& crest, const V
   double nearest = std::numeric_limits<double>::infinity(), height = 0;
   for (std::size_t i = 0; i + 1 < shape.line.size(); ++i) {
     const Vec2 &a = shape.line[i], &b = shape.line[i + 1];
-    const double share = std::clamp((at - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+    const double share = share_along_segment<Vec2>(at, a, b);
     const double off = (at - a - share * (b - a)).norm();
     if (!(off < nearest)) continue;
     nearest = off;

@@ -12,4 +12,8 @@ std::string extent_text(const Trn& trn) {
          text(last.y(), 10) + " to " + text(first.y(), 10);
 }
 
+std::string place_text(const Vec2& local, const Vec3& origin) {
+  return text(local.x() + origin.x(), 10) + ", " + text(local.y() + origin.y(), 10);
+}
+
 }  // namespace talus

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
@@ -12,13 +11,12 @@
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
+#include "sampling/normal.hpp"
 
 namespace talus {
 namespace {
 
 constexpr double lower_line_sd = 1.6449;  // 5 % of a normal scatter lie farther below
-
-double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 MobilityKind kind_of(const CsvTable& table, std::size_t row) {
   const std::string& word = table.at(row, "kind");
@@ -111,13 +109,13 @@ MobilityRow compare(const MobilityRelation& r, const MobilityEvent& event) {
       const double log_hl = r.a + r.b * log_v;
       row.length = std::pow(10, log_h - log_hl);
       row.length_upper = std::pow(10, log_h - log_hl + r.lower);
-      row.percentile = 100 * normal_cdf((log_l - log_h + log_hl) / r.sd);
+      row.percentile = 100 * normal_probability((log_l - log_h + log_hl) / r.sd);
       break;
     }
     case MobilityKind::length: {
       const double mean = r.a + r.b * (log_v - 6) + r.c * log_h + (event.confined ? r.d : 0);
       row.length = std::pow(10, mean);
-      row.percentile = 100 * normal_cdf((log_l - mean) / r.sd);
+      row.percentile = 100 * normal_probability((log_l - mean) / r.sd);
       break;
     }
     case MobilityKind::angle:
