@@ -101,6 +101,11 @@ struct HealthRow {
   double rolling = 0, drag = 0, breakage = 0, water = 0;              ///< since the start [J]
   double removed = 0;                                                 ///< since the start [J]
 };
+/// Energy that is gone since the start [J].
+[[nodiscard]] inline double spent_energy(const HealthRow& row) {
+  return row.friction + row.impact + row.contact + row.fence + row.rolling + row.drag +
+         row.breakage + row.removed;
+}
 
 /// A panel of a fence, as it was at the end. In a run of independent rocks: as it was at
 /// the start, and once more for each rock that pushed it, as that rock left it.

@@ -90,14 +90,11 @@ Chart energy_chart(const Texts& texts, const RunFile& run) {
   if (run.health.empty()) return chart;
   const HealthRow& first = run.health.front();
   const double start = first.translation + first.rotation + first.potential + first.elastic +
-                       first.friction + first.impact + first.contact + first.rolling + first.drag +
-                       first.breakage + first.removed - first.base - first.water;
+                       spent_energy(first) - first.base - first.water;
   for (const HealthRow& row : run.health) {
     const double moving = row.translation + row.rotation + row.elastic;
-    const double spent = row.friction + row.impact + row.contact + row.rolling + row.drag +
-                         row.breakage + row.removed;
     const double values[] = {start - row.potential + row.base + row.water, moving, row.friction,
-                             row.impact, moving + spent};
+                             row.impact, moving + spent_energy(row)};
     for (std::size_t k = 0; k < chart.series.size(); ++k) {
       chart.series[k].x.push_back(row.time);
       chart.series[k].y.push_back(values[k] / 1e6);

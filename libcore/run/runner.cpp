@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "record/deep_rows.hpp"
+#include "record/pieces.hpp"
 #include "record/tree_hits.hpp"
 #include "run/rocks.hpp"
 #include "scene/worlds.hpp"
@@ -181,9 +182,7 @@ double energy_gain(const Runner& runner, const HealthRow& row) {
   // Energy lost in friction and impacts was put in before. The ledger of law paper leaves
   // out the damping of its integrator.
   double known = now - runner.energy_start - row.base - row.water;
-  if (!runner.law)
-    known += std::max(0.0, row.friction + row.impact + row.contact + row.fence + row.rolling +
-                               row.drag + row.breakage + row.removed);
+  if (!runner.law) known += std::max(0.0, spent_energy(row));
   return known / turned_over(runner, row);
 }
 

@@ -125,14 +125,14 @@ ReducedRun run_reduced(const Scene& scene, double factor, const StabilitySetting
   double all = 0, moved = 0;
   for (size_t b = 0; b < at[0].size(); ++b) {
     const double before = (at[1][b] - at[0][b]).norm(), last = (at[2][b] - at[1][b]).norm();
-    const double moved = (at[2][b] - reduced.blocks.rest[b].position).norm();
-    const bool is_shaken_off = calm > 0 && moved > std::cbrt(scene.blocks.volume[b]);
+    const double displaced = (at[2][b] - reduced.blocks.rest[b].position).norm();
+    const bool is_shaken_off = calm > 0 && displaced > std::cbrt(scene.blocks.volume[b]);
     run.moves.push_back(is_released(scene, b) &&
                         ((last > before && last > least) || is_shaken_off || gone[b]));
     if (!is_released(scene, b)) continue;
     all += scene.blocks.mass[b];
     if (run.moves.back()) moved += scene.blocks.mass[b];
-    run.displacement += scene.blocks.mass[b] * moved;
+    run.displacement += scene.blocks.mass[b] * displaced;
   }
   run.moved_share = all > 0 ? moved / all : 0;
   run.displacement = all > 0 ? run.displacement / all : 0;

@@ -21,9 +21,17 @@ Json line_json(const ReachLine& line) {
 
 Json energy_json(const EnergyShares& s) {
   if (!(s.put_in > 0)) return {};
-  return {{"put_in_kj", s.put_in / 1e3}, {"friction", s.friction},    {"impact", s.impact},
-          {"contact", s.contact},        {"fence", s.fence},          {"breakage", s.breakage},
-          {"removed", s.removed},        {"kinetic_left", s.kinetic}, {"elastic_left", s.elastic},
+  return {{"put_in_kj", s.put_in / 1e3},
+          {"friction", s.friction},
+          {"impact", s.impact},
+          {"contact", s.contact},
+          {"fence", s.fence},
+          {"breakage", s.breakage},
+          {"rolling", s.rolling},
+          {"drag", s.drag},
+          {"removed", s.removed},
+          {"kinetic_left", s.kinetic},
+          {"elastic_left", s.elastic},
           {"unaccounted", s.unaccounted}};
 }
 

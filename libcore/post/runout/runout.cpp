@@ -414,21 +414,21 @@ EnergyShares energy_shares(const RunFile& run) {
   EnergyShares shares;
   if (run.health.empty()) return shares;
   const HealthRow &start = run.health.front(), &end = run.health.back();
-  const double at_start = start.translation + start.rotation + start.friction + start.impact +
-                          start.contact + start.fence + start.breakage + start.removed +
-                          start.elastic - start.base - start.water;
+  const double at_start = start.translation + start.rotation + start.elastic + spent_energy(start) -
+                          start.base - start.water;
   shares.put_in = start.potential - end.potential + at_start + end.base + end.water;
   if (!(shares.put_in > 0)) return {};
   shares.friction = end.friction / shares.put_in;
   shares.impact = end.impact / shares.put_in;
   shares.contact = end.contact / shares.put_in;
   shares.fence = end.fence / shares.put_in;
+  shares.rolling = end.rolling / shares.put_in;
+  shares.drag = end.drag / shares.put_in;
   shares.breakage = end.breakage / shares.put_in;
   shares.removed = end.removed / shares.put_in;
   shares.kinetic = (end.translation + end.rotation) / shares.put_in;
   shares.elastic = end.elastic / shares.put_in;
-  shares.unaccounted = 1 - shares.friction - shares.impact - shares.contact - shares.fence -
-                       shares.breakage - shares.removed - shares.kinetic - shares.elastic;
+  shares.unaccounted = 1 - spent_energy(end) / shares.put_in - shares.kinetic - shares.elastic;
   return shares;
 }
 

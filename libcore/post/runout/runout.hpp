@@ -151,7 +151,8 @@ struct CurveRow {
 struct EnergyShares {
   double put_in = 0;  ///< loss of potential energy + kinetic energy at the start + input [J]
   double friction = 0, impact = 0, contact = 0, breakage = 0, removed = 0, kinetic = 0, elastic = 0;
-  double fence = 0;  ///< taken by panels of fences that yielded
+  double fence = 0;              ///< taken by panels of fences that yielded
+  double rolling = 0, drag = 0;  ///< by resistance to rolling, by drag of the ground
   double unaccounted = 0;
 };
 /// Zero everywhere when the run has no health record or nothing was put in.
