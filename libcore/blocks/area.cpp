@@ -87,14 +87,17 @@ bool contains(const Area& area, const Vec2& point) {
   return inside;
 }
 
+bool is_hole(const Area& area, const std::vector<Vec2>& ring) {
+  int n_around = 0;
+  for (const auto& other : area.rings)
+    n_around += &other != &ring && contains(Area{{other}}, ring[0]);
+  return n_around % 2 != 0;
+}
+
 double area_of(const Area& area) {
   double sum = 0;
-  for (size_t i = 0; i < area.rings.size(); ++i) {
-    int n_around = 0;
-    for (size_t j = 0; j < area.rings.size(); ++j)
-      n_around += i != j && contains(Area{{area.rings[j]}}, area.rings[i][0]);
-    sum += (n_around % 2 ? -1 : 1) * std::abs(ring_area(area.rings[i]));
-  }
+  for (const auto& ring : area.rings)
+    sum += (is_hole(area, ring) ? -1 : 1) * std::abs(ring_area(ring));
   return sum;
 }
 

@@ -19,6 +19,8 @@ struct Area {
 
 /// Inside or on the border.
 [[nodiscard]] bool contains(const Area& area, const Vec2& point);
+/// Of one of its rings: it lies in an odd number of the others.
+[[nodiscard]] bool is_hole(const Area& area, const std::vector<Vec2>& ring);
 [[nodiscard]] double area_of(const Area& area);  ///< rings taken with even-odd sign [m2]
 /// Throws InputError when a ring has fewer than three points or no area, or when rings cross
 /// themselves or each other, saying where in map coordinates.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "blocks/prepared_area.hpp"
+#include "geometry/plan2d.hpp"
 
 namespace talus {
 namespace {
@@ -121,7 +122,9 @@ void register_side(const Trn& trn, const AreaSide& side, int number, double tole
 
 std::vector<AreaSide> sides_of(const Area& area) {
   std::vector<AreaSide> sides;
-  for (const auto& ring : area.rings)
+  for (const auto& ring : area.rings) {
+    // the area is left of a side where its ring runs anticlockwise around it or clockwise in a hole
+    const double right = is_hole(area, ring) == (ring_area(ring) < 0) ? 1 : -1;
     for (size_t k = 0; k < ring.size(); ++k) {
       AreaSide side;
       const Vec2 along = ring[(k + 1) % ring.size()] - ring[k];
@@ -129,9 +132,10 @@ std::vector<AreaSide> sides_of(const Area& area) {
       side.length = along.norm();
       side.direction = along / side.length;
       side.plane =
-          plane_through(at_zero(ring[k]), Vec3(side.direction.y(), -side.direction.x(), 0));
+          plane_through(at_zero(ring[k]), right * Vec3(side.direction.y(), -side.direction.x(), 0));
       sides.push_back(side);
     }
+  }
   return sides;
 }
 

@@ -24,7 +24,7 @@ struct AreaSide {
   Vec2 start = Vec2::Zero();       ///< [m]
   Vec2 direction = Vec2::UnitX();  ///< unit
   double length = 0;               ///< [m]
-  Plane plane;                     ///< its normal points to the right of `direction`
+  Plane plane;                     ///< its normal points out of the area
 };
 [[nodiscard]] std::vector<AreaSide> sides_of(const Area& area);
 

@@ -1,6 +1,7 @@
 // Water pressure in joints: closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -163,8 +164,12 @@ TEST(WaterOnMass, IsTheUpliftAndTheThrustOfHoekAndBray) {
   const Area area{{{{-length, -8}, {0, -8}, {0, 8}, {-length, 8}}}};
   const Vec3 lift = weight * fill / 2 * length * width * Vec3(std::tan(25 * degree), 0, 1);
   const Vec3 thrust = weight * fill * fill / 2 * width * Vec3::UnitX();
-  const Vec3 found = water_on_mass(water, ground, bed, area);
-  EXPECT_NEAR((found - lift - thrust).norm() / lift.norm(), 0, 1e-9) << found.transpose();
+  Area clockwise = area;
+  std::reverse(clockwise.rings[0].begin(), clockwise.rings[0].end());
+  for (const Area& drawn : {area, clockwise}) {
+    const Vec3 found = water_on_mass(water, ground, bed, drawn);
+    EXPECT_NEAR((found - lift - thrust).norm() / lift.norm(), 0, 1e-9) << found.transpose();
+  }
   // a crack runs over at its top
   water.crack_fill = 100;
   const double wall = length * (1 - std::tan(25 * degree));
