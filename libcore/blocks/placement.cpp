@@ -29,17 +29,40 @@ void add_grid_crossings(const Trn& trn, const Vec3& a, const Vec3& b, std::vecto
   cross_family(from.x() - from.y(), to.x() - to.y());  // the diagonals, south = east
 }
 
-// Calls visit(corners, is_steep) for the triangles of the area.
+// Calls visit(row, col) for the cells of a grid along Hilbert's curve through the square of a power
+// of two from `start` on; `a`, `b`: its sides, in columns and rows. Neighbours on the curve are
+// neighbours in plan.
+template <class Visit>
+void along_hilbert(const Trn& grid, const Eigen::Vector2i& start, const Eigen::Vector2i& a,
+                   const Eigen::Vector2i& b, Visit& visit) {
+  const Eigen::Vector2i low = start.cwiseMin(start + a + b);
+  if (low.x() >= grid.n_cols - 1 || low.y() >= grid.n_rows - 1) return;
+  if ((a + b).cwiseAbs().maxCoeff() == 1) return visit(low.y(), low.x());
+  const Eigen::Vector2i half_a = a / 2, half_b = b / 2;
+  along_hilbert(grid, start, half_b, half_a, visit);
+  along_hilbert(grid, Eigen::Vector2i(start + half_a), half_a, half_b, visit);
+  along_hilbert(grid, Eigen::Vector2i(start + half_a + half_b), half_a, half_b, visit);
+  along_hilbert(grid, Eigen::Vector2i(start + half_a + b), Eigen::Vector2i(-half_b),
+                Eigen::Vector2i(-half_a), visit);
+}
+
+// Calls visit(corners, is_steep) for the triangles of the area, near ones after each other.
 template <class Visit>
 void for_each_triangle(const Trn& ground, const ReleaseArea& release, Visit visit) {
   const double steep = std::tan(release.min_slope);
-  for (int t = 0; t < n_triangles(ground); ++t) {
-    if (!is_known(ground, t)) continue;
-    const auto p = triangle_corners(ground, t);
-    const Vec3 middle = (p[0] + p[1] + p[2]) / 3;
-    if (release.area.rings.empty() || contains(release.area, middle.head<2>()))
-      visit(p, triangle_gradient(ground, t).norm() >= steep);
-  }
+  const auto visit_cell = [&](int row, int col) {
+    for (int half = 0; half < 2; ++half) {
+      const int t = first_triangle(ground, {row, col}) + half;
+      if (!is_known(ground, t)) continue;
+      const auto p = triangle_corners(ground, t);
+      const Vec3 middle = (p[0] + p[1] + p[2]) / 3;
+      if (release.area.rings.empty() || contains(release.area, middle.head<2>()))
+        visit(p, triangle_gradient(ground, t).norm() >= steep);
+    }
+  };
+  int size = 1;
+  while (size < std::max(ground.n_rows, ground.n_cols) - 1) size *= 2;
+  along_hilbert(ground, {0, 0}, {size, 0}, {0, size}, visit_cell);
 }
 
 // Lowest z of a convex body above or below (x, y); infinity when it is not there.
@@ -72,27 +95,6 @@ std::vector<Vec2> points_along(const std::vector<Vec2>& line, double spacing) {
   return points;
 }
 
-std::vector<Vec2> points_over(const Trn& ground, const ReleaseArea& release, double spacing,
-                              const Vec2& shift) {
-  std::vector<Vec2> points;
-  double sum = 0.5 * spacing * spacing;  // the first point after half a share
-  // R2 sequence: steps by the plastic number fill the unit square evenly.
-  constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
-  double u = std::fmod(0.5 + shift.x(), 1), v = std::fmod(0.5 + shift.y(), 1);
-  for_each_triangle(ground, release, [&](const std::array<Vec3, 3>& p, bool is_steep) {
-    sum += triangle_area(p);
-    for (; sum >= spacing * spacing; sum -= spacing * spacing) {
-      u = std::fmod(u + step_u, 1), v = std::fmod(v + step_v, 1);
-      if (!is_steep) continue;
-      const bool fold = u + v > 1;
-      const double a = fold ? 1 - u : u, b = fold ? 1 - v : v;
-      const Vec3 at = p[0] + a * (p[1] - p[0]) + b * (p[2] - p[0]);
-      points.emplace_back(at.x(), at.y());
-    }
-  });
-  return points;
-}
-
 SlopingArea sloping_area(const Trn& ground, const ReleaseArea& release) {
   SlopingArea sum;
   for_each_triangle(ground, release, [&](const std::array<Vec3, 3>& p, bool is_steep) {
@@ -101,6 +103,33 @@ SlopingArea sloping_area(const Trn& ground, const ReleaseArea& release) {
     if (is_steep) sum.steep += area;
   });
   return sum;
+}
+
+std::vector<Vec2> points_over(const Trn& ground, const ReleaseArea& release, double spacing,
+                              const Vec3& shift) {
+  const double area = sloping_area(ground, release).steep;
+  std::vector<Vec2> points;
+  if (!(area > 0)) return points;
+  const double n = std::max(1.0, std::round(area / (spacing * spacing)));
+  const auto at_area = [&](double k) {  // of point k; below all of it in spite of rounding
+    return std::min((k + shift.z()) * area / n, std::nextafter(area, 0.0));
+  };
+  // R2 sequence: steps by the plastic number fill the unit square evenly.
+  constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
+  double u = shift.x(), v = shift.y(), sum = 0;
+  for_each_triangle(ground, release, [&](const std::array<Vec3, 3>& p, bool is_steep) {
+    if (!is_steep) return;
+    sum += triangle_area(p);
+    while (static_cast<double>(points.size()) < n &&
+           at_area(static_cast<double>(points.size())) < sum) {
+      u = std::fmod(u + step_u, 1), v = std::fmod(v + step_v, 1);
+      const bool fold = u + v > 1;
+      const double a = fold ? 1 - u : u, b = fold ? 1 - v : v;
+      const Vec3 at = p[0] + a * (p[1] - p[0]) + b * (p[2] - p[0]);
+      points.emplace_back(at.x(), at.y());
+    }
+  });
+  return points;
 }
 
 double clearance(const Polyhedron& convex, const Trn& ground) {

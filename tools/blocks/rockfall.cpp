@@ -81,9 +81,10 @@ void add_areas(const RockfallSection& section, Random& random, std::vector<Relea
       std::isnan(s.release_spacing_m) ? section.ground.cell_size : s.release_spacing_m;
   const SlopingArea area = sloping_area(section.ground, release);
   check_number(section, area.steep / (spacing * spacing));
-  const Vec2 shift{random.uniform(), random.uniform()};
-  for (const Vec2& p : points_over(section.ground, release, spacing, shift))
-    places.push_back({Vec3(p.x(), p.y(), NAN), spacing * spacing});
+  const Vec3 shift{random.uniform(), random.uniform(), random.uniform()};
+  const std::vector<Vec2> points = points_over(section.ground, release, spacing, shift);
+  for (const Vec2& p : points)
+    places.push_back({Vec3(p.x(), p.y(), NAN), area.steep / static_cast<double>(points.size())});
   if (s.min_slope_deg > 0)
     section.tool.info(section.path + ": " + percent(area.steep / area.all) + " of the ground of " +
                       (is_everywhere(s) ? "the terrain" : "its areas") + " is " +
