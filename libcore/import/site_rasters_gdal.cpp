@@ -61,6 +61,8 @@ struct PixelRows {
       throw InputError({path},
                        "reading row " + std::to_string(wanted) + " failed: " + errors.failure(),
                        way_to_read(path, "the file is damaged or cut short: fetch it again"));
+    const double scale = band.GetScale(), offset = band.GetOffset();
+    for (double& v : value) v = v * scale + offset;
     row = wanted;
   }
 

@@ -108,8 +108,8 @@ void look_at_motion(const PlausibilityFacts& f, Doubts& doubts) {
   doubts.above(
       f.left_share, {0.01, never_high}, "terrain",
       percent(f.left_share) + " of the fall lines from the source leave the known terrain",
-      "extend the terrain down the slope (window_m, or a larger elevation model): what leaves "
-      "the terrain is counted, and not followed");
+      "extend the terrain down the slope (window_m, or a larger elevation model), or fill the hole "
+      "in it that they end in: what leaves the terrain is counted, and not followed");
   doubts.below(f.duration, {f.travel_duration, never_low}, "solver.duration_s",
                "the run lasts " + text(f.duration, 3) +
                    " s; points that slide from the source ask for " +

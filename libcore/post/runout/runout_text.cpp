@@ -74,6 +74,8 @@ std::string reach_of_run(const std::string& run_id, const EventReach& reach) {
 
 std::string reach_text(const std::vector<RunoutRun>& runs) {
   if (n_moved(runs) == 0) return "no run-out: no H, L and angle of reach";
+  if (runs[0].member.info.independent)
+    return "rocks fell one by one: H, L and angle of reach of all together mean nothing";
   return runs.size() > 1 ? reach_of_runs(runs)
                          : reach_of_run(runs[0].member.info.run_id, runs[0].event);
 }

@@ -10,6 +10,7 @@
 #include "base/random.hpp"
 #include "base/sha256.hpp"
 #include "import/dem_gdal.hpp"
+#include "import/site_rasters_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/judged_heights_gdal.hpp"
 #include "io/trn_file_gdal.hpp"
@@ -138,6 +139,10 @@ TEST_F(Raster, ScaleAndOffsetAreApplied) {
   EXPECT_EQ(trn.elevation[2], 400);
   EXPECT_EQ(trn.elevation[3], 300);
   EXPECT_TRUE(std::isnan(trn.elevation[1]));
+  const auto magnitudes = talus::look_at_raster("dem", path("scaled.vrt")).magnitudes;
+  ASSERT_EQ(magnitudes.size(), 1U);
+  EXPECT_EQ(magnitudes[0].lowest, 200);
+  EXPECT_EQ(magnitudes[0].highest, 400);
 }
 
 TEST_F(Raster, WhatCannotBeWrittenIsAnError) {
