@@ -21,10 +21,11 @@ struct ReleaseArea {
   double min_slope = 0;  ///< [rad]
 };
 
-/// As many points as spacing^2 goes into the steep ground of the area, one at least: cell after cell
-/// along Hilbert's curve, so that they are spread in plan, a point wherever the summed true area
-/// passes a multiple, placed in its triangle by the R2 sequence. `shift`, 0 to 1 each, < 1: of that
-/// sequence, and of the multiples: other points, as many. None where no ground is steep enough.
+/// As many points as spacing^2 goes into the steep ground of the area, one at least: cell after
+/// cell along Hilbert's curve, so that they are spread in plan, a point wherever the summed true
+/// area passes a multiple, placed in its triangle by the R2 sequence. `shift`, 0 to 1 each, < 1: of
+/// that sequence, and of the multiples: other points, as many. None where no ground is steep
+/// enough.
 [[nodiscard]] std::vector<Vec2> points_over(const Trn& ground, const ReleaseArea& release,
                                             double spacing,
                                             const Vec3& shift = Vec3::Constant(0.5));
