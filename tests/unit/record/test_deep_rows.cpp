@@ -109,9 +109,9 @@ TEST(DeepRows, PiecesOfARockCountAsOne) {
     Runner runner = row.begin();
     Row::sink(runner);
     runner.state.deep[19] = runner.state.deep[20];
-    runner.scene.fragments.resize(21);
-    for (int b = 0; b < 21; ++b) runner.scene.fragments[b].released = b < 19 ? b : 18;
-    runner.scene.fragments[19].parent = runner.scene.fragments[20].parent = 18;
+    row.scene.fragments.resize(21);
+    for (int b = 0; b < 21; ++b) row.scene.fragments[b].released = b < 19 ? b : 18;
+    row.scene.fragments[19].parent = row.scene.fragments[20].parent = 18;
     EXPECT_EQ(Row::broken(runner).size(), is_broken ? 1U : 0U);
   }
 }
