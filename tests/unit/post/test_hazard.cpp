@@ -551,8 +551,9 @@ TEST(Hazard, OfSingleRocksAsksOneQuestionOnce) {
   EXPECT_NE(refusal_of_runs(failure, members_of(3, 28, 0.01, true)), "accepted");
   // once a year at each point is a frequency, and pieces of blocks have weights that are none
   EXPECT_EQ(refusal_of_runs(asked, members_of(3, 28, 1, true)), "accepted");
-  EXPECT_NE(refusal_of_runs(asked, members_of(3, 28, 0.5, false)).find("blocks are none"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal_of_runs(asked, members_of(3, 28, 0.5, false)).find("blocks are not frequencies"),
+      std::string::npos);
   std::vector<RunMember> mixed = members_of(3, 28, 1, false);
   mixed[1].info.independent = false;
   EXPECT_NE(refusal_of_runs(given, mixed).find("run_1.h5"), std::string::npos);
