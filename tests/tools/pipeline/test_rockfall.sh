@@ -44,7 +44,7 @@ python3 -c "import json; assert json.load(open('wall/out/runout.json'))['balance
 cmp -s wall/out/rock/blocks_1.h5 wall/out/rock/blocks_2.h5 && fail 'two runs have the same rocks'
 
 # Intervals are made over release cells: one run has them. Runs are added until they are narrow
-# enough, each with rocks of its own, or until more rocks of the same cells do not help.
+# enough, each with rocks of its own in other cells, or until more rocks of all cells do not help.
 cat >>wall/site.toml <<'END'
 [place.below]
 polygon = [[650060, 5200060], [650100, 5200060], [650100, 5200100], [650060, 5200100]]
@@ -60,13 +60,13 @@ import json, sys
 places = json.load(open('wall/out/places.json'))
 place, = places['places']
 s, h, n = place['share_of_blocks'], place['half_width'], places['n_runs']
-assert places['intervals_over'] == '23 release cells' and eval(sys.argv[1]), places
+assert places['intervals_over'].endswith(' release cells') and eval(sys.argv[1]), places
 PY
 }
 reach 'n == 1 and 0.5 < s < 0.95 and 0.1 < h < 0.2'
 sed -i 's/^half_width = .*/half_width = 0.13/' wall/site.toml
 made wall -j2 WITHOUT=no RUNS=auto places
-says 'runs are enough, intervals over 23 release cells'
+says 'runs are enough, intervals over'
 reach '1 < n < 64 and h <= 0.13'
 sed -i 's/^half_width = .*/half_width = 0.02/' wall/site.toml
 made wall -j2 WITHOUT=no RUNS=auto places
