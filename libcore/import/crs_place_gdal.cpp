@@ -550,7 +550,7 @@ void check_area(const Systems& systems, const std::vector<Vec2>& places, const G
 void check_axes(const Ground& ground, const std::vector<Vec2>& places, const CrsExtent& place,
                 const Where& where, std::vector<Doubt>& doubts) {
   Axes worst;
-  double worst_stretch = 0, askew = 0;
+  double worst_stretch = 0, askew = 0, map_north = 0;
   for (const Vec2& lon_lat : places) {
     const auto axes = axes_at(ground, lon_lat);
     if (!axes) continue;
@@ -564,7 +564,10 @@ void check_axes(const Ground& ground, const std::vector<Vec2>& places, const Crs
                            text(std::remainder(axes->bearing_y_deg, 360), 3) +
                            " degrees from north here, expected x to the east and y to the north",
                        way_to_zone(place, where, lon_lat));
-    askew = std::max({askew, turn_x, turn_y});
+    if (std::max(turn_x, turn_y) > askew) {
+      askew = std::max(turn_x, turn_y);
+      map_north = std::remainder(axes->bearing_y_deg, 360);
+    }
     if (stretch <= worst_stretch) continue;
     worst_stretch = stretch;
     worst = *axes;
@@ -580,9 +583,12 @@ void check_axes(const Ground& ground, const std::vector<Vec2>& places, const Crs
                      way_to_zone(place, where, places.front()));
   if (askew > askew_deg)
     doubts.push_back(on_extent(place, where,
-                               "north of the map is " + text(askew, 3) + " degrees off north in " +
+                               "north of the map is " + text(std::abs(map_north), 3) + " degrees " +
+                                   (map_north < 0 ? "west" : "east") + " of north in " +
                                    crs_name(ground.wkt()) +
-                                   "; directions of joints count from north of the map"));
+                                   "; directions of joints count from north of the map: for those "
+                                   "from true north give [joints] convergence_deg = " +
+                                   text(map_north, 3)));
 }
 
 }  // namespace

@@ -243,7 +243,10 @@ TEST(CrsPlace, NorthOfTheMapFarOffNorthIsWarnedOf) {
       outcome_at("EPSG:3035", 5500000, 4500000);  // 21 degrees east of its middle
   EXPECT_EQ(outcome.refusal, "");
   ASSERT_EQ(outcome.doubts.size(), 1u);
-  EXPECT_NE(outcome.doubts[0].found.find("degrees off north"), std::string::npos);
+  EXPECT_NE(outcome.doubts[0].found.find("degrees east of north"), std::string::npos);
+  const std::size_t at = outcome.doubts[0].found.find("convergence_deg = ");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_GT(std::stod(outcome.doubts[0].found.substr(at + 18)), 10);
 }
 
 TEST(CrsPlace, LocalMetresHaveNoPlace) {
