@@ -1176,6 +1176,7 @@ NOT_OBEYED = {
     'fetch it with projsync': 'needs the network',
     'write EPSG:code, for example': 'of an option that is misspelt',
     '--doubts places.gpkg writes': 'shows, and changes nothing',
+    'from true north give [joints] convergence_deg': 'turns joints: tests/unit/import/test_crs_place.cpp',
     '--hold-out': 'of options that do not go together',
     '--like': 'of options that do not go together',
     '--cell-size-m is': 'of options that do not go together',
